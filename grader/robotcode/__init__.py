@@ -1,0 +1,1 @@
+"""Robot code in, facts out: Java and RobotPy are parsed, never executed."""

@@ -1,0 +1,156 @@
+"""What a robot program says about its SysIdRoutine, the same for Java and RobotPy.
+
+Every fact is three-valued. What the text decides is known; what it leaves out is the library's
+default; what cannot be decided by reading (a value computed by a call, say) is unknown, and is
+asked about, never guessed.
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Known(Enum):
+    """How a fact was come by."""
+
+    STATED = "stated"  # written in the code, through constants and arithmetic where need be
+    DEFAULT = "default"  # left out, or null: the library's own value holds
+    UNKNOWN = "unknown"  # cannot be told without running the program
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number with a dimension, in SI: V/s for the ramp, V for the step, s for the timeout.
+
+    Args:
+        known: how it was come by.
+        value: the number in SI; None when unknown.
+        dimension: what the code gave: ``volts-per-second``, ``volts``, ``seconds``, ``number`` (no
+            unit; only Python's plain floats are right that way), or ``other``; empty if unknown.
+        text: the source text it was read from, for the learner: ``Volts.of(0.5).per(Second)``.
+        line: line in the source, from 1; 0 if it is not there.
+    """
+
+    known: Known
+    value: float | None = None
+    dimension: str = ""
+    text: str = ""
+    line: int = 0
+
+
+class Output(Enum):
+    """What a motor is told in the drive callback."""
+
+    VOLTAGE = "voltage"  # setVoltage, setControl(VoltageOut), set_voltage
+    DUTY = "duty"  # set(...), DutyCycleOut: a share of whatever the battery gives
+    CLOSED_LOOP = "closed-loop"  # PID, VelocityVoltage, PositionVoltage, MotionMagic, setReference
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True)
+class DriveCall:
+    """One command to one motor inside the drive callback.
+
+    Args:
+        motor: the variable that is commanded: ``m_leftLeader``.
+        method: the call as written: ``setVoltage``.
+        output: what kind of command it is.
+        uses_parameter: whether the callback's voltage reaches the call; None if it cannot be told.
+        scaled: whether the voltage is changed on its way (``voltage.in(Volts) / 12``); None unknown.
+        text: the call's source text.
+        line: line in the source, from 1.
+    """
+
+    motor: str
+    method: str
+    output: Output
+    uses_parameter: bool | None
+    scaled: bool | None
+    text: str
+    line: int
+
+
+class Source(Enum):
+    """Where a logged value comes from."""
+
+    APPLIED = "applied"  # measured or reported by the motor controller
+    COMMANDED = "commanded"  # the number that was asked for, e.g. a field set in the drive callback
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True)
+class LoggedSignal:
+    """One value recorded in the log callback.
+
+    Args:
+        motor: the name given to ``log.motor(...)``; empty if it could not be read.
+        signal: ``voltage``, ``position``, ``velocity``, ``acceleration``, ``current`` or ``other``.
+        family: ``linear``, ``angular`` or empty where it does not apply or cannot be told.
+        unit: the unit as written, ``Meters``, ``RotationsPerSecond``; empty if none.
+        source: where the value comes from.
+        text: the call's source text.
+        line: line in the source, from 1.
+    """
+
+    motor: str
+    signal: str
+    family: str
+    unit: str
+    source: Source
+    text: str
+    line: int
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A place the parser stumbled over.
+
+    Args:
+        message: one sentence a student understands: ``a ')' is missing``.
+        line: line in the source, from 1.
+    """
+
+    message: str
+    line: int
+
+
+@dataclass(frozen=True)
+class RoutineFacts:
+    """All that the text of a robot program says about its SysIdRoutine.
+
+    Args:
+        language: ``java`` or ``python``.
+        class_name: the class that holds the routine; empty if none was found.
+        is_subsystem: whether that class is a Subsystem.
+        routine_line: where the SysIdRoutine is made; 0 if it is not.
+        ramp, step, timeout: the Config's three numbers.
+        motors: motor controller objects the class owns, without those set to follow another.
+        drive_found, log_found: whether each callback was found (``null`` is not one).
+        drive_line, log_line: where they are; 0 if they are not.
+        drive: the commands in the drive callback, followed through methods of the same class.
+        logged: the values recorded in the log callback, followed likewise.
+        log_is_null: the log callback is explicitly null/None (vendors' own loggers do that).
+        subsystem_passed: whether the Mechanism gets ``this``/``self``; None if it cannot be told.
+        config_argument, mechanism_argument: positions of the two in the constructor call (0 and 1
+            when right), -1 if absent.
+        problems: syntax errors; when there are any, the other facts may be incomplete.
+    """
+
+    language: str
+    class_name: str = ""
+    is_subsystem: bool = False
+    routine_line: int = 0
+    ramp: Quantity = Quantity(Known.UNKNOWN)
+    step: Quantity = Quantity(Known.UNKNOWN)
+    timeout: Quantity = Quantity(Known.UNKNOWN)
+    motors: tuple[str, ...] = ()
+    drive_found: bool = False
+    log_found: bool = False
+    drive_line: int = 0
+    log_line: int = 0
+    drive: tuple[DriveCall, ...] = ()
+    logged: tuple[LoggedSignal, ...] = ()
+    log_is_null: bool = False
+    subsystem_passed: bool | None = None
+    config_argument: int = -1
+    mechanism_argument: int = -1
+    problems: tuple[Problem, ...] = ()

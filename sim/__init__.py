@@ -1,0 +1,28 @@
+"""The bench: simulate a mechanism, and hold a measured log against it.
+
+Names that everybody uses are here: ``sim.read``, ``sim.write``, ``sim.Log``, ``sim.Run``,
+``sim.Routine``, ``sim.MECHANISMS``, ``sim.Refusal``. The verbs live in modules of their own name:
+``from sim.fit import fit``, ``from sim.simulate import simulate``.
+
+Nothing heavy is imported until it is used, so a command that only prints its help starts at once.
+"""
+
+from importlib import import_module
+
+_HOME = {
+    "Log": "sim.log",
+    "Run": "sim.log",
+    "Refusal": "sim.errors",
+    "read": "sim.formats",
+    "write": "sim.formats",
+    "Routine": "sim.routine",
+    "MECHANISMS": "sim.mechanisms",
+}
+
+__all__ = ["MECHANISMS", "Log", "Refusal", "Routine", "Run", "read", "write"]  # noqa: F822 - lazy
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOME:
+        raise AttributeError(f"module 'sim' has no attribute {name!r}")
+    return getattr(import_module(_HOME[name]), name)

@@ -1,0 +1,16 @@
+"""A doubt: what a person should know before trusting a result, said beside the result."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """One reason to look twice. In JSON output doubts stand under ``warnings``.
+
+    Args:
+        code: a short fixed name for programs, e.g. ``negative-gain``.
+        message: cause and cure, one or two sentences for people.
+    """
+
+    code: str
+    message: str

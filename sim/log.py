@@ -1,0 +1,144 @@
+"""Log and Run: all that anyone sees of a mechanism, whether a robot or the bench made it.
+
+Everything is in SI: seconds, volts, meters or radians. The unit the owner of the log thinks in
+travels along as a name (``Log.units``); conversion happens where a file is read and where a
+number is shown, nowhere between.
+"""
+
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sim.doubt import Doubt
+from sim.errors import BadRequest, BadSample
+from sim.units import unit
+
+Array: TypeAlias = NDArray[np.float64]
+
+KINDS = ("quasistatic", "dynamic", "coast", "triangle", "multistep", "chirp")
+DIRECTIONS = ("forward", "reverse")
+TESTS = tuple(f"{kind}-{direction}" for kind in KINDS for direction in DIRECTIONS)
+FOUR_TESTS = tuple(f"{kind}-{way}" for kind in KINDS[:2] for way in DIRECTIONS)
+
+TYPES = ("simple", "elevator", "arm")
+LARGEST = 1e9  # [any SI unit] no robot shows a reading this large; squares of it still fit a double
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One test, sampled: what was applied and what was seen.
+
+    Args:
+        test: which test, one of ``TESTS``: ``quasistatic-forward``.
+        time: (n,) [s], strictly increasing.
+        voltage: (n,) [V], applied from this sample until the next.
+        position: (n,) [m or rad].
+        velocity: (n,) [m/s or rad/s].
+        current: (n,) [A], where it was recorded.
+        bus_voltage: (n,) [V], where it was recorded.
+
+    Raises:
+        BadRequest: ``test`` is not the name of a test.
+        BadSample: lengths differ, a value is not finite or absurdly large, or time does not increase.
+    """
+
+    test: str
+    time: Array
+    voltage: Array
+    position: Array
+    velocity: Array
+    current: Array | None = None
+    bus_voltage: Array | None = None
+
+    def __post_init__(self) -> None:
+        if self.test not in TESTS:
+            raise BadRequest(
+                f"{self.test!r} is not the name of a test",
+                advice=f"Tests are {'|'.join(KINDS)}, then -{' or -'.join(DIRECTIONS)}.",
+            )
+        for name in ("time", "voltage", "position", "velocity", "current", "bus_voltage"):
+            values = getattr(self, name)
+            if values is not None:
+                object.__setattr__(self, name, _frozen(values))
+                self._check(name, getattr(self, name))
+        late = np.flatnonzero(np.diff(self.time) <= 0)
+        if late.size:
+            raise BadSample(
+                f"time does not increase at sample {late[0] + 1} (t = {self.time[late[0]]:.6g} s)",
+                where=self.test,
+                advice="Every sample of a run needs a later time than the one before it.",
+            )
+
+    def _check(self, name: str, values: Array) -> None:
+        if values.shape != (self.time.size,):
+            raise BadSample(
+                f"{name} has shape {values.shape} where time has {self.time.size} samples",
+                where=self.test,
+                advice="Give every signal one value per sample.",
+            )
+        bad = np.flatnonzero(~(np.abs(values) < LARGEST))
+        if bad.size:
+            raise BadSample(
+                f"{name} is {values[bad[0]]:.6g} at sample {bad[0]}",
+                where=self.test,
+                advice="Remove that sample, or record the run again.",
+            )
+
+    def __len__(self) -> int:
+        return int(self.time.size)
+
+    @property
+    def kind(self) -> str:
+        """What the voltage does: ``quasistatic``, ``dynamic``, …"""
+        return self.test.rpartition("-")[0]
+
+    @property
+    def direction(self) -> str:
+        """``forward`` or ``reverse``."""
+        return self.test.rpartition("-")[2]
+
+
+@dataclass(frozen=True, eq=False)
+class Log:
+    """The runs of one mechanism, and what is known of where they come from.
+
+    Args:
+        runs: in the order they were recorded.
+        units: the unit of position its owner thinks in, a name in ``sim.units.UNITS``.
+        mechanism: its name, where the source says it.
+        type: ``simple``, ``elevator`` or ``arm`` where the source says it, else empty.
+        source: the file it was read from, for messages; empty if none.
+        doubts: what was odd about the source.
+    """
+
+    runs: tuple[Run, ...]
+    units: str = "meters"
+    mechanism: str = ""
+    type: str = ""
+    source: str = ""
+    doubts: tuple[Doubt, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "runs", tuple(self.runs))
+        object.__setattr__(self, "units", unit(self.units).name)
+        if self.type and self.type not in TYPES:
+            raise BadRequest(
+                f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
+            )
+
+    def of(self, test: str) -> tuple[Run, ...]:
+        """All runs of one test, in order; empty if it was not recorded."""
+        return tuple(run for run in self.runs if run.test == test)
+
+    def with_doubts(self, *doubts: Doubt) -> "Log":
+        """The same log with more doubts."""
+        return replace(self, doubts=self.doubts + doubts)
+
+
+def _frozen(values: ArrayLike) -> Array:
+    """A read-only copy in double precision."""
+    copy = np.array(values, dtype=np.float64)
+    copy.setflags(write=False)
+    return copy
