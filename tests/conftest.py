@@ -1,0 +1,26 @@
+"""Fixtures everybody uses."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """Reference data that is not part of the project: known answers and logs of real robots.
+
+    Looked for beside the project, or where the environment variable SYSID_SHARED says.
+    """
+    folder = Path(os.environ.get("SYSID_SHARED", ROOT.parent / "shared"))
+    if not (folder / "data").is_dir():
+        pytest.skip(f"reference data not found at {folder} (set SYSID_SHARED to its folder)")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """The top folder of the project."""
+    return ROOT
