@@ -19,7 +19,7 @@ _HOME = {
     "MECHANISMS": "sim.mechanisms",
 }
 
-__all__ = ["MECHANISMS", "Log", "Refusal", "Routine", "Run", "read", "write"]  # noqa: F822 - lazy
+__all__ = ["MECHANISMS", "Log", "Refusal", "Routine", "Run", "read", "write"]
 
 
 def __getattr__(name: str) -> object:

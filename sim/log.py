@@ -41,7 +41,7 @@ class Run:
 
     Raises:
         BadRequest: ``test`` is not the name of a test.
-        BadSample: lengths differ, a value is not finite or absurdly large, or time does not increase.
+        BadSample: lengths differ, a value is not finite or is absurd, or time stands still.
     """
 
     test: str
@@ -91,7 +91,7 @@ class Run:
 
     @property
     def kind(self) -> str:
-        """What the voltage does: ``quasistatic``, ``dynamic``, …"""
+        """What the voltage does, the first half of the test's name: ``quasistatic``."""
         return self.test.rpartition("-")[0]
 
     @property

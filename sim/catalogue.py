@@ -1,0 +1,17 @@
+"""A plural folder is a catalogue: what lies in it is found by looking, and registered nowhere."""
+
+from importlib import import_module
+from pkgutil import iter_modules
+from types import ModuleType
+
+
+def members(package: ModuleType) -> dict[str, ModuleType]:
+    """The modules of a catalogue, by the name a person types: ``encoder_slip`` -> ``encoder-slip``.
+
+    Args:
+        package: the catalogue's own package.
+    """
+    return {
+        found.name.replace("_", "-"): import_module(f"{package.__name__}.{found.name}")
+        for found in sorted(iter_modules(package.__path__), key=lambda module: module.name)
+    }

@@ -1,0 +1,183 @@
+"""Suggested feedback gains kP and kD: a linear-quadratic regulator, as WPILib SysId sets it up.
+
+    Q = diag(1/q²), R = 1/r²   (Bryson's rule: q the error that is worth r volts)
+    K = (BᵀSB + R)⁻¹ BᵀSA      S from the discrete Riccati equation over the controller's period
+    K ← K (A - BK)^(delay/period)   what the measurement's delay costs
+
+Source: WPILib SysId 2026.2.2, ``analysis/FeedbackAnalysis.cpp`` and ``FeedbackControllerPreset``.
+The suggestion is a starting point, not a tuned controller.
+"""
+
+import math
+from dataclasses import dataclass
+
+from sim.errors import BadRequest
+
+MASSLESS = 1e-7  # [V·s²/unit] below this kA SysId takes the velocity itself for the input
+
+
+@dataclass(frozen=True)
+class Preset:
+    """How one kind of motor controller counts.
+
+    Args:
+        name: as people say it.
+        output: units of its output per volt.
+        velocity_time: its velocity's time unit per second (60: it counts per minute).
+        period: [s] of its control loop.
+        normalized: whether its derivative gain is per second, not per loop.
+        delay: [s] of its velocity measurement.
+    """
+
+    name: str
+    output: float
+    velocity_time: float
+    period: float
+    normalized: bool
+    delay: float
+
+
+PRESETS: dict[str, Preset] = {
+    "default": Preset("WPILib", 1.0, 1.0, 0.020, normalized=True, delay=0.0),
+    "ctre-phoenix5": Preset(
+        "CTRE Phoenix 5", 1023 / 12, 0.1, 0.001, normalized=False, delay=81.5e-3
+    ),
+    "ctre-phoenix6": Preset("CTRE Phoenix 6", 1.0, 1.0, 0.001, normalized=True, delay=1e-3),
+    "rev-brushless": Preset(
+        "REV brushless port", 1 / 12, 60.0, 0.001, normalized=False, delay=0.112
+    ),
+    "rev-brushed": Preset("REV brushed port", 1 / 12, 60.0, 0.001, normalized=False, delay=81.5e-3),
+    "venom": Preset("Venom", 4096 / 12, 60.0, 0.001, normalized=False, delay=5e-3),
+}
+
+VOLTS = 7.0  # [V] effort that the allowed error is worth (SysId's default)
+POSITION_ERROR = 0.1  # [unit] allowed position error (SysId's default)
+VELOCITY_ERROR = 1.5  # [unit/s] allowed velocity error where none is given (SysId's struct default)
+SPEED_SHARE = 0.25  # share of the free speed at 12 V that SysId allows as velocity error by default
+
+
+@dataclass(frozen=True)
+class Feedback:
+    """Gains of one loop, in the output units of its preset."""
+
+    kp: float
+    kd: float
+
+
+def allowed_velocity_error(*, ks: float, kv: float) -> float:
+    """SysId's default allowed velocity error, a quarter of the free speed at 12 V [unit/s]."""
+    return SPEED_SHARE * (12.0 - ks) / kv if kv else VELOCITY_ERROR
+
+
+def velocity_loop(
+    *,
+    kv: float,
+    ka: float,
+    preset: Preset = PRESETS["default"],
+    velocity_error: float = VELOCITY_ERROR,
+    volts: float = VOLTS,
+    delay: float | None = None,
+    encoder_factor: float = 1.0,
+) -> Feedback:
+    """Gains of a velocity loop.
+
+    Args:
+        kv: [V·s/unit].
+        ka: [V·s²/unit].
+        preset: the motor controller's.
+        velocity_error: [unit/s] that is worth ``volts``.
+        volts: [V].
+        delay: [s] of the measurement; None takes the preset's.
+        encoder_factor: gearing times counts, where the controller counts encoder edges.
+
+    Raises:
+        BadRequest: kV is negative, kA negative, or an allowance is not positive.
+    """
+    _check(kv=kv, ka=ka, errors=(velocity_error, volts))
+    if ka < MASSLESS:
+        return Feedback(0.0, 0.0)
+    rate = -kv / ka
+    a = math.exp(rate * preset.period)
+    b = math.expm1(rate * preset.period) / -kv if kv else preset.period / ka
+    k, closed = _scalar_regulator(a, b, q=velocity_error**-2, r=volts**-2)
+    k *= closed ** (_wait(preset, delay) / preset.period)
+    return Feedback(k * preset.output / (preset.velocity_time * encoder_factor), 0.0)
+
+
+def position_loop(
+    *,
+    kv: float,
+    ka: float,
+    preset: Preset = PRESETS["default"],
+    position_error: float = POSITION_ERROR,
+    velocity_error: float = VELOCITY_ERROR,
+    volts: float = VOLTS,
+    delay: float | None = None,
+) -> Feedback:
+    """Gains of a position loop.
+
+    Args:
+        kv, ka, preset, velocity_error, volts, delay: as for ``velocity_loop``.
+        position_error: [unit] that is worth ``volts``.
+
+    Raises:
+        BadRequest: as for ``velocity_loop``.
+    """
+    _check(kv=kv, ka=ka, errors=(position_error, velocity_error, volts))
+    loops = _wait(preset, delay) / preset.period
+    if ka < MASSLESS:  # no inertia: the velocity answers at once, so it is the input
+        k, closed = _scalar_regulator(1.0, preset.period, q=position_error**-2, r=volts**-2)
+        return Feedback(kv * k * closed**loops * preset.output, 0.0)
+    per_position, per_velocity = _two_state_regulator(
+        -kv / ka,
+        1.0 / ka,
+        period=preset.period,
+        q=(position_error**-2, velocity_error**-2),
+        r=volts**-2,
+        loops=loops,
+    )
+    per_loop = 1.0 if preset.normalized else preset.period
+    return Feedback(per_position * preset.output, per_velocity * preset.output / per_loop)
+
+
+def _two_state_regulator(
+    rate: float, push: float, *, period: float, q: tuple[float, float], r: float, loops: float
+) -> tuple[float, float]:
+    """Gains on position and velocity of x'' = rate·x' + push·u."""
+    import numpy as np  # noqa: PLC0415 - linear algebra is only needed for the two-state loop
+    from scipy.linalg import expm, fractional_matrix_power, solve_discrete_are  # noqa: PLC0415
+
+    discrete = expm(np.array([[0.0, 1.0, 0.0], [0.0, rate, push], [0.0, 0.0, 0.0]]) * period)
+    a, b = discrete[:2, :2], discrete[:2, 2:]
+    s = solve_discrete_are(a, b, np.diag(q), np.array([[r]]))
+    k = np.linalg.solve(b.T @ s @ b + r, b.T @ s @ a)
+    if loops:
+        k = np.real(k @ fractional_matrix_power(a - b @ k, loops))
+    return float(k[0, 0]), float(k[0, 1])
+
+
+def _scalar_regulator(a: float, b: float, *, q: float, r: float) -> tuple[float, float]:
+    """Gain and closed-loop factor of x⁺ = a·x + b·u, from its Riccati equation's positive root.
+
+    b²S² + (r - a²r - b²q)S - qr = 0
+    """
+    half = (r * (1.0 - a * a) - b * b * q) / 2.0
+    s = (math.sqrt(half * half + b * b * q * r) - half) / (b * b)
+    k = b * s * a / (b * b * s + r)
+    return k, max(0.0, a - b * k)
+
+
+def _wait(preset: Preset, delay: float | None) -> float:
+    return preset.delay if delay is None else max(0.0, delay)
+
+
+def _check(*, kv: float, ka: float, errors: tuple[float, ...]) -> None:
+    if not (math.isfinite(kv) and math.isfinite(ka) and kv >= 0.0 and ka >= 0.0):
+        raise BadRequest(
+            f"no feedback gains for kV = {kv:.4g}, kA = {ka:.4g}",
+            advice="Both must be zero or more: does a positive voltage give a positive velocity?",
+        )
+    if not all(error > 0.0 for error in errors):
+        raise BadRequest(
+            "an allowed error or voltage is not positive", advice="Give numbers above zero."
+        )

@@ -1,0 +1,44 @@
+"""Gains from logs.
+
+    from sim.fit import fit
+    fit(sim.read("drive.wpilog"), method="sysid").gains
+
+Method ``sysid`` is the recipe of WPILib SysId 2026.2.2 to the last digit, with its silent failures
+spoken aloud: what SysId answers, this answers; what it answers with NaN or with nonsense, this
+refuses or doubts, and says why.
+"""
+
+from sim.errors import BadRequest
+from sim.fit.recipe import sysid
+from sim.fit.result import Fit
+from sim.log import TYPES, Log
+
+METHODS = ("sysid",)
+
+__all__ = ["METHODS", "Fit", "fit"]
+
+
+def fit(log: Log, *, type: str = "", method: str = "sysid", median: int = 1) -> Fit:  # noqa: A002
+    """Fit kS, kV, kA (and kG) to a log.
+
+    Args:
+        log: the runs.
+        type: ``simple``, ``elevator`` or ``arm``; empty takes what the log says, else ``simple``.
+        method: one of ``METHODS``.
+        median: [samples] window of a median filter on the velocity; 1 is none.
+
+    Returns:
+        Gains with their errors, in SI; ``Fit.in_units`` turns them into the owner's unit.
+
+    Raises:
+        BadRequest: an unknown type or method, or an arm whose position is no angle.
+        NotIdentifiable: the log cannot tell these gains; the message says what would.
+    """
+    chosen = type or log.type or "simple"
+    if chosen not in TYPES:
+        raise BadRequest(f"unknown type {chosen!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
+    if method not in METHODS:
+        raise BadRequest(
+            f"unknown method {method!r}", advice=f"Choose one of: {', '.join(METHODS)}."
+        )
+    return sysid(log, type=chosen, median=median)

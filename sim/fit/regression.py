@@ -1,0 +1,132 @@
+"""SysId's regression: ordinary least squares of the acceleration, turned into gains.
+
+    a = α·v + β·V + γ·sgn(v) [+ δ | + δ·cos θ + ε·sin θ]
+
+    kS = -γ/β    kV = -α/β    kA = 1/β    kG = -δ/β  or  hypot(δ, ε)/β    offset = atan2(ε, -δ)
+
+The acceleration stands on the left because it is the noisiest of the columns. Source: WPILib SysId
+2026.2.2, ``analysis/FeedforwardAnalysis.cpp`` and ``analysis/OLS.cpp``.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.errors import NotIdentifiable
+from sim.log import FOUR_TESTS, Array
+from sim.prepare import Rows
+
+WEAKEST = 1e-11  # smallest eigenvalue of the scaled normal equations that still carries digits
+
+
+@dataclass(frozen=True, eq=False)
+class Regression:
+    """Gains with their spread, and how well the acceleration was explained.
+
+    Args:
+        gains: gain -> value [V, V·s/m, V·s²/m; angles in rad].
+        errors: gain -> one standard error, of noise in the acceleration alone.
+        r2: SysId's adjusted R² of the acceleration.
+        rmse: [m/s² or rad/s²] of the acceleration.
+    """
+
+    gains: Mapping[str, float]
+    errors: Mapping[str, float]
+    r2: float
+    rmse: float
+
+
+def regress(rows: Mapping[str, Rows], *, type: str) -> Regression:  # noqa: A002 - SysId's word
+    """Fit the gains of one type of mechanism.
+
+    Args:
+        rows: test name -> rows of that test.
+        type: ``simple``, ``elevator`` or ``arm``.
+
+    Raises:
+        NotIdentifiable: the rows cannot tell the gains apart.
+    """
+    stacked = [rows[test] for test in FOUR_TESTS]
+    columns = np.concatenate([_columns(part, type=type) for part in stacked], axis=1)
+    acceleration = np.concatenate([part.acceleration for part in stacked])
+    beta, inverse = _least_squares(columns, acceleration)
+    if not beta[1]:
+        raise NotIdentifiable(
+            "the voltage has no effect on the motion", advice="Check what the log calls voltage."
+        )
+    n, p = acceleration.size, beta.size
+    if n <= p + 1:
+        raise NotIdentifiable(
+            f"{n} samples are left for {p} unknowns",
+            advice="Let each test run longer, or log faster.",
+        )
+    residual = acceleration - beta @ columns
+    sse = float(residual @ residual)
+    spread = acceleration - acceleration.mean()
+    r2 = 1.0 - sse / float(spread @ spread)
+    gains, slopes = _gains(beta, type=type)
+    covariance = inverse * (sse / (n - p))
+    errors = {
+        name: math.sqrt(max(0.0, float(slope @ covariance @ slope)))
+        for name, slope in slopes.items()
+    }
+    return Regression(gains, errors, 1.0 - (1.0 - r2) * (n - 1) / (n - p - 1), math.sqrt(sse / n))
+
+
+def _columns(rows: Rows, *, type: str) -> Array:  # noqa: A002 - SysId's word
+    """(columns, n) what the acceleration is regressed on."""
+    columns = [rows.velocity, rows.voltage, np.copysign(1.0, rows.velocity)]
+    if type == "elevator":
+        columns.append(np.ones(len(rows)))
+    elif type == "arm":
+        columns += [np.cos(rows.position), np.sin(rows.position)]
+    return np.asarray(np.stack(columns))
+
+
+def _least_squares(columns: Array, y: Array) -> tuple[Array, Array]:
+    """Solve the normal equations, scaled and refined once; also hand back (XᵀX)⁻¹.
+
+    Raises:
+        NotIdentifiable: a combination of columns is not excited by these tests.
+    """
+    size = np.sqrt(np.einsum("ij,ij->i", columns, columns))
+    size[size == 0.0] = 1.0
+    scaled = columns / size[:, None]
+    normal = scaled @ scaled.T
+    values, vectors = np.linalg.eigh(normal)
+    if not values[0] > WEAKEST:
+        weak = ("kV", "kA", "kS", "kG", "kG's angle")[int(np.argmax(np.abs(vectors[:, 0])))]
+        raise NotIdentifiable(
+            f"these tests cannot tell {weak} from the other gains",
+            advice="Move at two or more steady speeds in both directions, and accelerate hard in "
+            "the dynamic tests.",
+        )
+    inverse = (vectors / values) @ vectors.T
+    beta = inverse @ (scaled @ y)
+    beta += inverse @ (scaled @ (y - beta @ scaled))  # one refinement: digits a plain solve loses
+    return beta / size, inverse / np.outer(size, size)
+
+
+def _gains(beta: Array, *, type: str) -> tuple[dict[str, float], dict[str, Array]]:  # noqa: A002
+    """Gains from the coefficients, and the slope of each gain along each coefficient."""
+    alpha, per_volt, gamma = beta[:3]
+    unit = np.eye(beta.size)
+
+    def ratio(index: int) -> Array:
+        return -unit[index] / per_volt + unit[1] * beta[index] / per_volt**2
+
+    gains = {"kS": -gamma / per_volt, "kV": -alpha / per_volt, "kA": 1.0 / per_volt}
+    slopes = {"kS": ratio(2), "kV": ratio(0), "kA": -unit[1] / per_volt**2}
+    if type == "elevator":
+        gains["kG"], slopes["kG"] = -beta[3] / per_volt, ratio(3)
+    elif type == "arm":
+        cosine, sine = beta[3], beta[4]
+        swing = math.hypot(cosine, sine)
+        gains["kG"], gains["offset_rad"] = swing / per_volt, math.atan2(sine, -cosine)
+        if swing > 0:
+            toward = (cosine * unit[3] + sine * unit[4]) / swing
+            slopes["kG"] = toward / per_volt - unit[1] * swing / per_volt**2
+            slopes["offset_rad"] = (sine * unit[3] - cosine * unit[4]) / swing**2
+    return {name: float(value) for name, value in gains.items()}, slopes

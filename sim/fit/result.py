@@ -1,0 +1,156 @@
+"""Fit: gains with their errors, how well they explain the log, and what to doubt about them."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from sim.doubt import Doubt
+from sim.errors import BadRequest
+from sim.feedback import (
+    PRESETS,
+    Feedback,
+    Preset,
+    allowed_velocity_error,
+    position_loop,
+    velocity_loop,
+)
+from sim.units import Unit, unit
+
+_PER_UNIT = ("kV", "kA")  # gains whose value depends on the unit of position
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What a fit found.
+
+    Args:
+        type: ``simple``, ``elevator`` or ``arm``.
+        method: how it was found.
+        units: the unit of position the numbers below are in; meters or radians when fresh.
+        log_units: the unit the log's owner thinks in.
+        gains: kS [V], kV [V·s/unit], kA [V·s²/unit], kG [V], offset_rad [rad].
+        errors: one standard error of each.
+        acceleration_r2: SysId's adjusted R² of the acceleration.
+        acceleration_rmse: [unit/s²].
+        simulated_velocity_r2: SysId's own, of the open-loop simulation; -inf if it diverges.
+        simulated_velocity_rmse: [unit/s].
+        samples_used: test -> how many samples the regression saw.
+        position_delay: [s] from voltage to motion, seen in the position.
+        velocity_delay: [s] the same, seen in the velocity.
+        velocity_threshold: [unit/s] slower quasistatic samples were taken for standstill.
+        step_duration: [s] how much of each dynamic test was used.
+        doubts: what to know before trusting the numbers.
+    """
+
+    type: str
+    method: str
+    units: str
+    log_units: str
+    gains: Mapping[str, float]
+    errors: Mapping[str, float]
+    acceleration_r2: float
+    acceleration_rmse: float
+    simulated_velocity_r2: float
+    simulated_velocity_rmse: float
+    samples_used: Mapping[str, int]
+    position_delay: float
+    velocity_delay: float
+    velocity_threshold: float
+    step_duration: float
+    doubts: tuple[Doubt, ...] = field(default=())
+
+    def in_units(self, name: str) -> "Fit":
+        """The same fit with every number per ``name``: V·s/rotation instead of V·s/radian, say.
+
+        Raises:
+            BadRequest: an unknown unit, or an angle for a length.
+        """
+        old, new = unit(self.units), unit(name)
+        if old.angular != new.angular:
+            raise BadRequest(
+                f"{self.units} cannot be turned into {name}",
+                advice="One is a length, the other an angle: the wheel's radius lies between them.",
+            )
+        factor = new.si / old.si
+        return replace(
+            self,
+            units=new.name,
+            gains=_scaled(self.gains, factor),
+            errors=_scaled(self.errors, factor),
+            acceleration_rmse=self.acceleration_rmse / factor,
+            simulated_velocity_rmse=self.simulated_velocity_rmse / factor,
+            velocity_threshold=self.velocity_threshold / factor,
+        )
+
+    def in_log_units(self) -> "Fit":
+        """The same fit in the unit the log's owner thinks in."""
+        return self.in_units(self.log_units)
+
+    def feedback(self, preset: Preset = PRESETS["default"]) -> dict[str, Feedback]:
+        """Suggested gains of the velocity and the position loop; empty if the model allows none.
+
+        SysId adds the delay it saw in the data to nothing: it takes the larger of zero and that
+        delay in place of the preset's when the preset has none.
+        """
+        kv, ka = self.gains["kV"], self.gains["kA"]
+        if not (kv >= 0.0 and ka > 0.0):
+            return {}
+        allowed = allowed_velocity_error(ks=self.gains["kS"], kv=kv)
+        if not allowed > 0.0:
+            return {}
+        seen = preset is PRESETS["default"]
+        return {
+            "velocity": velocity_loop(
+                kv=kv,
+                ka=ka,
+                preset=preset,
+                velocity_error=allowed,
+                delay=self.velocity_delay if seen else None,
+            ),
+            "position": position_loop(
+                kv=kv,
+                ka=ka,
+                preset=preset,
+                velocity_error=allowed,
+                delay=self.position_delay if seen else None,
+            ),
+        }
+
+    def to_json(self, preset: Preset = PRESETS["default"]) -> dict[str, object]:
+        """The fit as plain data; the keys are fixed, other programs read them."""
+        return {
+            "type": self.type,
+            "method": self.method,
+            "units": self.units,
+            "gains": dict(self.gains),
+            "errors": dict(self.errors),
+            "acceleration_r2": self.acceleration_r2,
+            "acceleration_rmse": self.acceleration_rmse,
+            "simulated_velocity_r2": _finite(self.simulated_velocity_r2),
+            "simulated_velocity_rmse": _finite(self.simulated_velocity_rmse),
+            "samples_used": dict(self.samples_used),
+            "feedback": {
+                loop: {"kP": gains.kp, "kD": gains.kd}
+                for loop, gains in self.feedback(preset).items()
+            },
+            "warnings": [{"code": d.code, "message": d.message} for d in self.doubts],
+        }
+
+    def gain_unit(self, gain: str) -> str:
+        """The unit of a gain, as printed: ``V·s/m``."""
+        return gain_unit(gain, unit(self.units))
+
+
+def gain_unit(gain: str, per: Unit) -> str:
+    """The unit of a gain when position is measured in ``per``."""
+    return {"kV": f"V·s/{per.symbol}", "kA": f"V·s²/{per.symbol}", "offset_rad": "rad"}.get(
+        gain, "V"
+    )
+
+
+def _scaled(gains: Mapping[str, float], factor: float) -> dict[str, float]:
+    return {name: value * factor if name in _PER_UNIT else value for name, value in gains.items()}
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
