@@ -10,7 +10,9 @@ class Doubt:
     Args:
         code: a short fixed name for programs, e.g. ``negative-gain``.
         message: cause and cure, one or two sentences for people.
+        grave: the result it stands beside cannot be right, rather than only be looked at twice.
     """
 
     code: str
     message: str
+    grave: bool = False

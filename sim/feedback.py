@@ -117,8 +117,13 @@ def position_loop(
     """Gains of a position loop.
 
     Args:
-        kv, ka, preset, velocity_error, volts, delay: as for ``velocity_loop``.
+        kv: [V·s/unit].
+        ka: [V·s²/unit].
+        preset: the motor controller's.
         position_error: [unit] that is worth ``volts``.
+        velocity_error: [unit/s] that is worth ``volts``.
+        volts: [V].
+        delay: [s] of the measurement; None takes the preset's.
 
     Raises:
         BadRequest: as for ``velocity_loop``.

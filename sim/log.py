@@ -14,15 +14,22 @@ from numpy.typing import ArrayLike, NDArray
 from sim.doubt import Doubt
 from sim.errors import BadRequest, BadSample
 from sim.units import unit
+from sim.vocabulary import DIRECTIONS, FOUR_TESTS, KINDS, TESTS, TYPES
+
+__all__ = [  # the words come along, for those who work on logs
+    "DIRECTIONS",
+    "FOUR_TESTS",
+    "KINDS",
+    "LARGEST",
+    "TESTS",
+    "TYPES",
+    "Array",
+    "Log",
+    "Run",
+]
 
 Array: TypeAlias = NDArray[np.float64]
 
-KINDS = ("quasistatic", "dynamic", "coast", "triangle", "multistep", "chirp")
-DIRECTIONS = ("forward", "reverse")
-TESTS = tuple(f"{kind}-{direction}" for kind in KINDS for direction in DIRECTIONS)
-FOUR_TESTS = tuple(f"{kind}-{way}" for kind in KINDS[:2] for way in DIRECTIONS)
-
-TYPES = ("simple", "elevator", "arm")
 LARGEST = 1e9  # [any SI unit] no robot shows a reading this large; squares of it still fit a double
 
 
@@ -131,6 +138,19 @@ class Log:
     def of(self, test: str) -> tuple[Run, ...]:
         """All runs of one test, in order; empty if it was not recorded."""
         return tuple(run for run in self.runs if run.test == test)
+
+    def and_also(self, other: "Log") -> "Log":
+        """The runs of two logs of one mechanism together.
+
+        Raises:
+            BadRequest: one measures a length, the other an angle.
+        """
+        if unit(self.units).angular != unit(other.units).angular:
+            raise BadRequest(
+                f"{self.source} is in {self.units}, {other.source} in {other.units}",
+                advice="Fit one mechanism at a time, or say --units if a file is mislabeled.",
+            )
+        return replace(self, runs=self.runs + other.runs, doubts=self.doubts + other.doubts)
 
     def with_doubts(self, *doubts: Doubt) -> "Log":
         """The same log with more doubts."""

@@ -11,11 +11,10 @@ refuses or doubts, and says why.
 from sim.errors import BadRequest
 from sim.fit.recipe import sysid
 from sim.fit.result import Fit
-from sim.log import TYPES, Log
+from sim.log import Log
+from sim.vocabulary import METHODS, TYPES
 
-METHODS = ("sysid",)
-
-__all__ = ["METHODS", "Fit", "fit"]
+__all__ = ["Fit", "fit"]
 
 
 def fit(log: Log, *, type: str = "", method: str = "sysid", median: int = 1) -> Fit:  # noqa: A002

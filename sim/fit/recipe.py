@@ -12,6 +12,7 @@ from sim.prepare import Prepared, prepare
 from sim.units import unit
 
 DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA dubious
+UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
 
 
@@ -86,6 +87,15 @@ def _doubts(
         for way, part in zip(DIRECTIONS, simulated, strict=True)
         if part.r2 < GOOD_R2
     ]
+    doubts += [
+        Doubt(
+            "unsure-gain",
+            f"{gain} = {found.gains[gain]:.2g} ± {error:.1g}: this log hardly tells {gain}. A "
+            "longer or harder test would.",
+        )
+        for gain, error in found.errors.items()
+        if gain != "offset_rad" and error > UNSURE * abs(found.gains[gain])
+    ]
     slow = prepared.position_delay if prepared.velocity_delay < 0 else prepared.velocity_delay
     timescale = found.gains["kA"] / found.gains["kV"] if found.gains["kV"] else 0.0
     if 0.0 < timescale < slow:
@@ -124,6 +134,7 @@ def _signs(gains: Mapping[str, float]) -> list[Doubt]:
                 "sign-opposed",
                 "kV and kA are negative: a positive voltage makes a negative velocity in this log. "
                 "Invert the encoder or the motor, so that plus is plus, and record again.",
+                grave=True,
             )
         ]
     cause = {
@@ -136,7 +147,7 @@ def _signs(gains: Mapping[str, float]) -> list[Doubt]:
         "kG": "gravity should pull the mechanism back. Is forward up in this log?",
     }
     return [
-        Doubt("negative-gain", f"{gain} = {gains[gain]:.3g} is negative: {why}.")
+        Doubt("negative-gain", f"{gain} = {gains[gain]:.3g} is negative: {why}.", grave=True)
         for gain, why in cause.items()
         if gains.get(gain, 1.0) < 0
     ]

@@ -115,7 +115,7 @@ def _gains(beta: Array, *, type: str) -> tuple[dict[str, float], dict[str, Array
     unit = np.eye(beta.size)
 
     def ratio(index: int) -> Array:
-        return -unit[index] / per_volt + unit[1] * beta[index] / per_volt**2
+        return np.asarray(-unit[index] / per_volt + unit[1] * beta[index] / per_volt**2)
 
     gains = {"kS": -gamma / per_volt, "kV": -alpha / per_volt, "kA": 1.0 / per_volt}
     slopes = {"kS": ratio(2), "kV": ratio(0), "kA": -unit[1] / per_volt**2}

@@ -1,0 +1,38 @@
+"""The truth about a simulated mechanism, written for an instructor and never read by a fit."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+from sim.errors import BadRequest
+from sim.mechanism import Mechanism
+from sim.routine import Routine
+from sim.units import unit
+
+
+def write_truth(mechanism: Mechanism, routine: Routine, *, path: Path) -> None:
+    """Write the true gains, per unit of the mechanism's own logs, as JSON.
+
+    Raises:
+        BadRequest: the file cannot be written.
+    """
+    per = unit(mechanism.units)
+    gains = {
+        name: value * (per.si if name in {"kV", "kA"} else 1.0)
+        for name, value in mechanism.gains.items()
+    }
+    content = {
+        "mechanism": mechanism.name,
+        "type": mechanism.type,
+        "units": per.name,
+        "gains": gains,
+        "routine": asdict(routine),
+    }
+    try:
+        path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise BadRequest(
+            f"cannot write the truth: {error.strerror}",
+            where=str(path),
+            advice="Name a file in a folder that exists and may be written to.",
+        ) from error
