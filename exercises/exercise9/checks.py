@@ -1,0 +1,258 @@
+"""Exercise 9: the gains of a mechanism of the learner's own, from its own four tests."""
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from grader.answer import Asked, Band, Key, gains_asked, judge, number
+from grader.check import Wrong, check
+from grader.slip import Lookalike, Scene, Slip
+from grader.submission import read_answers
+from grader.variant import folder_name, generator
+from sim.errors import BadRequest
+
+if TYPE_CHECKING:
+    from sim.fit import Fit
+    from sim.log import Array, Log
+    from sim.mechanism import Mechanism
+
+FILES = ("answers.toml",)
+HERE = Path(__file__).resolve().parent
+
+KINDS = ("drivetrain", "shooter")
+RAMP, STEP, TIMEOUT, PERIOD = 0.5, 3.5, 10.0, 0.02  # [V/s], [V], [s], [s]
+MOST_DRAWS = 100  # so many mechanisms in a row that cannot be fitted would be our fault
+
+METRICS = ("acceleration_r2", "simulated_velocity_r2")
+METRIC_BANDS = {"acceleration_r2": 0.05, "simulated_velocity_r2": 0.02}  # one way to compute each
+STANDSTILL = 0.02  # [share of the top speed] slower rows say nothing about a gain
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One learner's mechanism: the truth about it, its log, and a fit that shows it is solvable."""
+
+    mechanism: "Mechanism"
+    log: "Log"
+    fit: "Fit"
+    asked: Mapping[str, Asked]
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at."""
+
+    given: Mapping[str, object]
+    key: Key
+    variant: Variant
+
+
+def draw(student: str) -> Variant:
+    """A learner's mechanism, always the same one; drawn again until SysId's own recipe finds it."""
+    from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
+    from sim.routine import Routine  # noqa: PLC0415 - the same
+    from sim.simulate import simulate  # noqa: PLC0415 - the same
+    from sim.units import unit  # noqa: PLC0415 - the same
+
+    routine = Routine(ramp=RAMP, step=STEP, timeout=TIMEOUT)
+    for attempt in range(MOST_DRAWS):
+        rng = generator(student, "exercise9", draw=attempt)
+        mechanism = MECHANISMS[KINDS[int(rng.integers(len(KINDS)))]].draw(rng)
+        log = simulate(mechanism, routine, rng=rng, period=PERIOD)
+        found = fit(log, type=mechanism.type, method="sysid").in_units(mechanism.units)
+        per = unit(mechanism.units)
+        gains = {
+            name: value * (per.si if name in {"kV", "kA"} else 1.0)
+            for name, value in mechanism.gains.items()
+        }
+        asked = gains_asked(gains, position=per.symbol)
+        found_all = all(one.right(found.gains[name]) for name, one in asked.items())
+        if found_all and not _alike(asked):
+            return Variant(mechanism, log, found, asked)
+    raise RuntimeError(f"no solvable mechanism for {student!r}")
+
+
+def _alike(asked: Mapping[str, Asked]) -> bool:
+    """Whether two gains could change places unseen."""
+    return any(
+        one.right(other.expected)
+        for one in asked.values()
+        for other in asked.values()
+        if one is not other
+    )
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Make the learner's log, where it is not there as it was made."""
+    variant = draw(student)
+    folder = HERE / "data" / folder_name(student)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        news = [_put(variant.log, folder / name) for name in ("log.wpilog", "log.csv")]
+    except OSError as error:
+        raise BadRequest(
+            f"your log cannot be written: {error.strerror}",
+            where=str(folder),
+            advice="Make room there, or allow writing.",
+        ) from error
+    for path, state in news:
+        if state:
+            place = path.relative_to(HERE.parents[1]).as_posix()
+            say(f"Your log of a {variant.mechanism.name} {state}: {place}")
+
+
+def _put(log: "Log", path: Path) -> tuple[Path, str]:
+    """Write a log unless it is there already; what is to be said about it."""
+    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
+
+    part = path.with_name(f"{os.getpid()}.part{path.suffix}")
+    write(log, part)
+    there = path.is_file()
+    if there and path.read_bytes() == part.read_bytes():
+        part.unlink()
+        return path, ""
+    part.replace(path)
+    return path, "was not as it was made, and is now" if there else "is ready"
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and what they are held against.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    variant = draw(student)
+    names = (*variant.asked, *METRICS)
+    return Answers(
+        {name: given.get(name.lower()) for name in names},
+        Key(variant.asked, _scene(variant)),
+        variant,
+    )
+
+
+@check(points=1)
+def ks(answers: Answers) -> str | None:
+    """kS, the voltage that friction takes."""
+    return _gain("kS", answers, points=1)
+
+
+@check(points=1.5)
+def kv(answers: Answers) -> str | None:
+    """kV, volts for each unit of velocity."""
+    return _gain("kV", answers, points=1.5)
+
+
+@check(points=1.5)
+def ka(answers: Answers) -> str | None:
+    """kA, volts for each unit of acceleration."""
+    return _gain("kA", answers, points=1.5)
+
+
+@check(points=1)
+def metrics(answers: Answers) -> None:
+    """The acceleration R² and the simulated velocity R² of your fit."""
+    wrong: list[Wrong] = []
+    for name in METRICS:
+        try:
+            _metric(name, answers)
+        except Wrong as why:
+            why.seen = f"{name}: {why.seen}"
+            wrong.append(why)
+    if wrong:
+        wrong[0].earned = 1 - len(wrong) / len(METRICS)
+        raise wrong[0]
+
+
+def _metric(name: str, answers: Answers) -> None:
+    expected = {one: float(getattr(answers.variant.fit, one)) for one in METRICS}
+    asked = {
+        one: Asked(one, expected[one], "1", Band(0, 0, METRIC_BANDS[one], METRIC_BANDS[one]))
+        for one in METRICS
+    }
+    value = number(answers.given[name], asked[name])
+    if asked[name].right(value):
+        return
+    (other,) = set(METRICS) - {name}
+    if value > 1:
+        hint = "R² is at most 1: a share, not percent."
+    elif asked[other].right(value):
+        hint = f"That is the {other}. Are the two swapped?"
+    else:
+        hint = "sysid fit --method sysid prints both; its R² are SysId's own."
+    raise Wrong(f"{value:.4g}", hint=hint, misconception="M-R2")
+
+
+def _gain(name: str, answers: Answers, *, points: float) -> str | None:
+    """Judge one gain; where no slip explains it, say how far the three miss the log."""
+    try:
+        return judge(name, answers.given, answers.key, points=points)
+    except Wrong as wrong:
+        if "outside" in wrong.hint:
+            wrong.hint += _missed(answers)
+        raise
+
+
+def _missed(answers: Answers) -> str:
+    """How far the learner's model misses the voltage in the log, beside how far a good one does."""
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    try:
+        gains = [number(answers.given[name], one) for name, one in answers.key.asked.items()]
+    except Wrong:
+        return ""
+    columns, voltage = _columns(answers.variant)
+    good = [answers.variant.fit.gains[name] for name in answers.key.asked]
+    mine, best = (
+        float(np.sqrt(np.mean((voltage - columns @ np.array(g)) ** 2))) for g in (gains, good)
+    )
+    return (
+        f". Your three gains miss the voltage in the log by {mine:.2g} V (RMS); a good fit "
+        f"misses it by {best:.2g} V"
+    )
+
+
+def _scene(variant: Variant) -> Scene:
+    """What slips are recognized by: the mechanism, the tests, and what wrong recipes would give."""
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    columns, voltage = _columns(variant)
+    explained, *_ = np.linalg.lstsq(columns, voltage, rcond=None)
+    slip = Slip(
+        "voltage-explained",
+        "it is what comes out when the voltage is explained by velocity and acceleration. Explain "
+        "the acceleration instead",
+        "M-NOISE-AVERAGES",
+    )
+    names = list(variant.asked)
+    return Scene(
+        angular=variant.mechanism.units == "rotations",
+        ratio=variant.mechanism.ratio,
+        motors=variant.mechanism.motor_count,
+        ramp=RAMP,
+        period=PERIOD,
+        lookalikes={
+            name: (Lookalike(float(value), slip),)
+            for name, value in zip(names, explained, strict=True)
+        },
+    )
+
+
+def _columns(variant: Variant) -> "tuple[Array, Array]":
+    """Columns (n, 3) for kS, kV and kA, and the voltage (n,), of every row that moves."""
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    from sim.units import unit  # noqa: PLC0415 - the same
+
+    si = unit(variant.mechanism.units).si
+    rows, voltage = [], []
+    for run in variant.log.runs:
+        v = run.velocity / si
+        moving = np.abs(v) > STANDSTILL * np.abs(v).max()
+        a = np.gradient(v, run.time)
+        rows.append(np.column_stack((np.sign(v), v, a))[moving])
+        voltage.append(run.voltage[moving])
+    return np.vstack(rows), np.concatenate(voltage)

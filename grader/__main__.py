@@ -1,0 +1,196 @@
+"""``python -m grader``: works in a fresh clone. It installs what is missing, and then is ``grade``.
+
+    python -m grader start             once, to begin
+    python -m grader test [...]        the course's own tests
+    python -m grader exercise4         the same as: grade exercise4
+
+This file uses nothing but Python's own library, and even an old Python can read it far enough to
+say that it is too old.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from importlib.metadata import PackageNotFoundError, distribution
+from importlib.util import find_spec
+from pathlib import Path
+
+OLDEST = (3, 11)
+ROOT = Path(__file__).resolve().parent.parent
+HOPPED = "SYSID_COURSE_ENVIRONMENT"  # set in the second process, so that it cannot make a third
+INSTALLED = "SYSID_COURSE_INSTALLED"  # the same for an installation that does not help
+SIZE = "about 500 MB, so a few minutes"
+LAST = 6  # lines of pip's complaint that are worth reading
+COULD_NOT, INTERRUPTED = 2, 130
+
+
+def main(arguments: list[str]) -> int:
+    """Run a command of the course, after installing what it needs.
+
+    Args:
+        arguments: what came after ``python -m grader``.
+
+    Returns:
+        The exit code.
+    """
+    if sys.version_info < OLDEST:
+        return _give_up(
+            f"this is Python {sys.version.split()[0]}, and the course needs 3.11 or newer",
+            "Get one from python.org, and start the course with it.",
+        )
+    try:
+        if not lacking(arguments[:1]):
+            return _go(arguments)
+        if not (ROOT / "pyproject.toml").is_file():
+            names = ", ".join(lacking(arguments[:1]))
+            return _give_up(f"{names} not installed", "python -m pip install sysid-course[test]")
+        if in_environment() or HOPPED in os.environ:
+            return _install_and_go(arguments)
+        return _hop(arguments)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
+
+def lacking(command: list[str]) -> list[str]:
+    """What has to be installed before a command can run: names of packages.
+
+    Args:
+        command: the command's name alone, or nothing.
+    """
+    wanted = _wanted(testing=command == ["test"])
+    if command in (["start"], ["test"]):
+        wanted.append("sysid-course")  # lessons and tests run elsewhere, where only that finds us
+    names = []
+    for name in wanted:
+        try:
+            distribution(name)
+        except PackageNotFoundError:
+            names.append(name)
+    return names
+
+
+def _wanted(*, testing: bool) -> list[str]:
+    """The packages pyproject.toml asks for; those only some machines need are pip's business."""
+    import tomllib  # noqa: PLC0415 - an old Python has none, and must get as far as being told
+
+    try:
+        project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    except FileNotFoundError:  # an installed copy: pip saw to what it needs
+        return []
+    asked = list(project["dependencies"])
+    if testing:
+        asked += project["optional-dependencies"]["test"]
+    names = [re.match(r"[\w.-]+", one) for one in asked if ";" not in one]
+    return [name[0] for name in names if name]
+
+
+def in_environment() -> bool:
+    """Whether this Python is one's own to install into: a virtual or a named conda environment."""
+    prefix = Path(sys.prefix)
+    conda = (prefix / "conda-meta").is_dir() and not (prefix / "condabin").is_dir()
+    return sys.prefix != sys.base_prefix or conda
+
+
+def _go(arguments: list[str]) -> int:
+    """Everything is there: run the command itself."""
+    if arguments[:1] == ["test"]:
+        command = [sys.executable, "-m", "pytest", *arguments[1:]]
+        return _run(command, cwd=ROOT)
+    from grader.cli import run  # noqa: PLC0415 - needs what may not be installed yet
+
+    return run(arguments)
+
+
+def _hop(arguments: list[str]) -> int:
+    """Go on in the course's own environment; make it if it is not there."""
+    folder = ROOT / ".venv"
+    python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    if not python.exists():
+        problem = _make(folder)
+        if problem:
+            return _give_up(*problem)
+    environment = dict(os.environ, **{HOPPED: "1"})
+    return _run([str(python), "-m", "grader", *arguments], env=environment)
+
+
+def _make(folder: Path) -> tuple[str, str] | None:
+    """Make a virtual environment; the problem and the advice if that does not work."""
+    if find_spec("venv") is None or find_spec("ensurepip") is None:
+        return (
+            "this Python cannot make virtual environments",
+            "On Debian and Ubuntu: sudo apt install python3-venv. Then try again.",
+        )
+    if folder.exists() and not (folder / "pyvenv.cfg").is_file() and any(folder.iterdir()):
+        return f"{folder} is there already, and no virtual environment", "Move it away."
+    _say(f"Making a place for the course's packages: {folder}")
+    made = _quietly([sys.executable, "-m", "venv", "--clear", str(folder)])
+    return (f"no virtual environment could be made: {made}", "") if made else None
+
+
+def _install_and_go(arguments: list[str]) -> int:
+    names = lacking(arguments[:1])
+    if INSTALLED in os.environ:
+        return _give_up(
+            f"{', '.join(names)} is still missing after installing",
+            f"Try by hand: {sys.executable} -m pip install -e {ROOT}",
+        )
+    problem = _install(testing=arguments[:1] == ["test"], size=SIZE if len(names) > 1 else "")
+    if problem:
+        return _give_up(*problem)
+    environment = dict(os.environ, **{INSTALLED: "1"})
+    return _run([sys.executable, "-m", "grader", *arguments], env=environment)
+
+
+def _install(*, testing: bool, size: str) -> tuple[str, str] | None:
+    """Install the course into this Python; the problem and the advice if that does not work."""
+    _say(f"Installing what the course needs{f' ({size})' if size else ''} ...")
+    if find_spec("pip") is None:
+        _quietly([sys.executable, "-m", "ensurepip"])
+    what = ".[test]" if testing else "."
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    said = _quietly([*pip, "-e", what], cwd=ROOT)
+    if not said:
+        return None
+    _say(said)
+    return (
+        "pip could not install the course; its last words are above",
+        "Is this machine online, and is there room on the disk? Then run the same command again.",
+    )
+
+
+def _quietly(command: list[str], *, cwd: Path | None = None) -> str:
+    """Run a command; nothing if it went well, else the last lines it said."""
+    done = subprocess.run(  # noqa: S603 - our own arguments, no shell
+        command, cwd=cwd, capture_output=True, text=True, errors="replace", check=False
+    )
+    if not done.returncode:
+        return ""
+    lines = (done.stdout + done.stderr).strip().splitlines()
+    return "\n".join(lines[-LAST:]) or f"exit code {done.returncode}"
+
+
+def _run(command: list[str], *, cwd: Path | None = None, env: dict[str, str] | None = None) -> int:
+    """Run a command in the foreground and return its exit code."""
+    running = subprocess.Popen(command, cwd=cwd, env=env)  # noqa: S603 - our own arguments, no shell
+    while True:
+        try:
+            code = running.wait()
+        except KeyboardInterrupt:  # it heard that too, and ends as it sees fit
+            continue
+        return INTERRUPTED if code < 0 else code
+
+
+def _give_up(what: str, advice: str) -> int:
+    _say(f"grade: {what}. {advice}".rstrip())
+    return COULD_NOT
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)  # noqa: T201 - a command speaks
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

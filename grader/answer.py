@@ -1,0 +1,228 @@
+"""A numeric answer: a value with a unit, bands for full and half credit, and what went wrong.
+
+A wrong number is told which known slip would explain it, or only how far outside it is in words:
+never the distance, and never the key.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from grader.check import Wrong
+from grader.measure import NotAUnitError, read_number, read_unit
+from grader.slip import MANY, Scene, Slip, suspects
+
+LARGEST = 1e300  # beyond it a number is infinite, or soon will be
+HALF = 0.5  # [share] of the points inside the wider band
+LITTLE = 2.0  # [wider bands] up to here a number is outside by a little, beyond it by a lot
+FAST = 0.05  # [s] a time constant kA/kV below this fits into two or three samples of 20 ms
+
+
+@dataclass(frozen=True)
+class Band:
+    """How near is near enough: a share of the expected value, or a size, whichever is wider.
+
+    Args:
+        full, partial: share of the expected value, for full and for half credit.
+        full_size, partial_size: in the unit asked for.
+    """
+
+    full: float
+    partial: float
+    full_size: float = 0.0
+    partial_size: float = 0.0
+
+    def widths(self, expected: float) -> tuple[float, float]:
+        """Half the width of both bands around an expected value, in its unit."""
+        size = abs(expected)
+        return max(self.full * size, self.full_size), max(self.partial * size, self.partial_size)
+
+
+BANDS: dict[str, Band] = {
+    "kS": Band(0.15, 0.35, full_size=0.03, partial_size=0.08),
+    "kV": Band(0.03, 0.08),
+    "kA": Band(0.15, 0.30),
+    "kG": Band(0.04, 0.10),
+}
+FAST_KA = Band(0.25, 0.50)  # kA where the mechanism is FAST
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A number that is asked for.
+
+    Args:
+        name: as in the answer file: ``kV``.
+        expected: the key, in ``unit``.
+        unit: ``V·s/m``.
+        band: how near is near enough.
+    """
+
+    name: str
+    expected: float
+    unit: str
+    band: Band
+
+    def right(self, value: float) -> bool:
+        """Whether a value earns full marks."""
+        return abs(value - self.expected) <= self.band.widths(self.expected)[0]
+
+    def tolerance(self, width: float, share: float) -> str:
+        """A band in plain words: ``±3 %``, or ``±0.03 V`` where that is the wider."""
+        if width > share * abs(self.expected):
+            return f"±{width:g} {self.unit}"
+        return f"±{100 * share:g} %"
+
+
+@dataclass(frozen=True)
+class Key:
+    """The numbers asked for together, and the scene they belong to."""
+
+    asked: Mapping[str, Asked]
+    scene: Scene = field(default_factory=Scene)
+
+
+def gains_asked(gains: Mapping[str, float], *, position: str) -> dict[str, Asked]:
+    """Ask for gains.
+
+    Args:
+        gains: gain -> value, per unit of position.
+        position: that unit's symbol: ``m``, ``rot``.
+    """
+    units = {"kS": "V", "kG": "V", "kV": f"V·s/{position}", "kA": f"V·s²/{position}"}
+    fast = "kA" in gains and gains["kA"] < FAST * gains.get("kV", 0.0)
+    bands = {**BANDS, "kA": FAST_KA} if fast else BANDS
+    return {name: Asked(name, gains[name], units[name], bands[name]) for name in gains}
+
+
+def number(raw: object, asked: Asked) -> float:
+    """An answer as a number in the unit asked for.
+
+    Raises:
+        Wrong: it is not a number, or not of that unit; the message says what it is instead.
+    """
+    ask = f"Write a number, such as {asked.name} = 0.5 (then it is in {asked.unit})."
+    if raw is None or raw == "":
+        raise Wrong("nothing yet", hint=ask)
+    if isinstance(raw, bool):
+        raise Wrong(f"{str(raw).lower()}, which is yes or no and not a number", hint=ask)
+    if isinstance(raw, int | float):
+        return _finite(raw, asked)
+    if not isinstance(raw, str):
+        kind = "list" if isinstance(raw, list) else type(raw).__name__
+        raise Wrong(f"a {kind}, not one number", hint=ask)
+    found = read_number(raw)
+    if found is None:
+        raise Wrong(f'"{raw}", which is not one number', hint=ask)
+    value, unit = found
+    return _finite(value * _scale(unit, asked) if unit else value, asked)
+
+
+def _finite(value: float, asked: Asked) -> float:
+    if not -LARGEST < value < LARGEST:
+        raise Wrong(
+            f"{'nan' if value != value else 'a number without end'}, which no gain can be",  # noqa: PLR0124 - only nan differs from itself
+            hint=f"{asked.name} came out of a division by zero, or of an empty column. Look at "
+            "the data you fitted.",
+        )
+    return float(value)
+
+
+def _scale(unit: str, asked: Asked) -> float:
+    """How many of the unit asked for one of the unit given is."""
+    wanted = read_unit(asked.unit)
+    try:
+        given = read_unit(unit)
+    except NotAUnitError as part:
+        raise Wrong(
+            f"the unit {unit!r}, in which {str(part)!r} is not known",
+            hint=f"Write {asked.unit}, or leave the unit out.",
+        ) from None
+    if given.powers != wanted.powers:
+        raise Wrong(
+            f"the unit {unit!r}, which does not measure {asked.name}",
+            hint=f"Asked for: {asked.unit}. Mind the parentheses: V/(m/s) is V·s/m, V/m/s is not.",
+            misconception="M-UNITS",
+        )
+    return given.factor / wanted.factor
+
+
+def judge(name: str, given: Mapping[str, object], key: Key, *, points: float) -> str | None:
+    """Judge one of the numbers.
+
+    Args:
+        name: which one.
+        given: all the answers, by name, as they were read from the file.
+        key: what is asked for.
+        points: what the check is worth, for half credit.
+
+    Returns:
+        A note, if the answer was converted from another unit.
+
+    Raises:
+        Wrong: it is not right; with what it may have been.
+    """
+    asked, raw = key.asked[name], given.get(name)
+    value = number(raw, asked)
+    shown = f"{value:.4g} {asked.unit}"
+    converted = isinstance(raw, str) and bool((read_number(raw) or (0, ""))[1])
+    if asked.right(value):
+        return f"{raw} is {shown}" if converted and f"{value:.4g}" not in str(raw) else None
+    full, partial = asked.band.widths(asked.expected)
+    away = abs(value - asked.expected)
+    near = asked.tolerance(full, asked.band.full)
+    earned, verdict = 0.0, f"outside the accepted {near}, by a lot"
+    if away <= partial:
+        wider = asked.tolerance(partial, asked.band.partial)
+        earned, verdict = HALF * points, f"close: within {wider}, not yet within {near}"
+    elif away <= LITTLE * partial:
+        verdict = f"outside the accepted {near}, by a little"
+    slips = diagnose(name, given, key)
+    codes = {slip.misconception for slip in slips}
+    said = _said(name, value, slips)
+    raise Wrong(
+        f"{shown}{'' if converted else ' (no unit given: read as asked)'}",
+        hint="; ".join(part for part in (said, "" if said and not earned else verdict) if part),
+        misconception=codes.pop() if len(codes) == 1 else "",
+        earned=earned,
+    )
+
+
+def diagnose(name: str, given: Mapping[str, object], key: Key) -> tuple[Slip, ...]:
+    """The slips that would explain a wrong number; those another wrong number shares come alone."""
+    found = _suspects(name, given, key)
+    for other in key.asked:
+        if other != name and other in given:
+            shared = {slip.code for slip in _suspects(other, given, key)}
+            both = tuple(slip for slip in found if slip.code in shared)
+            found = both or found
+    return found if len(found) <= MANY else ()
+
+
+def _suspects(name: str, given: Mapping[str, object], key: Key) -> tuple[Slip, ...]:
+    value = _value(name, given, key)
+    asked = key.asked[name]
+    if value is None or asked.right(value):
+        return ()
+    numbers = {other: one.expected for other, one in key.asked.items()}
+    found = suspects(name, value, right=asked.right, key=numbers, scene=key.scene)
+    for other, one in key.asked.items():
+        theirs = _value(other, given, key)
+        if other != name and theirs is not None and one.right(value) and asked.right(theirs):
+            says = f"it would be right for {other}, and yours for {other} for {name}: swapped?"
+            found += (Slip("swapped", says, "M-ARGORDER"),)
+    return found
+
+
+def _value(name: str, given: Mapping[str, object], key: Key) -> float | None:
+    try:
+        return number(given.get(name), key.asked[name])
+    except Wrong:
+        return None
+
+
+def _said(name: str, value: float, slips: tuple[Slip, ...]) -> str:
+    if slips:
+        return "; or ".join(slip.says for slip in slips)
+    if value < 0:
+        return f"{name} cannot be negative. Is velocity or voltage turned around in your data?"
+    return ""

@@ -1,0 +1,157 @@
+"""A check: one function that looks at an answer; its docstring is the line the learner reads.
+
+    @check(points=1, after=routine)
+    def ramp(facts: RoutineFacts) -> None:
+        \"\"\"The quasistatic voltage rises by 0.5 V every second.\"\"\"
+        if facts.ramp.value != 0.5:
+            raise Wrong(facts.ramp.text, hint="Volts.of(0.5).per(Second) is 0.5 V/s.")
+
+A check that returns has passed; what it returns, if anything, is a note for the learner. Wrong
+says the answer is wrong, NotReached that there is nothing to look at yet, and anything else that
+our own code broke, for which nobody is blamed.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Generic, TypeVar
+
+Subject = TypeVar("Subject")
+
+
+class Status(StrEnum):
+    """How a check ended."""
+
+    PASSED = "passed"
+    FAILED = "failed"
+    NOT_REACHED = "not-reached"  # something before it has to be right first
+    ERROR = "error"  # our code broke; no fault of the learner's
+
+
+class Wrong(Exception):  # noqa: N818 - a wrong answer is no error of the program
+    """The answer is wrong.
+
+    Args:
+        seen: what was given, as the learner wrote it: ``Volts.of(3) (line 12)``.
+        hint: the likely cause and the next step; never the answer.
+        misconception: its code, a key of ``grader.misconception.MISCONCEPTIONS``, or empty.
+        earned: points all the same, less than the check's full points.
+    """
+
+    def __init__(
+        self, seen: str, *, hint: str, misconception: str = "", earned: float = 0.0
+    ) -> None:
+        self.seen = seen
+        self.hint = hint
+        self.misconception = misconception
+        self.earned = earned
+        super().__init__(seen, hint)
+
+
+class NotReached(Exception):  # noqa: N818 - not an error of the program
+    """There is nothing to look at yet; the message says what is missing."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """What one check found.
+
+    Args:
+        id: the check's name in lower case with dashes: ``applied-voltage``.
+        description: the sentence the learner reads.
+        status: passed, failed, not-reached or error.
+        points: points earned.
+        max_points: points there are.
+        seen: what was given; for ``not-reached`` and ``error`` the reason.
+        hint: likely cause and next step; a note where the check passed.
+        misconception: its code, or empty.
+    """
+
+    id: str
+    description: str
+    status: Status
+    points: float
+    max_points: float
+    seen: str = ""
+    hint: str = ""
+    misconception: str = ""
+
+
+@dataclass(frozen=True)
+class Check(Generic[Subject]):
+    """A check as the examiner knows it.
+
+    Args:
+        id: its function's name, with dashes.
+        description: the first line of the function's docstring.
+        points: for a full pass.
+        after: the checks that have to pass first.
+        look: the function.
+    """
+
+    id: str
+    description: str
+    points: float
+    after: tuple["Check[Subject]", ...]
+    look: Callable[[Subject], str | None]
+
+    def run(self, subject: Subject) -> Result:
+        """Look at the subject; whatever happens is a result."""
+        try:
+            note = self.look(subject) or ""
+        except Wrong as wrong:
+            points = min(max(wrong.earned, 0.0), self.points)
+            found = (wrong.seen, wrong.hint, wrong.misconception)
+            return self._result(Status.FAILED, points, *found)
+        except NotReached as reason:
+            return self._result(Status.NOT_REACHED, 0.0, str(reason))
+        except Exception as error:  # noqa: BLE001 - whatever it is, the learner is not to blame
+            return self._result(Status.ERROR, 0.0, f"{type(error).__name__}: {error}")
+        return self._result(Status.PASSED, self.points, "", note)
+
+    def _result(
+        self, status: Status, points: float, seen: str, hint: str = "", misconception: str = ""
+    ) -> Result:
+        head = (self.id, self.description, status, points, self.points)
+        return Result(*head, seen, hint, misconception)
+
+
+def check(
+    *, points: float, after: Check[Subject] | tuple[Check[Subject], ...] = ()
+) -> Callable[[Callable[[Subject], str | None]], Check[Subject]]:
+    """Make a check of a function.
+
+    Args:
+        points: for a full pass.
+        after: the check, or checks, that have to pass first.
+
+    Raises:
+        ValueError: the function has no docstring, so the learner could not be told what it wants.
+    """
+    before = after if isinstance(after, tuple) else (after,)
+
+    def made(look: Callable[[Subject], str | None]) -> Check[Subject]:
+        sentence = (look.__doc__ or "").strip().partition("\n")[0].removesuffix(".")
+        if not sentence:
+            raise ValueError(f"the check {look.__name__} needs a docstring: the learner reads it")
+        return Check(look.__name__.replace("_", "-"), sentence, points, before, look)
+
+    return made
+
+
+def run_all(checks: Sequence[Check[Subject]], subject: Subject) -> tuple[Result, ...]:
+    """Run the checks in order; one whose predecessor did not pass is not reached."""
+    results: dict[str, Result] = {}
+    for one in checks:
+        blocked = [first for first in one.after if results[first.id].status is not Status.PASSED]
+        if blocked:
+            first = blocked[0].description
+            results[one.id] = skipped(one, f"looked at once this is right: {first}")
+        else:
+            results[one.id] = one.run(subject)
+    return tuple(results.values())
+
+
+def skipped(one: Check[Subject], reason: str) -> Result:
+    """The result of a check that was not run."""
+    return Result(one.id, one.description, Status.NOT_REACHED, 0.0, one.points, reason)

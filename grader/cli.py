@@ -1,0 +1,182 @@
+"""``grade``: check an answer, see a hint, see how far you are, and start.
+
+Exit codes: 0 full marks, 1 not all right yet, 2 could not do it (one line says why, and what next).
+"""
+
+import os
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from grader.terminal import any_encoding, complain, show
+from sim.errors import BadRequest, Refusal
+
+if TYPE_CHECKING:
+    from grader.course import Progress
+    from grader.exercise import Exercise
+
+TRACEBACK = "GRADE_TRACEBACK"  # set to 1 to see where an error of ours comes from
+INTERRUPTED = 130
+
+
+class ExerciseOrCommand(click.Group):
+    """A group whose first word may be the name of an exercise."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Take everything that does not begin with a command as a request to grade."""
+        if not {*args[:1]} & {"-h", "--help", *self.commands}:
+            args = ["exercise", *args]
+        return super().parse_args(ctx, args)
+
+    def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Show grading, what the command is mostly for, and then the rest."""
+        formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
+        formatter.write_usage("grade", "start [--no-lab] [--student NAME]")
+        self.format_help_text(ctx, formatter)
+        self.commands["exercise"].format_options(ctx, formatter)
+        self.format_commands(ctx, formatter)
+        self.format_epilog(ctx, formatter)
+
+
+@click.group(
+    cls=ExerciseOrCommand,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
+    epilog="Exit codes: 0 full marks, 1 not all right yet, 2 could not grade.",
+)
+def grade() -> None:
+    """Grade an exercise. Without a name: how far you are, and the next step.
+
+    EXERCISE is a name such as exercise4, or its number. FILE is your answer; without it, the
+    exercise's own file is graded.
+    """
+
+
+@grade.command(hidden=True)
+@click.argument("exercise", required=False)
+@click.argument("file", required=False, type=click.Path(path_type=Path))
+@click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
+@click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
+@click.option("--hint", is_flag=True, help="Show the next of three hints; it costs nothing.")
+def exercise(
+    exercise: str | None, file: Path | None, student: str | None, *, as_json: bool, hint: bool
+) -> int:
+    """Grade an exercise, or say how far you are."""
+    from grader.exercise import exercises, find  # noqa: PLC0415 - --help has to start at once
+
+    folder, progress, who = _here(student)
+    if exercise is not None:
+        one = find(exercise, folder)
+        if hint:
+            return _hint(one, folder, progress, who)
+        return _grade(one, file, folder, progress, who, as_json=as_json)
+    if as_json or hint:
+        advice = f"Say which: grade exercise4 --{'json' if as_json else 'hint'}"
+        raise BadRequest("no exercise was named", advice=advice)
+    from grader.report import overview  # noqa: PLC0415 - the same
+
+    show(overview(folder, exercises(folder), progress, student=who))
+    return 0
+
+
+@grade.command()
+@click.option("--no-lab", is_flag=True, help="Do not open JupyterLab.")
+@click.option("--student", metavar="NAME", help="Who you are, from now on.")
+def start(student: str | None, *, no_lab: bool) -> int:
+    """Show where you stand, make your data, open the first lesson."""
+    from grader.course import save  # noqa: PLC0415 - --help has to start at once
+    from grader.start import start as begin  # noqa: PLC0415 - the same
+
+    folder, progress, who = _here(student)
+    if who != progress.student:
+        progress = replace(progress, student=who)
+        _tell(save(progress, folder))
+    return begin(folder, progress, student=who, lab=not no_lab)
+
+
+def _here(student: str | None) -> "tuple[Path, Progress, str]":
+    """The course folder, the progress kept there, and who is learning."""
+    from grader.course import find_course, load  # noqa: PLC0415 - --help has to start at once
+    from grader.variant import student_name  # noqa: PLC0415 - the same
+
+    folder = find_course(Path.cwd())
+    progress, said = load(folder)
+    _tell(said)
+    return folder, progress, progress.student if student is None else student_name(student)
+
+
+def _grade(
+    one: "Exercise",
+    file: Path | None,
+    folder: Path,
+    progress: "Progress",
+    who: str,
+    *,
+    as_json: bool,
+) -> int:
+    from grader.course import save  # noqa: PLC0415 - --help has to start at once
+    from grader.report import to_json, to_lines  # noqa: PLC0415 - the same
+
+    one.prepare(who, say=complain)
+    result = one.grade(file, student=who)
+    if as_json:
+        click.echo(to_json(result))
+    elif result.reached:
+        show(to_lines(result, hints_shown=progress.of(who, one.name).hints))
+    if result.status == "ungradable":
+        complain(result.reason)
+        return 2
+    noted = progress.with_score(who, one.name, score=result.score, max_score=result.max_score)
+    if noted != progress:
+        _tell(save(noted, folder))
+    return 0 if result.status == "passed" else 1
+
+
+def _hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:
+    from grader.course import save  # noqa: PLC0415 - --help has to start at once
+    from grader.report import hint_lines  # noqa: PLC0415 - the same
+
+    standing = progress.of(who, one.name)
+    show(hint_lines(one, shown=standing.hints))
+    if standing.hints < len(one.hints):
+        seen = replace(standing, hints=standing.hints + 1)
+        _tell(save(progress.with_standing(who, one.name, seen), folder))
+    return 0
+
+
+def _tell(said: str) -> None:
+    if said:
+        complain(said)
+
+
+def run(arguments: list[str] | None = None) -> int:
+    """Run the command and return its exit code; nothing gets out as a traceback."""
+    any_encoding()
+    try:
+        code = grade.main(arguments, prog_name="grade", standalone_mode=False)
+    except Refusal as refusal:
+        complain(str(refusal))
+    except click.ClickException as error:
+        complain(f"{error.format_message().rstrip('.')}. What there is: grade --help")
+    except (KeyboardInterrupt, click.Abort):
+        return INTERRUPTED
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nobody reads any more
+        return 2
+    except Exception as error:
+        if os.environ.get(TRACEBACK) == "1":
+            raise
+        complain(
+            f"{type(error).__name__}: {error}. That is a fault of the course, not yours: please "
+            f"report it, with what {TRACEBACK}=1 in the environment makes it show."
+        )
+    else:
+        return code if isinstance(code, int) else 0
+    return 2
+
+
+def main() -> None:
+    """Start as a command."""
+    sys.exit(run())

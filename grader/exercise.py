@@ -1,0 +1,204 @@
+"""An exercise: a folder with a task, files to fill in, checks and hints; and grading one answer.
+
+A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml`` with the hints
+``concept``, ``pointer`` and ``step`` (one worked in part), and ``checks.py``, which offers
+
+    FILES : tuple[str, ...]                    the files to fill in, the preferred one first
+    def read(path, *, student) -> Subject      what the checks look at; a Refusal if unreadable
+    its checks                                 functions under @check, in the order they are shown
+    def prepare(student, *, say) -> None       optional: makes what the learner works on
+"""
+
+import importlib.util
+import re
+import sys
+import tomllib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from grader.check import Check, Result, Status, run_all, skipped
+from grader.submission import find_files
+from sim.errors import BadRequest, Refusal
+
+HINTS = ("concept", "pointer", "step")  # from far to near
+
+
+@dataclass(frozen=True)
+class Grade:
+    """What became of one answer.
+
+    Args:
+        exercise: ``exercise4``.
+        student: whose answer it is.
+        score, max_score: points earned, points there are.
+        status: ``passed`` (full marks), ``failed`` or ``ungradable``.
+        checks: one result for each check, in the order they are shown.
+        file: what was graded.
+        reason: why it was ungradable, one line; empty otherwise.
+    """
+
+    exercise: str
+    student: str
+    score: float
+    max_score: float
+    status: str
+    checks: tuple[Result, ...]
+    file: Path | None = None
+    reason: str = ""
+
+    @property
+    def reached(self) -> bool:
+        """Whether the answer could be read, so that there is something to tell about it."""
+        return any(result.status is not Status.NOT_REACHED for result in self.checks)
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """One exercise of the course.
+
+    Args:
+        name: its folder's name: ``exercise4``.
+        folder: where it is.
+    """
+
+    name: str
+    folder: Path
+
+    @cached_property
+    def module(self) -> ModuleType:
+        """Its checks.py, loaded by path under a name of its own."""
+        path = self.folder / "checks.py"
+        name = f"_checks_of_{self.name}_{abs(hash(str(path)))}"
+        spec = importlib.util.spec_from_file_location(name, path)
+        if spec is None or spec.loader is None:
+            raise ImportError(f"{path} cannot be loaded")
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[name] = module  # dataclasses look themselves up there
+        spec.loader.exec_module(module)
+        return module
+
+    @property
+    def checks(self) -> tuple[Check[Any], ...]:
+        """Its checks, in the order they are written."""
+        return tuple(value for value in vars(self.module).values() if isinstance(value, Check))
+
+    @property
+    def hints(self) -> tuple[str, ...]:
+        """Its three hints."""
+        text = (self.folder / "hints.toml").read_text(encoding="utf-8")
+        return tuple(tomllib.loads(text)[name].strip() for name in HINTS)
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The files to fill in, the preferred one first."""
+        return tuple(self.module.FILES)
+
+    @property
+    def title(self) -> str:
+        """The first heading of its README, without its number."""
+        text = (self.folder / "README.md").read_text(encoding="utf-8")
+        heading = re.search(r"^#\s+(?:Exercise \d+\s*[:.]?\s*)?(.+?)\s*$", text, re.MULTILINE)
+        return heading[1] if heading else self.name
+
+    def prepare(self, student: str, *, say: Callable[[str], None]) -> None:
+        """Make what the learner works on, where it is not there yet.
+
+        Args:
+            student: for whom.
+            say: shows a line about what is going on.
+        """
+        maker = getattr(self.module, "prepare", None)
+        if maker is not None:
+            maker(student, say=say)
+
+    def grade(self, given: Path | None, *, student: str) -> Grade:
+        """Grade an answer; of several files, the one that earns most.
+
+        Args:
+            given: a file or a folder; None takes the exercise's own files.
+            student: whose answer it is.
+        """
+        try:
+            files = find_files(given, folder=self.folder, names=self.files)
+        except Refusal as refusal:
+            return self._ungradable(str(refusal), student=student)
+        return best([self._grade_file(file, student=student) for file in files])
+
+    def _grade_file(self, file: Path, *, student: str) -> Grade:
+        try:
+            subject = self.module.read(file, student=student)
+        except Refusal as refusal:
+            return replace(self._ungradable(str(refusal), student=student), file=file)
+        results = run_all(self.checks, subject)
+        score, most = (sum(points) for points in zip(*_points(results), strict=True))
+        broken = next((one for one in results if one.status is Status.ERROR), None)
+        status = "passed" if score == most else "failed"
+        reason = ""
+        if broken:
+            status = "ungradable"
+            reason = (
+                f"the check {broken.id} broke ({broken.seen}). That is a fault of the course, not "
+                "yours: please report it, with your file"
+            )
+        return Grade(self.name, student, score, most, status, results, file, reason)
+
+    def _ungradable(self, reason: str, *, student: str) -> Grade:
+        results = tuple(skipped(one, reason) for one in self.checks)
+        most = sum(one.points for one in self.checks)
+        return Grade(self.name, student, 0.0, most, "ungradable", results, reason=reason)
+
+
+def _points(results: Sequence[Result]) -> list[tuple[float, float]]:
+    return [(result.points, result.max_points) for result in results] or [(0.0, 0.0)]
+
+
+def best(grades: Sequence[Grade]) -> Grade:
+    """The grade to show: the highest score; where nothing scored, one that could not be read.
+
+    A file with a syntax error is more likely the one being worked on than an untouched starter.
+    """
+
+    def rank(grade: Grade) -> tuple[float, bool]:
+        return grade.score, grade.status == "ungradable"
+
+    return max(grades, key=rank)
+
+
+def exercises(course: Path) -> tuple[Exercise, ...]:
+    """The exercises of a course, in order of their numbers."""
+    found = [
+        Exercise(checks.parent.name, checks.parent)
+        for checks in (course / "exercises").glob("*/checks.py")
+    ]
+    return tuple(sorted(found, key=lambda one: (_number(one.name), one.name)))
+
+
+def _number(name: str) -> int:
+    digits = re.search(r"\d+$", name)
+    return int(digits[0]) if digits else sys.maxsize
+
+
+def find(asked: str, course: Path) -> Exercise:
+    """The exercise that is meant: ``exercise4``, ``ex4`` or ``4``.
+
+    Raises:
+        BadRequest: there is none; the message lists those there are.
+    """
+    there = exercises(course)
+    short = re.fullmatch(r"(?:exercise|ex|e)?[ _-]?0*(\d+)", asked.strip().lower().rstrip("/\\"))
+    name = f"exercise{short[1]}" if short else asked.strip()
+    for one in there:
+        if one.name == name:
+            return one
+    import difflib  # noqa: PLC0415 - only needed for a name that is wrong
+
+    near = difflib.get_close_matches(name.lower(), [one.name for one in there], n=1)
+    listed = ", ".join(one.name for one in there) or "none yet"
+    raise BadRequest(
+        f"there is no exercise {asked!r}",
+        advice=f"{f'Did you mean {near[0]}? ' if near else ''}There are: {listed}.",
+    )

@@ -1,0 +1,25 @@
+"""Misconceptions the examiner can name: a code for statistics, a sentence that puts it right."""
+
+MISCONCEPTIONS: dict[str, str] = {
+    "M-UNITS": "A gain is volts per something. Change the unit of the something, and the number "
+    "changes with it: one rotation is 2π radians, one minute is 60 seconds.",
+    "M-ARGORDER": "Values that stand side by side are told apart only by their order. Look up "
+    "which comes first.",
+    "M-CMDVOLT": "What was asked for is not what the motor got: a weak battery or a current limit "
+    "takes volts away, and a fit on asked-for volts puts the blame on kA.",
+    "M-CLOSEDLOOP": "A closed loop chooses its own voltage. Then the test no longer decides what "
+    "the motor gets, and the fit describes your controller instead of your mechanism.",
+    "M-DUTY": "A duty cycle is a share of whatever the battery gives at that moment; a voltage is "
+    "the same with a full battery and with a tired one.",
+    "M-KS-INTERCEPT": "The straight line through a slow ramp crosses v = 0 above kS: the ramp "
+    "accelerates the mechanism all the time, and that costs kA·a on top.",
+    "M-NOISE-AVERAGES": "Noise in a column you fit with does not average out: it pulls the gain "
+    "of that column toward zero. Let the noisiest column be the one you explain.",
+    "M-REVERSE-WASTE": "The reverse runs show friction from the other side; without them kS is "
+    "only half seen.",
+    "M-R2": "There is more than one R²: say of which quantity, and look up how it is computed.",
+    "M-BIG-STEP": "A big step spins the wheels, meets the current limit and drains the battery. "
+    "A smaller one shows kA just as well.",
+    "M-SLOW-SAFE": "A slower ramp is not the safer one: it covers more ground on its way to the "
+    "same speed.",
+}

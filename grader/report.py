@@ -1,0 +1,123 @@
+"""What a learner is told: the verdict first, then what to do next. And the same as JSON."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+from grader.check import Result, Status
+from grader.course import Progress
+from grader.exercise import HINTS, Exercise, Grade
+from grader.misconception import MISCONCEPTIONS
+from grader.terminal import Line, Span, line, width, wrapped
+
+MARKS = {
+    Status.PASSED: ("✓", "green"),
+    Status.FAILED: ("✗", "red"),
+    Status.NOT_REACHED: ("–", "dim"),
+    Status.ERROR: ("!", "magenta"),
+}
+INDENT = "    "
+
+
+def to_json(grade: Grade) -> str:
+    """The grade as one line of JSON, in ASCII so that every terminal keeps it whole."""
+    names = ("exercise", "student", "score", "max_score", "status")
+    told = {name: getattr(grade, name) for name in names}
+    return json.dumps({**told, "checks": [asdict(result) for result in grade.checks]})
+
+
+def to_lines(grade: Grade, *, hints_shown: int = 0) -> list[Line]:
+    """The grade for a terminal."""
+    lines = [_verdict(grade), line()]
+    for result in grade.checks:
+        lines += _result(result)
+    if grade.status != "passed":
+        lines += [line(), line(_next_hint(grade.exercise, hints_shown), "cyan")]
+    return lines
+
+
+def _verdict(grade: Grade) -> Line:
+    passed = grade.status == "passed"
+    mark, style = MARKS[Status.PASSED if passed else Status.FAILED]
+    score = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points"
+    said = "all right" if passed else "not all right yet"
+    file = f"  ({grade.file.name})" if grade.file else ""
+    return (Span(f"{mark} {score}, {said}", f"bold {style}"), Span(file, "dim"))
+
+
+def _result(result: Result) -> list[Line]:
+    mark, style = MARKS[result.status]
+    points = f"{result.points:g} of {result.max_points:g}"
+    room = width() - len(points) - 1
+    rows = wrapped(result.description, lead=f"{mark} ")
+    first = "".join(span.text for span in rows[0])
+    if len(first) <= room:
+        rows[0] = (
+            Span(f"{mark} ", style),
+            Span(first[2:].ljust(room - 1)),
+            Span(points, style),
+        )
+    else:
+        rows.append((Span(points.rjust(width()), style),))
+    told = [("got", result.seen), ("try", result.hint)]
+    if result.status is Status.PASSED:
+        told = [("note", result.hint)]
+    if result.status in {Status.NOT_REACHED, Status.ERROR}:
+        told = [("", result.seen)]
+    told.append(("why", MISCONCEPTIONS.get(result.misconception, "")))
+    for word, text in told:
+        if text:
+            rows += wrapped(text, lead=f"{INDENT}{word.ljust(5) if word else ''}")
+    return rows
+
+
+def _next_hint(exercise: str, shown: int) -> str:
+    if shown >= len(HINTS):
+        return f"All {len(HINTS)} hints again: grade {exercise} --hint"
+    return f"Hint {shown + 1} of {len(HINTS)}: grade {exercise} --hint"
+
+
+def hint_lines(exercise: Exercise, *, shown: int) -> list[Line]:
+    """The next hint, or all of them once all have been shown.
+
+    Args:
+        exercise: whose hints.
+        shown: how many have been shown before.
+    """
+    if shown < len(exercise.hints):
+        return wrapped(exercise.hints[shown], lead=f"Hint {shown + 1} of {len(HINTS)}: ")
+    lines = [line(f"There are no more hints for {exercise.name}. All {len(HINTS)} again:")]
+    for number, hint in enumerate(exercise.hints, start=1):
+        lines += wrapped(hint, lead=f"  {number}. ")
+    return lines
+
+
+def overview(
+    course: Path, found: tuple[Exercise, ...], progress: Progress, *, student: str
+) -> list[Line]:
+    """Where a learner stands: lessons, exercises, and the next step."""
+    standings = [progress.of(student, one.name) for one in found]
+    done = sum(standing.done for standing in standings)
+    name = f" ({student})" if student != Progress().student else ""
+    lines = [line(f"{done} of {len(found)} exercises done{name}", "bold"), line()]
+    lessons = sorted((course / "lessons").glob("*.ipynb"))
+    lines += [line(f"  {lesson.parent.name}/{lesson.name}") for lesson in lessons]
+    lines += [line()] if lessons else []
+    for one, standing in zip(found, standings, strict=True):
+        tried = standing.max_score > 0
+        status = Status.PASSED if standing.done else Status.FAILED if tried else Status.NOT_REACHED
+        mark, style = MARKS[status]
+        score = f"{standing.score:g} of {standing.max_score:g}" if tried else "not tried yet"
+        room = width() - len(score) - 1
+        said = f"{one.name}  {one.title}"[: room - 3]
+        lines.append((Span(f"{mark} ", style), Span(said.ljust(room - 1)), Span(score, style)))
+    open_ones = [one for one, how in zip(found, standings, strict=True) if not how.done]
+    return [*lines, line(), *_next_step(open_ones)]
+
+
+def _next_step(open_ones: list[Exercise]) -> list[Line]:
+    if not open_ones:
+        return [line("Everything here is done.", "bold green")]
+    one = open_ones[0]
+    task = f"exercises/{one.name}/README.md"
+    return wrapped(f"read {task}, then: grade {one.name}", lead="Next: ", style="cyan")

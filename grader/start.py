@@ -1,0 +1,90 @@
+"""``grade start``: where you stand, your own data, and the first lesson in JupyterLab."""
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+from grader.course import Progress
+from grader.exercise import exercises
+from grader.report import overview
+from grader.terminal import line, show
+from sim.errors import BadRequest
+
+# Nothing leaves the machine: no news, no look for updates, no catalogue of extensions.
+QUIET = (
+    "--LabApp.news_url=None",
+    "--LabApp.check_for_updates_class=jupyterlab.handlers.announcements.NeverCheckForUpdate",
+    "--LabApp.extension_manager=readonly",
+)
+
+
+def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
+    """Show where a learner stands, make their data, and open the first lesson.
+
+    Args:
+        course: the course folder.
+        progress: what is known of the learner.
+        student: who.
+        lab: whether to open JupyterLab.
+
+    Returns:
+        The exit code.
+
+    Raises:
+        BadRequest: JupyterLab is wanted, and is not installed.
+    """
+    found = exercises(course)
+    show([line("Welcome to the SysId course.", "bold"), line()])
+    show([*overview(course, found, progress, student=student), line()])
+    sys.stdout.flush()
+    for one in found:
+        one.prepare(student, say=_say)
+    if not _on_path("grade"):
+        _say(f"To type grade and sysid in this terminal:  {activation(Path(sys.prefix))}")
+        _say("Or say  python -m grader exercise4  where the course says  grade exercise4")
+    lessons = sorted((course / "lessons").glob("*.ipynb"))
+    if not lab:
+        first = lessons[0].relative_to(course).as_posix() if lessons else "the first exercise"
+        _say(f"Ready. Begin with {first}; to open it in JupyterLab:  grade start")
+        return 0
+    return _open_lab(course, lessons[0] if lessons else course)
+
+
+def activation(prefix: Path, *, windows: bool = os.name == "nt") -> str:
+    """What to type to make a virtual environment's commands known to a terminal."""
+    if windows:
+        return rf"{prefix}\Scripts\activate"
+    return f"source {prefix}/bin/activate"
+
+
+def _on_path(command: str) -> bool:
+    return shutil.which(command) is not None
+
+
+def _open_lab(course: Path, what: Path) -> int:
+    if importlib.util.find_spec("jupyterlab") is None:
+        raise BadRequest(
+            "JupyterLab is not installed",
+            advice="Install it (python -m pip install jupyterlab), or: grade start --no-lab",
+        )
+    place = what.relative_to(course).as_posix()
+    _say("Opening JupyterLab in your browser. To end it: Ctrl-C here, twice.")
+    sys.stdout.flush()
+    scripts = sysconfig.get_path("scripts")
+    paths = os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part)
+    command = [sys.executable, "-m", "jupyterlab", *QUIET, place]
+    lab = subprocess.Popen(command, cwd=course, env={**os.environ, "PATH": paths})  # noqa: S603 - our own arguments, no shell
+    while True:
+        try:
+            return 0 if lab.wait() in {0, 130, -2} else 2
+        except KeyboardInterrupt:
+            continue  # it goes to JupyterLab too, which asks before it ends
+
+
+def _say(text: str) -> None:
+    show([line(text)])
+    sys.stdout.flush()

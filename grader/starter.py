@@ -1,0 +1,36 @@
+"""The file a learner starts from is the solution with its answers taken out.
+
+In a solution an answer stands between two comments, in Python or in Java::
+
+    # --- answer: give the routine its three numbers
+    config = SysIdRoutine.Config(0.5, 3.5, 10.0)
+    # --- end
+
+becomes ``# TODO: give the routine its three numbers``.
+"""
+
+import re
+
+ANSWER = re.compile(
+    r"^(?P<margin>[ \t]*)(?P<mark>#|//) --- answer: (?P<task>[^\n]+)\n"
+    r"(?P<more>(?:[ \t]*(?:#|//) ---   [^\n]+\n)*)"
+    r".*?"
+    r"^[ \t]*(?:#|//) --- end[^\n]*\n",
+    re.MULTILINE | re.DOTALL,
+)
+
+
+def blank(solution: str) -> str:
+    """Take the answers out of a solution, and leave what is to be done in their place.
+
+    A task may go on over several lines, each under ``# ---   ``.
+    """
+    return ANSWER.sub(_to_do, solution)
+
+
+def _to_do(answer: re.Match[str]) -> str:
+    margin, mark = answer["margin"], answer["mark"]
+    more = re.sub(
+        r"^[ \t]*(?:#|//) ---   ", f"{margin}{mark}       ", answer["more"], flags=re.MULTILINE
+    )
+    return f"{margin}{mark} TODO: {answer['task']}\n{more}"

@@ -1,0 +1,120 @@
+"""What a learner hands in: which file it is, and its text, or a refusal that says why not."""
+
+import re
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+
+from sim.errors import UnreadableFile
+
+LARGEST = 1_000_000  # [bytes] robot code and answers are far smaller; a log or a picture is not
+MANY = 40  # files in one folder to look through; more than that take long, and are a whole project
+
+
+def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
+    """The files to grade.
+
+    Args:
+        given: the file or folder the learner named; None takes the exercise's own files.
+        folder: the exercise's folder.
+        names: what the exercise's own files are called, the preferred one first.
+
+    Raises:
+        UnreadableFile: there is nothing there, or nothing of the right kind.
+    """
+    if given is None:
+        return _own(folder, names)
+    if not given.exists():
+        raise UnreadableFile(
+            "there is no such file", where=str(given), advice=f"Look for it: {', '.join(names)}."
+        )
+    if not given.is_dir():
+        return (given,)
+    own = [given / name for name in names if (given / name).is_file()]
+    endings = {Path(name).suffix for name in names}
+    like = sorted(file for file in given.iterdir() if file.suffix in endings and file.is_file())
+    if not own and not 0 < len(like) <= MANY:
+        raise UnreadableFile(
+            f"{len(like) or 'no'} {' or '.join(sorted(endings))} file in this folder",
+            where=str(given),
+            advice="Name the file itself.",
+        )
+    return tuple(own or like)
+
+
+def _own(folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
+    found = tuple(folder / name for name in names if (folder / name).is_file())
+    if not found:
+        raise UnreadableFile(
+            f"{' and '.join(names)} not found", where=str(folder), advice=_back(folder, names[0])
+        )
+    return found
+
+
+def read_text(path: Path) -> str:
+    """The text of a file that was handed in.
+
+    Raises:
+        UnreadableFile: it is missing, not to be opened, empty, too large, or not text.
+    """
+    try:
+        if path.stat().st_size > LARGEST:
+            raise UnreadableFile(
+                f"{path.stat().st_size / 1e6:.0f} MB is too large for an answer",
+                where=str(path),
+                advice="Name the file you wrote: is this a log, or the whole project?",
+            )
+        raw = path.read_bytes()
+    except OSError as error:
+        reason = (error.strerror or type(error).__name__).lower()
+        raise UnreadableFile(
+            f"cannot be opened: {reason}", where=str(path), advice="Look at the name once more."
+        ) from None
+    if not raw.strip():
+        advice = "Write your answer into it. " + _back(path.parent, path.name)
+        raise UnreadableFile("the file is empty", where=str(path), advice=advice)
+    text = _decoded(raw)
+    if text is None:
+        raise UnreadableFile(
+            "this is not text", where=str(path), advice="Save it as text, in UTF-8."
+        )
+    return text
+
+
+def read_answers(path: Path) -> dict[str, object]:
+    """The answers in a TOML file, by name.
+
+    Raises:
+        UnreadableFile: it cannot be read, or is not TOML; the message names the line.
+    """
+    text = read_text(path)
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        found = re.search(r"line (\d+)", str(error))
+        number = int(found[1]) if found else text.count("\n") + 1
+        rows = text.splitlines()
+        row = rows[min(number, len(rows)) - 1].strip()
+        what = f"{row!r} cannot be read"
+        advice = 'Every line is a name, = and a number: kV = 0.5 or, with a unit, kV = "0.5 V·s/m".'
+        if re.search(r"\d,\d", row):
+            advice = 'Write a decimal point, 0.5, or put quotes around the decimal comma: "0,5".'
+        elif re.fullmatch(r"[\w.]+\s*=\s*(#.*)?", row):
+            what = f"nothing stands after {row.partition('=')[0].strip()} ="
+            advice = 'Write a number there, or "" as long as you have none.'
+        raise UnreadableFile(what, where=f"{path}, line {number}", advice=advice) from None
+
+
+def _decoded(raw: bytes) -> str | None:
+    """UTF-8, with or without a mark, or the UTF-16 that some Windows editors write; else None."""
+    encoding = "utf-16" if raw.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8-sig"
+    try:
+        text = raw.decode(encoding)
+    except UnicodeDecodeError:
+        return None
+    return None if "\0" in text else text
+
+
+def _back(folder: Path, name: str) -> str:
+    path = f"{folder.parent.name}/{folder.name}/{name}"
+    return f"To get the file back as it was: git checkout -- {path}"

@@ -1,0 +1,97 @@
+"""Lines of text for a terminal: colored where one looks at it, plain where a program reads it.
+
+A terminal or a file whose encoding lacks a sign gets one that says the same in plain letters.
+"""
+
+import codecs
+import io
+import os
+import shutil
+import sys
+import textwrap
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+WIDEST = 80  # [columns] longer lines are harder to read
+NARROWEST = 40  # [columns] below this, words would stand alone
+
+PLAIN = str.maketrans(
+    {
+        "✓": "+", "✗": "x", "→": ">", "–": "-", "—": "-", "…": "...", "×": "x", "·": "*",
+        "²": "^2", "³": "^3", "±": "+-", "≈": "~", "≥": ">=", "≤": "<=", "π": "pi", "τ": "tau",
+        "−": "-", "“": '"', "”": '"', "’": "'", "°": "deg", "α": "alpha", "θ": "theta",
+    }
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Span:
+    """A piece of a line in one style, as rich names it: ``bold green``."""
+
+    text: str
+    style: str = ""
+
+
+Line = tuple[Span, ...]
+
+
+def line(text: str = "", style: str = "") -> Line:
+    """A line in one style."""
+    return (Span(text, style),)
+
+
+def wrapped(text: str, *, lead: str, style: str = "") -> list[Line]:
+    """A text under a lead of its own, broken into lines that fit.
+
+    Args:
+        text: what to say; a line break in it stays.
+        lead: what the first line starts with; the others are indented as far.
+        style: of the text.
+    """
+    room = width() - len(lead)
+    rows = [
+        row
+        for paragraph in text.splitlines() or [""]
+        for row in textwrap.wrap(paragraph, room, break_long_words=False) or [""]
+    ]
+    leads = [lead] + [" " * len(lead)] * (len(rows) - 1)
+    return [(Span(head), Span(row, style)) for head, row in zip(leads, rows, strict=True)]
+
+
+def width() -> int:
+    """How wide a line may be."""
+    return max(NARROWEST, min(WIDEST, shutil.get_terminal_size((WIDEST, 24)).columns))
+
+
+def show(lines: Iterable[Line]) -> None:
+    """Print lines to standard output."""
+    if not sys.stdout.isatty() or "NO_COLOR" in os.environ:
+        for spans in lines:
+            print("".join(span.text for span in spans).rstrip())  # noqa: T201 - a command prints
+        return
+    from rich.console import Console  # noqa: PLC0415 - a pipe needs no colors, and starts sooner
+    from rich.text import Text  # noqa: PLC0415 - the same
+
+    console = Console(highlight=False, soft_wrap=True)
+    for spans in lines:
+        console.print(Text.assemble(*((span.text, span.style) for span in spans)))
+
+
+def complain(said: str) -> None:
+    """One line to standard error."""
+    print(f"grade: {' '.join(said.split())}", file=sys.stderr)  # noqa: T201 - a command prints
+
+
+def any_encoding() -> None:
+    """Let both streams print anything: a sign their encoding lacks becomes plain letters."""
+    codecs.register_error("plain", _plainly)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="plain")
+
+
+def _plainly(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    lacking = error.object[error.start : error.end].translate(PLAIN)
+    return lacking.encode("ascii", "replace").decode("ascii"), error.end

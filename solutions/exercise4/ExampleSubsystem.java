@@ -1,0 +1,59 @@
+package frc.robot.subsystems;
+
+import static edu.wpi.first.units.Units.Meters;
+import static edu.wpi.first.units.Units.MetersPerSecond;
+import static edu.wpi.first.units.Units.Second;
+import static edu.wpi.first.units.Units.Seconds;
+import static edu.wpi.first.units.Units.Volts;
+
+import com.ctre.phoenix6.hardware.TalonFX;
+import edu.wpi.first.units.measure.Voltage;
+import edu.wpi.first.wpilibj.sysid.SysIdRoutineLog;
+import edu.wpi.first.wpilibj2.command.SubsystemBase;
+import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine;
+
+/** A drivetrain with one motor on each side, ready to be characterized. */
+public class ExampleSubsystem extends SubsystemBase {
+  private static final double METERS_PER_ROTATION = 0.0472; // of the motor: wheel and gears
+
+  private final TalonFX m_left = new TalonFX(1);
+  private final TalonFX m_right = new TalonFX(2);
+
+  // --- answer: 1. The field of type SysIdRoutine. Its Config says 0.5 V/s, 3.5 V and 10 s; its
+  // ---   Mechanism knows the two methods below, drive and record, and this subsystem.
+  private final SysIdRoutine m_routine =
+      new SysIdRoutine(
+          new SysIdRoutine.Config(Volts.of(0.5).per(Second), Volts.of(3.5), Seconds.of(10)),
+          new SysIdRoutine.Mechanism(this::drive, this::record, this));
+  // --- end
+
+  /** Called in every loop of a test with the voltage the test wants. */
+  private void drive(Voltage voltage) {
+    // --- answer: 2. Send this voltage to both motors.
+    m_left.setVoltage(voltage.in(Volts));
+    m_right.setVoltage(voltage.in(Volts));
+    // --- end
+  }
+
+  /** Called right after drive: write down what the motors did. */
+  private void record(SysIdRoutineLog log) {
+    // --- answer: 3. For each motor: its name, the voltage it got, its position and its velocity.
+    log.motor("left")
+        .voltage(Volts.of(m_left.getMotorVoltage().getValueAsDouble()))
+        .linearPosition(Meters.of(getMeters(m_left)))
+        .linearVelocity(MetersPerSecond.of(getMetersPerSecond(m_left)));
+    log.motor("right")
+        .voltage(Volts.of(m_right.getMotorVoltage().getValueAsDouble()))
+        .linearPosition(Meters.of(getMeters(m_right)))
+        .linearVelocity(MetersPerSecond.of(getMetersPerSecond(m_right)));
+    // --- end
+  }
+
+  private double getMeters(TalonFX motor) {
+    return motor.getPosition().getValueAsDouble() * METERS_PER_ROTATION;
+  }
+
+  private double getMetersPerSecond(TalonFX motor) {
+    return motor.getVelocity().getValueAsDouble() * METERS_PER_ROTATION;
+  }
+}

@@ -1,0 +1,214 @@
+"""Wrong answers to exercise 4, and what a learner must be told about each."""
+
+from grader.mistake import Mistake, replacing
+
+JAVA, PYTHON = "ExampleSubsystem.java", "example_subsystem.py"
+
+CONFIG = "new SysIdRoutine.Config(Volts.of(0.5).per(Second), Volts.of(3.5), Seconds.of(10))"
+MECHANISM = "new SysIdRoutine.Mechanism(this::drive, this::record, this)"
+LEFT, RIGHT = "m_left.setVoltage(voltage.in(Volts))", "m_right.setVoltage(voltage.in(Volts))"
+APPLIED_LEFT = "Volts.of(m_left.getMotorVoltage().getValueAsDouble())"
+
+MISTAKES = (
+    Mistake(
+        "the routine is never made",
+        JAVA,
+        replacing(
+            ("private final SysIdRoutine m_routine =\n      new SysIdRoutine(\n", ""),
+            (f"          {CONFIG},\n", ""),
+            (f"          {MECHANISM});\n", ""),
+        ),
+        "routine",
+        "no SysIdRoutine in ExampleSubsystem",
+    ),
+    Mistake(
+        "a ramp in volts",
+        JAVA,
+        replacing(("Volts.of(0.5).per(Second)", "Volts.of(0.5)")),
+        "ramp",
+        "The ramp is in V/s",
+        "M-UNITS",
+    ),
+    Mistake(
+        "half a volt by dividing whole numbers",
+        JAVA,
+        replacing(("Volts.of(0.5)", "Volts.of(1 / 2)")),
+        "ramp",
+        "1 / 2 is 0",
+    ),
+    Mistake(
+        "a slower ramp, to be on the safe side",
+        PYTHON,
+        replacing(("rampRate=0.5", "rampRate=0.25")),
+        "ramp",
+        "Slower is not safer",
+        "M-SLOW-SAFE",
+    ),
+    Mistake(
+        "a ramp left to WPILib",
+        JAVA,
+        replacing(("Volts.of(0.5).per(Second)", "null")),
+        "ramp",
+        "WPILib's default, 1 V/s",
+    ),
+    Mistake(
+        "the step of the lesson's example",
+        JAVA,
+        replacing(("Volts.of(3.5)", "Volts.of(3.0)")),
+        "step",
+        "3 V is the lesson's own example",
+    ),
+    Mistake(
+        "a step left to WPILib",
+        JAVA,
+        replacing(("Volts.of(3.5)", "null")),
+        "step",
+        "7 V, WPILib's default, is almost always too much",
+        "M-BIG-STEP",
+    ),
+    Mistake(
+        "a step that only running the code could tell",
+        PYTHON,
+        replacing(("stepVoltage=3.5", "stepVoltage=load_step()")),
+        "step",
+        "I cannot tell the step voltage by reading load_step()",
+    ),
+    Mistake(
+        "a timeout of one minute",
+        JAVA,
+        replacing(("Seconds.of(10)", "Minutes.of(1)")),
+        "timeout",
+        "60 s",
+    ),
+    Mistake(
+        "a share of the battery, Java",
+        JAVA,
+        replacing(
+            (LEFT, "m_left.set(voltage.in(Volts) / 12.0)"),
+            (RIGHT, "m_right.set(voltage.in(Volts) / 12.0)"),
+        ),
+        "open-loop",
+        "setVoltage(voltage), undivided",
+        "M-DUTY",
+    ),
+    Mistake(
+        "a share of the battery, Python",
+        PYTHON,
+        replacing(
+            ("self.left.setVoltage(voltage)", "self.left.set(voltage / 12)"),
+            ("self.right.setVoltage(voltage)", "self.right.set(voltage / 12)"),
+        ),
+        "drive",
+        "takes the volts as they come",
+        "M-DUTY",
+    ),
+    Mistake(
+        "volts divided by twelve and sent as volts",
+        JAVA,
+        replacing((LEFT, "m_left.setVoltage(voltage.in(Volts) / 12)")),
+        "drive",
+        "takes the volts as they come",
+        "M-DUTY",
+    ),
+    Mistake(
+        "a closed loop in the drive callback",
+        JAVA,
+        replacing(
+            (LEFT, "m_left.setControl(new VelocityVoltage(voltage.in(Volts)))"),
+            (RIGHT, "m_right.setControl(new VelocityVoltage(voltage.in(Volts)))"),
+        ),
+        "open-loop",
+        "leave every controller out",
+        "M-CLOSEDLOOP",
+    ),
+    Mistake(
+        "only one of two motors driven",
+        JAVA,
+        replacing((f"    {RIGHT};\n", "")),
+        "drive",
+        "m_right gets no voltage",
+    ),
+    Mistake(
+        "always the same voltage",
+        PYTHON,
+        replacing(("setVoltage(voltage)", "setVoltage(3.5)")),
+        "drive",
+        "the same whatever the test asks for",
+    ),
+    Mistake(
+        "no log callback",
+        JAVA,
+        replacing(("this::record", "null")),
+        "log",
+        "null in place of the log callback",
+    ),
+    Mistake(
+        "the voltage that was asked for in the log",
+        JAVA,
+        replacing(
+            (
+                "  /** Called in every loop",
+                "  private double m_asked;\n\n  /** Called in every loop",
+            ),
+            (f"    {LEFT};", f"    m_asked = voltage.in(Volts);\n    {LEFT};"),
+            (APPLIED_LEFT, "Volts.of(m_asked)"),
+        ),
+        "log",
+        "the voltage that was asked for",
+        "M-CMDVOLT",
+    ),
+    Mistake(
+        "no velocity in the log",
+        PYTHON,
+        replacing((".velocity(self.left_encoder.getRate())", "")),
+        "log",
+        "no velocity of left",
+    ),
+    Mistake(
+        "the position in meters, the velocity in rotations",
+        JAVA,
+        replacing(
+            (
+                ".linearVelocity(MetersPerSecond.of(getMetersPerSecond(m_left)))",
+                ".angularVelocity(RotationsPerSecond.of(m_left.getVelocity().getValueAsDouble()))",
+            )
+        ),
+        "units",
+        "Choose one kind for all",
+        "M-UNITS",
+    ),
+    Mistake(
+        "an arm in meters",
+        PYTHON,
+        replacing(("ExampleSubsystem", "ArmSubsystem")),
+        "units",
+        "moves in Rotations or Radians",
+        "M-UNITS",
+    ),
+    Mistake(
+        "the two arguments swapped",
+        JAVA,
+        replacing(
+            (CONFIG, "CONFIG"),
+            (MECHANISM, CONFIG),
+            ("CONFIG,", f"{MECHANISM},"),
+        ),
+        "assembled",
+        "First the Config, then the Mechanism",
+        "M-ARGORDER",
+    ),
+    Mistake(
+        "the subsystem forgotten",
+        JAVA,
+        replacing((", this))", ", null))")),
+        "assembled",
+        "does not get this",
+    ),
+    Mistake(
+        "a class that is no subsystem",
+        PYTHON,
+        replacing(("class ExampleSubsystem(Subsystem)", "class ExampleSubsystem")),
+        "assembled",
+        "not a subsystem",
+    ),
+)
