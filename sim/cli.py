@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.command import DONE, NOT_RIGHT, run
+from sim.errors import Refusal
 from sim.feedback import PRESETS
 from sim.units import UNITS
 from sim.vocabulary import METHODS, TYPES
@@ -67,9 +68,14 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     built = find(mechanism)
     routine = Routine(ramp=ramp, step=step, timeout=timeout)
     log = record(built, routine, rng=np.random.default_rng(seed), period=period)
-    write(log, output)
     if truth:
         write_truth(built, routine, path=truth)
+    try:
+        write(log, output)
+    except Refusal:
+        if truth:  # the truth of a log that is not there would only mislead
+            truth.unlink()
+        raise
     samples = sum(len(part) for part in log.runs)
     click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: sysid fit {output}")
 

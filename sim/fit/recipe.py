@@ -12,6 +12,7 @@ from sim.prepare import Prepared, prepare
 from sim.units import unit
 
 DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA dubious
+SURELY = 2.0  # [standard errors] further below zero than this is no accident of noise
 UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
 
@@ -68,7 +69,7 @@ def sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A002 - SysId
 def _doubts(
     log: Log, prepared: Prepared, found: Regression, simulated: tuple[Simulated, ...]
 ) -> list[Doubt]:
-    doubts = [*_repeats(log), *_signs(found.gains)]
+    doubts = [*_repeats(log), *_signs(found.gains, found.errors)]
     if found.r2 < DUBIOUS_R2:
         doubts.append(
             Doubt(
@@ -127,7 +128,7 @@ def _repeats(log: Log) -> list[Doubt]:
     return doubts
 
 
-def _signs(gains: Mapping[str, float]) -> list[Doubt]:
+def _signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
     if gains["kV"] < 0 and gains["kA"] < 0:
         return [
             Doubt(
@@ -147,7 +148,11 @@ def _signs(gains: Mapping[str, float]) -> list[Doubt]:
         "kG": "gravity should pull the mechanism back. Is forward up in this log?",
     }
     return [
-        Doubt("negative-gain", f"{gain} = {gains[gain]:.3g} is negative: {why}.", grave=True)
+        Doubt(
+            "negative-gain",
+            f"{gain} = {gains[gain]:.3g} is negative: {why}.",
+            grave=gains[gain] + SURELY * errors[gain] < 0,
+        )
         for gain, why in cause.items()
         if gains.get(gain, 1.0) < 0
     ]

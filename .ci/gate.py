@@ -1,0 +1,166 @@
+"""The gate: the README's two commands as printed there, then lint, types and import contracts.
+
+Everything runs in a virtual environment made for this run, so nothing that happens to be installed
+on the machine can help.
+"""
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import venv
+from pathlib import Path
+from typing import NoReturn
+from urllib.error import URLError
+from urllib.request import urlopen
+
+ROOT = Path(__file__).resolve().parents[1]
+SCREEN = 10.0  # [s] from the end of the install to the first useful screen
+PATIENCE = 900.0  # [s] for one command
+SCREEN_SAYS = "Next step"  # what only the first useful screen says
+INSTALLED_SAYS = "Installed"  # what ends the install
+JUPYTER_SAYS = re.compile(r"http://(?:127\.0\.0\.1|localhost):\d+/\S*")
+
+
+def main() -> None:
+    """Run every step; leave with 1 at the first that fails."""
+    started = time.monotonic()
+    browser()
+    with tempfile.TemporaryDirectory(prefix="gate-") as folder:
+        environment = fresh_environment(Path(folder) / "env")
+        start, test = commands()
+        say(f"README, first command: {start}")
+        watch(start, environment)
+        say(f"README, second command: {test}")
+        run(shlex.split(test), environment)
+        for step in (
+            "ruff check .",
+            "ruff format --check .",
+            "mypy",
+            "lint-imports",
+        ):
+            say(step)
+            run(step.split(), environment)
+    say(f"all green after {time.monotonic() - started:.0f} s")
+
+
+def say(line: str) -> None:
+    """Print a step's name at once."""
+    print(f"\n=== {line}", flush=True)
+
+
+def commands() -> tuple[str, str]:
+    """The README's two set-up commands, word for word."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    section = text.partition("\n## Set up\n")[2].partition("\n## ")[0]
+    found = [block.strip() for block in re.findall(r"```shell\n(.*?)```", section, flags=re.DOTALL)]
+    if len(found) != 2 or any("\n" in command for command in found):  # noqa: PLR2004 - two it says
+        fail(f"README.md, 'Set up': expected two shell blocks of one line each, found {found}")
+    return found[0], found[1]
+
+
+def fresh_environment(folder: Path) -> dict[str, str]:
+    """Make a virtual environment and the process environment that enters it."""
+    venv.create(folder, with_pip=True)
+    scripts = folder / ("Scripts" if os.name == "nt" else "bin")
+    kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "PIP_REQUIRE"))}
+    return kept | {
+        "PATH": f"{scripts}{os.pathsep}{os.environ['PATH']}",
+        "VIRTUAL_ENV": str(folder),
+        "JUPYTER_CONFIG_DIR": str(folder / "jupyter"),
+    }
+
+
+def run(command: list[str], environment: dict[str, str]) -> None:
+    """Run a command in the project's folder; its failure is ours."""
+    program = shutil.which(command[0], path=environment["PATH"]) or fail(f"no {command[0]} on PATH")
+    code = subprocess.run(
+        [program, *command[1:]], cwd=ROOT, env=environment, check=False, timeout=PATIENCE
+    ).returncode
+    if code:
+        fail(f"{shlex.join(command)} left with exit code {code}")
+
+
+def watch(command: str, environment: dict[str, str]) -> None:
+    """Run the command that ends in JupyterLab until the lab answers, then close it."""
+    words = shlex.split(command)
+    program = shutil.which(words[0], path=environment["PATH"]) or fail(f"no {words[0]} on PATH")
+    running = subprocess.Popen(
+        [program, *words[1:]],
+        cwd=ROOT,
+        env=environment | {"BROWSER": "true", "PYTHONUNBUFFERED": "1"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        errors="replace",
+    )
+    installed, screen, address = time.monotonic(), None, None
+    try:
+        assert running.stdout is not None  # noqa: S101 - a pipe was asked for
+        for line in running.stdout:
+            print(line, end="", flush=True)
+            if INSTALLED_SAYS in line:
+                installed = time.monotonic()
+            if SCREEN_SAYS in line and screen is None:
+                screen = time.monotonic() - installed
+            found = JUPYTER_SAYS.search(line)
+            if found:
+                address = found.group()
+                break
+        if screen is None or address is None:
+            fail(f"{command}: the first screen or JupyterLab never came")
+        answers(address)
+    finally:
+        running.terminate()
+        try:
+            running.wait(30)
+        except subprocess.TimeoutExpired:
+            running.kill()
+    print(f"first useful screen {screen:.1f} s after the install; JupyterLab answers")
+    if screen > SCREEN:
+        fail(f"the first useful screen took {screen:.1f} s, more than {SCREEN:g}")
+
+
+def answers(address: str) -> None:
+    """Wait until a page is served there."""
+    for _ in range(60):
+        try:
+            with urlopen(address, timeout=5) as page:  # noqa: S310 - our own server's address
+                if page.status == 200:  # noqa: PLR2004 - HTTP's "OK"
+                    return
+        except (URLError, ConnectionError, TimeoutError):
+            time.sleep(0.5)
+    fail(f"JupyterLab said {address}, and nothing answers there")
+
+
+def browser() -> None:
+    """Install Chromium for the browser tests where the machine allows it; they skip without."""
+    names = ("chromium", "chromium-browser", "google-chrome", "chrome")
+    if any(map(shutil.which, names)):
+        return
+    apt = shutil.which("apt-get")
+    if not apt or os.geteuid() != 0:
+        say("no Chromium here and no way to install one: browser tests will be skipped")
+        return
+    say("installing Chromium for the browser tests")
+    for step in ("update -q", "install -q -y --no-install-recommends chromium"):
+        subprocess.run(
+            [apt, *step.split()],
+            check=True,
+            stdout=subprocess.DEVNULL,
+            env=os.environ | {"DEBIAN_FRONTEND": "noninteractive"},
+        )
+
+
+def fail(line: str) -> NoReturn:
+    """Leave with one line that says what broke."""
+    print(f"\ngate: {line}", file=sys.stderr, flush=True)
+    sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,71 @@
+"""The frame of both commands: what a person sees when something goes wrong, and the exit code."""
+
+import click
+import pytest
+
+from sim.command import run
+from sim.errors import BadRequest
+
+
+def command(outcome):
+    """A command that does what ``outcome`` does."""
+    return click.Command("try", callback=outcome)
+
+
+def raiser(error):
+    def outcome():
+        raise error
+
+    return outcome
+
+
+@pytest.mark.parametrize(
+    ("outcome", "code"),
+    [(lambda: None, 0), (lambda: 0, 0), (lambda: 1, 1), (raiser(KeyboardInterrupt()), 130)],
+    ids=["nothing said", "done", "not right", "Ctrl+C"],
+)
+def test_a_command_leaves_with_the_code_its_work_earned(outcome, code, capsys):
+    with pytest.raises(SystemExit) as left:
+        run(command(outcome), name="try", arguments=[])
+
+    assert left.value.code == code
+    assert capsys.readouterr().err.strip() == ""  # click ends the line of a typed ^C
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (
+            BadRequest("too  much", where="x.csv", advice="Ask\nless."),
+            "try: x.csv: too much. Ask less.",
+        ),
+        (MemoryError(), "try: this needs more memory than there is. Try a smaller file."),
+        (ZeroDivisionError("by zero"), "try: our mistake, not yours (ZeroDivisionError: by zero)."),
+        (click.ClickException("No."), "try: No."),
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_whatever_goes_wrong_is_one_line_and_exit_code_2(error, said, capsys):
+    with pytest.raises(SystemExit) as left:
+        run(command(raiser(error)), name="try", arguments=[])
+
+    shown = capsys.readouterr()
+    assert left.value.code == 2
+    assert shown.out == ""
+    assert shown.err.startswith(said)
+    assert shown.err.count("\n") == 1
+
+
+def test_a_wrong_option_names_the_help_to_read(capsys):
+    with pytest.raises(SystemExit) as left:
+        run(command(lambda: None), name="try", arguments=["--wrong"])
+
+    assert left.value.code == 2
+    assert capsys.readouterr().err == "try: No such option '--wrong'. See 'try --help'.\n"
+
+
+def test_a_developer_can_have_the_traceback(monkeypatch):
+    monkeypatch.setenv("SYSID_TRACEBACK", "1")
+
+    with pytest.raises(ZeroDivisionError):
+        run(command(raiser(ZeroDivisionError())), name="try", arguments=[])

@@ -1,0 +1,140 @@
+"""The waist: what a Run and a Log promise to everybody on both sides of it."""
+
+import math
+
+import numpy as np
+import pytest
+
+from sim.doubt import Doubt
+from sim.errors import BadRequest, BadSample
+from sim.format import sound_run
+from sim.log import Log, Run
+from sim.units import UNITS, unit
+
+
+def run(**changes):
+    signals = {
+        "test": "dynamic-forward",
+        "time": [0.0, 0.02, 0.04],
+        "voltage": [0.0, 7.0, 7.0],
+        "position": [0.0, 0.0, 0.01],
+        "velocity": [0.0, 0.0, 0.5],
+    }
+    return Run(**(signals | changes))
+
+
+def test_a_run_cannot_be_changed_through_its_arrays_or_theirs():
+    mine = np.array([0.0, 7.0, 7.0])
+    made = run(voltage=mine)
+    mine[0] = 12.0
+
+    assert made.voltage[0] == 0.0
+    with pytest.raises(ValueError, match="read-only"):
+        made.voltage[0] = 12.0
+
+
+def test_a_run_knows_its_kind_and_direction():
+    made = run(test="quasistatic-reverse")
+
+    assert (made.kind, made.direction, len(made)) == ("quasistatic", "reverse", 3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"velocity": [0.0, math.nan, 0.5]}, "velocity is nan at sample 1. Remove that sample"),
+        ({"voltage": [0.0, math.inf, 7.0]}, "voltage is inf at sample 1"),
+        ({"position": [0.0, 1e12, 0.0]}, "position is 1e+12 at sample 1"),
+        ({"position": [0.0, 1.0]}, "position has shape (2,) where time has 3 samples"),
+        ({"time": [0.0, 0.02, 0.02]}, "time does not increase at sample 2 (t = 0.02 s)"),
+        ({"current": [1.0]}, "current has shape (1,)"),
+    ],
+    ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
+)
+def test_what_cannot_be_a_measurement_is_refused_with_its_place(changes, said):
+    with pytest.raises(BadSample) as refused:
+        run(**changes)
+
+    assert said in str(refused.value)
+    assert str(refused.value).startswith("dynamic-forward: ")
+
+
+def test_a_test_nobody_knows_is_refused_with_those_that_exist():
+    with pytest.raises(BadRequest, match=r"'wobble' is not the name.*quasistatic\|dynamic"):
+        run(test="wobble")
+
+
+def test_a_log_finds_its_runs_by_test():
+    log = Log((run(), run(test="dynamic-reverse"), run()), units="Rotations")
+
+    assert len(log.of("dynamic-forward")) == 2
+    assert log.of("coast-forward") == ()
+    assert log.units == "rotations"
+
+
+def test_two_logs_join_unless_one_is_an_angle():
+    meters = Log((run(),), source="a.csv")
+    turned = Log((run(),), units="degrees", source="b.csv")
+
+    assert len(meters.and_also(Log((run(),), units="feet")).runs) == 2
+    with pytest.raises(BadRequest, match=r"a\.csv is in meters, b\.csv in degrees. Fit one mech"):
+        meters.and_also(turned)
+
+
+def test_doubts_travel_with_the_log():
+    doubt = Doubt("odd", "This is odd.")
+
+    assert Log((run(),)).with_doubts(doubt).doubts == (doubt,)
+
+
+@pytest.mark.parametrize("type_", ["crane", "Simple"])
+def test_a_log_of_no_known_type_is_refused(type_):
+    with pytest.raises(BadRequest, match="Choose one of: simple, elevator, arm"):
+        Log((run(),), type=type_)
+
+
+def test_raw_columns_become_si_and_repeated_times_are_said():
+    signals = {
+        "time": np.array([0.0, 0.02, 0.02, 0.04]),
+        "voltage": np.ones(4),
+        "position": np.array([0.0, 0.5, 0.5, 1.0]),
+        "velocity": np.array([0.0, 1.0, 9.0, 2.0]),
+    }
+
+    made, doubts = sound_run("coast-forward", signals, si=2.0, where="x.csv")
+
+    assert made.velocity.tolist() == [0.0, 2.0, 4.0]
+    assert made.position.tolist() == [0.0, 1.0, 2.0]
+    (doubt,) = doubts
+    assert "1 of 4 samples repeat the time" in doubt.message
+
+
+def test_raw_columns_are_refused_with_file_run_and_time():
+    signals = dict.fromkeys(("time", "voltage", "position"), np.arange(3.0))
+
+    with pytest.raises(BadSample) as refused:
+        sound_run(
+            "coast-forward",
+            signals | {"velocity": np.array([0, 1, math.nan])},
+            si=1.0,
+            where="x.csv",
+        )
+
+    assert str(refused.value) == (
+        "x.csv, coast-forward: velocity is nan at sample 2 (t = 2 s). "
+        "Remove that sample, or record the run again."
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "si"),
+    [("feet", 0.3048), ("inches", 0.0254), ("rotations", 2 * math.pi), ("degrees", math.pi / 180)],
+)
+def test_units_are_worth_what_they_are(name, si):
+    assert UNITS[name].si == pytest.approx(si, rel=1e-15)
+    assert unit(f" {name.upper()} ") is UNITS[name]
+
+
+def test_an_unknown_unit_lists_the_known():
+    with pytest.raises(BadRequest, match="Choose one of: meters, feet, inches, radians"):
+        unit("furlongs")

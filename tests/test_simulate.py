@@ -1,0 +1,246 @@
+"""The bench: a mechanism under a routine, against the closed form and against WPILib's loops."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sim.errors import BadRequest
+from sim.fit import fit
+from sim.log import FOUR_TESTS
+from sim.mechanism import Sensor
+from sim.mechanisms import MECHANISMS, mechanism
+from sim.motors import MOTORS, motor, theoretical_kv
+from sim.routine import Routine
+from sim.simulate import motion, read, simulate
+
+GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
+QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)
+
+
+def rng():
+    return np.random.default_rng(7)
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
+@pytest.mark.parametrize("seed", range(5))
+def test_a_mechanism_drawn_at_random_is_fitted_to_its_own_truth(name, seed):
+    drawn = MECHANISMS[name].draw(np.random.default_rng(seed))
+    log = simulate(drawn, Routine(ramp=0.5, step=3.5), rng=np.random.default_rng(seed))
+
+    gains = fit(log).gains
+
+    assert gains["kV"] == pytest.approx(drawn.gains["kV"], rel=0.01)
+    assert gains["kA"] == pytest.approx(drawn.gains["kA"], rel=0.05)
+    assert gains["kS"] == pytest.approx(drawn.gains["kS"], abs=0.03)
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_a_mechanism_says_what_it_is(name):
+    built = MECHANISMS[name]
+
+    assert built.name == name
+    assert built.summary
+    assert all(value > 0 for value in built.gains.values())
+    for field, (least, most) in built.spread.items():
+        assert least < most, field
+        assert 0.0 <= getattr(built, field) <= most, field
+
+
+def test_an_unknown_mechanism_lists_the_known():
+    with pytest.raises(BadRequest, match="Choose one of: drivetrain, shooter"):
+        mechanism("trebuchet")
+
+
+def test_the_drivetrain_has_the_theory_of_its_parts():
+    # by hand: Ke·G/r and R·r/(n·Kt·G)·m, from WPILib's figures of the Kraken X60
+    r, kt = 12 / 366, 7.09 / 366
+    ke = (12 - r * 2) / (6000 * 2 * math.pi / 60)
+
+    gains = MECHANISMS["drivetrain"].gains
+
+    assert gains["kV"] == pytest.approx(ke * 6.75 / 0.0508)
+    assert gains["kA"] == pytest.approx(r * 0.0508 / (4 * kt * 6.75) * 60.0)
+    assert (round(gains["kV"], 3), round(gains["kA"], 3)) == (2.524, 0.191)
+
+
+@pytest.mark.parametrize(
+    ("name", "resistance", "volts_per_turn", "exact"),
+    [
+        ("krakenX60", 32.8e-3, 0.1200, 0.1193),
+        ("krakenX44", 43.0e-3, 0.0928, 0.0921),
+        ("neo", 114.3e-3, 0.1268, 0.1247),
+        ("cim", 90.2e-3, 0.1356, 0.1328),
+    ],
+)
+def test_a_motor_has_the_constants_of_its_data_sheet(name, resistance, volts_per_turn, exact):
+    found = MOTORS[name]
+
+    assert found.resistance == pytest.approx(resistance, abs=5e-5)
+    assert theoretical_kv(found, ratio=1.0) * 2 * math.pi == pytest.approx(volts_per_turn, abs=5e-5)
+    assert found.back_emf * 2 * math.pi == pytest.approx(exact, abs=1e-4)
+
+
+def test_theoretical_kv_counts_gears_and_wheel():
+    assert theoretical_kv(motor("krakenX60"), ratio=6.75, radius=0.0508) == pytest.approx(
+        2.538, abs=1e-3
+    )
+
+
+def test_an_unknown_motor_lists_the_known():
+    with pytest.raises(BadRequest, match="Choose one of: krakenX60"):
+        motor("hamster")
+
+
+def test_a_step_follows_the_exponential_of_the_text_book():
+    time = np.arange(0, 2, 0.02)
+
+    position, velocity = motion(GAINS, time=time, voltage=np.full(time.size, 7.0))
+
+    top, tau = (7.0 - 0.25) / 2.0, 0.15
+    assert velocity == pytest.approx(top * (1 - np.exp(-time / tau)), abs=1e-12)
+    assert position == pytest.approx(top * (time - tau * (1 - np.exp(-time / tau))), abs=1e-12)
+
+
+@pytest.mark.parametrize("volts", [0.25, -0.25, 0.1, 0.0])
+def test_at_rest_it_stays_at_rest_while_friction_holds(volts):
+    time = np.arange(0, 1, 0.02)
+
+    position, velocity = motion(GAINS, time=time, voltage=np.full(time.size, volts))
+
+    assert not position.any()
+    assert not velocity.any()
+
+
+def test_coasting_it_comes_to_rest_and_stays_there():
+    time = np.arange(0, 3, 0.02)
+    volts = np.where(time < 1.0, 4.0, 0.0)
+
+    _, velocity = motion(GAINS, time=time, voltage=volts)
+
+    assert velocity[50] > 1.5
+    assert velocity[-1] == 0.0
+    assert (np.diff(velocity[50:]) <= 0).all()
+
+
+def test_a_turn_within_one_step_is_met_at_its_exact_time():
+    coarse = np.array([0.0, 0.5, 1.0])
+    fine = np.linspace(0.0, 1.0, 100_001)
+    volts = np.where(fine < 0.5, 5.0, -3.0)
+
+    x_coarse, v_coarse = motion(GAINS, time=coarse, voltage=np.array([5.0, -3.0, -3.0]))
+    x_fine, v_fine = motion(GAINS, time=fine, voltage=volts)
+
+    assert v_coarse[-1] == pytest.approx(v_fine[-1], abs=1e-9)
+    assert x_coarse[-1] == pytest.approx(x_fine[-1], abs=1e-9)
+
+
+@given(
+    volts=st.lists(st.floats(-12, 12), min_size=2, max_size=40),
+    ks=st.floats(0.0, 1.0),
+    kv=st.floats(0.05, 10.0),
+    ka=st.floats(0.001, 2.0),
+)
+def test_mirrored_volts_give_mirrored_motion(volts, ks, kv, ka):
+    gains = {"kS": ks, "kV": kv, "kA": ka}
+    time = np.arange(len(volts)) * 0.02
+
+    there = motion(gains, time=time, voltage=np.array(volts))
+    back = motion(gains, time=time, voltage=-np.array(volts))
+
+    assert (np.array(there) == -np.array(back)).all()
+
+
+@given(volts=st.lists(st.floats(-12, 12), min_size=2, max_size=40), ks=st.floats(0.0, 1.0))
+def test_no_speed_exceeds_what_the_voltage_allows(volts, ks):
+    time = np.arange(len(volts)) * 0.02
+
+    _, velocity = motion({"kS": ks, "kV": 2.0, "kA": 0.1}, time=time, voltage=np.array(volts))
+
+    assert np.abs(velocity).max() <= max(0.0, np.abs(volts).max() - ks) / 2.0 + 1e-12
+
+
+def test_the_same_state_of_chance_gives_the_same_log():
+    one, two = (simulate(MECHANISMS["shooter"], Routine(), rng=rng()) for _ in range(2))
+
+    for a, b in zip(one.runs, two.runs, strict=True):
+        assert (a.velocity == b.velocity).all()
+        assert (a.time == b.time).all()
+
+
+def test_a_log_has_the_four_tests_in_order_and_no_overlap():
+    log = simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=3.5), rng=rng())
+
+    assert tuple(run.test for run in log.runs) == FOUR_TESTS
+    assert all(a.time[-1] < b.time[0] for a, b in zip(log.runs, log.runs[1:], strict=False))
+    assert (log.units, log.mechanism, log.type) == ("meters", "drivetrain", "simple")
+
+
+def test_a_ramp_starts_after_two_loops_and_has_499_samples_as_wpilibs():
+    quiet = replace(MECHANISMS["shooter"], sensor=QUIET)
+
+    ramp = simulate(quiet, Routine(ramp=1.0, timeout=10.0), rng=rng()).runs[0]
+
+    assert len(ramp) == 499
+    assert ramp.voltage[0] == pytest.approx(0.04)
+    assert ramp.voltage[-1] == pytest.approx(10.0)
+
+
+def test_a_test_ends_where_the_travel_does():
+    short = replace(MECHANISMS["drivetrain"], travel=2.0)
+
+    log = simulate(short, Routine(ramp=0.5, step=3.5), rng=rng())
+
+    assert all(np.ptp(run.position) <= 2.0 for run in log.runs)
+    assert len(log.of("dynamic-forward")[0]) < 100
+
+
+def test_a_sensor_is_quiet_at_rest_and_coarse():
+    sensor = Sensor(resolution=0.25, velocity_noise=0.1, noise_speed=0.05, jitter=0.0)
+    velocity = np.concatenate((np.zeros(500), np.ones(500)))
+
+    position, seen = read(sensor, position=np.linspace(0, 1, 1000), velocity=velocity, rng=rng())
+
+    assert not seen[:500].any()
+    assert np.std(seen[500:]) == pytest.approx(0.1, rel=0.1)
+    assert set(position) == {0.0, 0.25, 0.5, 0.75, 1.0}
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (dict(ramp=0.0), "a ramp of 0 V/s. Choose a number above 0"),
+        (dict(ramp=math.nan), "a ramp of nan V/s"),
+        (dict(step=-3.0), "a step of -3 V"),
+        (dict(step=24.0), "at most 12 V"),
+        (dict(timeout=math.inf), "a timeout of inf s"),
+    ],
+    ids=lambda value: str(value)[:20],
+)
+def test_a_routine_no_robot_can_run_is_refused(asked, said):
+    with pytest.raises(BadRequest) as refused:
+        Routine(**asked)
+
+    assert said in str(refused.value)
+
+
+def test_the_defaults_are_wpilibs():
+    assert Routine() == Routine(ramp=1.0, step=7.0, timeout=10.0)
+
+
+@pytest.mark.parametrize(
+    ("routine", "period", "said"),
+    [
+        (Routine(), 2.0, "a period of 2 s. Choose 0.0005 to 0.5 s"),
+        (Routine(timeout=0.1), 0.02, "a timeout of 0.1 s has 4 loops of 0.02 s. Ask for a longer"),
+    ],
+    ids=["slow loop", "short test"],
+)
+def test_a_test_too_short_to_record_is_refused(routine, period, said):
+    with pytest.raises(BadRequest) as refused:
+        simulate(MECHANISMS["shooter"], routine, rng=rng(), period=period)
+
+    assert said in str(refused.value)
