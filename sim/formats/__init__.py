@@ -20,8 +20,9 @@ from uuid import uuid4
 from sim.doubt import Doubt
 from sim.errors import BadRequest, Refusal, UnreadableFile
 from sim.format import HEAD, Format, Reading
-from sim.log import TYPES, Log
+from sim.log import Log
 from sim.units import unit
+from sim.vocabulary import TYPES
 
 FORMATS = tuple(sorted(module.name for module in iter_modules(__path__)))
 LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the one that was meant
@@ -120,7 +121,7 @@ def read(
     try:
         log = _reader(Path(given), _head(given)).read(Path(given), asked)
     except Refusal as refusal:
-        if given in refusal.where:
+        if refusal.where.startswith((given, str(Path(given)))):
             raise
         where = f"{given}, {refusal.where}" if refusal.where else given
         raise refusal.__class__(refusal.what, where=where, advice=refusal.advice) from None
@@ -143,6 +144,8 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
             holds what the format cannot.
     """
     given = os.fspath(path)
+    if "\0" in given:
+        raise BadRequest("a path cannot hold a zero byte", advice="Give another path.")
     writer = _writer(given)
     target = Path(os.path.realpath(given))
     part = target.with_name(f".{uuid4().hex}.part")
@@ -197,8 +200,10 @@ def _reader(path: Path, head: bytes) -> Format:
     suffix = path.suffix.lower()
     opening = head.lstrip().lower()
     for foreign in _FOREIGN:
-        if suffix in foreign.suffixes or head.startswith(foreign.starts) or opening.startswith(
-            foreign.starts
+        if (
+            suffix in foreign.suffixes
+            or head.startswith(foreign.starts)
+            or opening.startswith(foreign.starts)
         ):
             raise UnreadableFile(f"this is {foreign.what}", advice=foreign.advice)
     for module in seen:
@@ -214,7 +219,7 @@ def _reader(path: Path, head: bytes) -> Format:
 
 def _writer(given: str) -> _Writer:
     """The format whose suffix ends the path."""
-    writable = []
+    writable: list[str] = []
     for _, module in _modules(given):
         if hasattr(module, "write"):
             if given.lower().endswith(module.SUFFIXES):
@@ -252,7 +257,9 @@ def _head(given: str) -> bytes:
             "you may not read this file", advice="Change its permissions, or copy it."
         ) from None
     except ValueError as error:  # a path no system can hold, with a zero byte in it
-        raise UnreadableFile(f"no path ({error})", advice="Give the path of a log file.") from None
+        raise UnreadableFile(
+            f"this is no path ({error})", advice="Give the path of a log file."
+        ) from None
 
 
 def _neighbour(path: Path) -> str:

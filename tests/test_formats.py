@@ -1,0 +1,351 @@
+"""The catalogue of log formats: what every format owes, and files that are of none."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import sim
+from sim import formats
+from sim.errors import BadRequest, BadSample, Refusal, UnreadableFile
+from sim.log import TESTS, Log, Run
+from sim.units import UNITS
+
+MODULES = {name: import_module(f"sim.formats.{name}") for name in formats.FORMATS}
+WRITERS = sorted(name for name, module in MODULES.items() if hasattr(module, "write"))
+SAYS_NO_UNITS = {"csv"}  # whoever reads such a file has to say them
+LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_a_format_keeps_the_contract(name: str) -> None:
+    module = MODULES[name]
+
+    assert module.SUFFIXES
+    assert all(one == one.lower() and one.startswith(".") for one in module.SUFFIXES)
+    assert isinstance(module.knows(b""), bool)
+    assert callable(module.read)
+    assert module.__doc__
+
+
+@pytest.mark.parametrize("name", MODULES)
+@pytest.mark.parametrize("head", [b"", b"\x00" * 64, b"\xff" * 64, b"{}", b"hello\n", b"<html>"])
+def test_no_format_claims_what_is_none(name: str, head: bytes) -> None:
+    assert not MODULES[name].knows(head)
+
+
+def test_a_suffix_leads_to_one_format() -> None:
+    suffixes = [suffix for module in MODULES.values() for suffix in module.SUFFIXES]
+
+    assert len(suffixes) == len(set(suffixes))
+
+
+def test_the_formats_are_those_in_the_folder() -> None:
+    assert {"csv", "sysid_json"} <= set(formats.FORMATS)
+
+
+@st.composite
+def runs(draw: st.DrawFn) -> Run:
+    """A run of any test, on a clock of whole microseconds as a robot's is."""
+    size = draw(st.integers(2, 8))  # one sample is no motion: a format need not keep it
+    steps = draw(st.lists(st.integers(1_000, 500_000), min_size=size, max_size=size))
+    values = st.lists(st.floats(-1e6, 1e6), min_size=size, max_size=size)
+    return Run(
+        draw(st.sampled_from(TESTS)),
+        (draw(st.integers(0, 10**9)) + np.cumsum(steps)) * 1e-6,
+        draw(values),
+        draw(values),
+        draw(values),
+    )
+
+
+@pytest.mark.parametrize("name", WRITERS)
+@given(
+    log=st.builds(
+        lambda runs, units: Log(tuple(runs), units=units),
+        st.lists(runs(), min_size=1, max_size=6),
+        st.sampled_from(list(UNITS)),
+    )
+)
+def test_any_log_that_is_written_reads_back(
+    name: str, log: Log, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    path = tmp_path_factory.getbasetemp() / f"written{MODULES[name].SUFFIXES[0]}"
+
+    sim.write(log, path)
+    back = sim.read(path, units=log.units if name in SAYS_NO_UNITS else None)
+
+    assert back.units == log.units
+    assert back.source == str(path)
+    assert [run.test for run in back.runs] == [run.test for run in log.runs]
+    for ours, theirs in zip(log.runs, back.runs, strict=True):
+        # A format may move a run in time as a whole, and keep time in microseconds.
+        np.testing.assert_allclose(
+            theirs.time - theirs.time[0], ours.time - ours.time[0], rtol=0.0, atol=2e-6
+        )
+        assert np.array_equal(theirs.voltage, ours.voltage)
+        np.testing.assert_allclose(theirs.position, ours.position, rtol=1e-12, atol=1e-300)
+        np.testing.assert_allclose(theirs.velocity, ours.velocity, rtol=1e-12, atol=1e-300)
+
+
+def test_only_the_format_in_use_is_imported(tmp_path: Path, root: Path) -> None:
+    path = tmp_path / "log.csv"
+    sim.write(LOG, path)
+    code = "import sim, sys; sim.read(sys.argv[1]); print(*sys.modules, sep='\\n')"
+
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(path)], cwd=root, capture_output=True, check=True
+    )
+
+    loaded = set(done.stdout.decode().split())
+    assert "sim.formats.csv" in loaded
+    assert not {f"sim.formats.{name}" for name in formats.FORMATS if name != "csv"} & loaded
+
+
+@pytest.mark.parametrize("kind", [str, Path])
+@pytest.mark.parametrize("name", ["log.csv", "log.txt", "log", "log.wpilog", "log.csv.json"])
+def test_a_file_is_known_by_what_is_in_it(
+    tmp_path: Path, name: str, kind: Callable[[Path], str | Path]
+) -> None:
+    sim.write(LOG, tmp_path / "x.csv")
+    path = (tmp_path / "x.csv").rename(tmp_path / name)
+
+    log = sim.read(kind(path))
+
+    assert log.source == str(path)
+    assert len(log.runs) == 1
+
+
+def test_the_source_is_the_path_as_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    sim.write(LOG, "log.csv")
+    Path("bad.csv").write_text("test,time_s,voltage,position,velocity\n", encoding="utf-8")
+
+    assert sim.read(Path("log.csv")).source == "log.csv"
+    assert sim.read(os.path.join(".", "log.csv")).source == os.path.join(".", "log.csv")  # noqa: PTH118 - a Path would drop the dot
+    with pytest.raises(UnreadableFile, match=r"^bad\.csv: "):
+        sim.read(os.path.join(".", "bad.csv"))  # noqa: PTH118 - as above
+
+
+def test_a_refusal_names_the_file_even_if_the_format_did_not(tmp_path: Path) -> None:
+    path = tmp_path / "log.json"
+    rows = "[[5, 1, 0, 0], [6, 1, 0, 0], [1, 1, 0, 0], [2, 1, 0, 0]]"
+    path.write_text(f'{{"fast-forward": {rows}, "units": "Meters"}}', encoding="utf-8")
+
+    with pytest.raises(BadSample) as caught:
+        sim.read(path)
+
+    assert caught.value.where == f"{path}, dynamic-forward"
+
+
+FOREIGN = [
+    ("log.hoot", b"\x00hoot", "SignalLogger", "Phoenix Tuner X .* or with owlet"),
+    ("match.dslog", b"\x00\x00\x00\x04\x00", "Driver Station", "DataLogManager"),
+    ("match.dsevents", b"\x00\x00\x00\x04\x00", "Driver Station", "DataLogManager"),
+    ("renamed.wpilog", b"\x00\x00\x00\x04\x00", "Driver Station", "DataLogManager"),
+    ("log.revlog", b"\x01\x02", "REV", "AdvantageScope, export it as WPILOG"),
+    ("log.rlog", b"\x01\x02", "AdvantageKit", "AdvantageScope, export it as WPILOG"),
+    ("logs.zip", b"PK\x03\x04\x14", "zip archive or a workbook", "Unpack it, or save .* as CSV"),
+    ("log.csv", b"PK\x03\x04\x14", "zip archive or a workbook", "Unpack it, or save .* as CSV"),
+    ("log.csv.gz", b"\x1f\x8b\x08", "gzip", "Unpack it first"),
+    ("plot.png", b"\x89PNG\r\n\x1a\n", "a picture", "the robot's own log"),
+    ("plot.jpg", b"\xff\xd8\xff\xe0", "a picture", "the robot's own log"),
+    ("guide.pdf", b"%PDF-1.7", "PDF", "the robot's own log"),
+    ("log.csv", "test,time_s\n".encode("utf-16"), "UTF-16", "Save it as UTF-8"),
+    ("log.csv", b"\n<!DOCTYPE html><html>", "a web page", "the button Raw"),
+    ("log.json", b"<html lang=en>", "a web page", "the button Raw"),
+    ("notes.txt", b"drove well\n", "plain text without", "begins with test,time_s,voltage"),
+    ("notes", b"\x07\x00\x07\x00", "some binary format", "Logs are .*csv.*json"),
+    ("numbers.csv", b"1,2,3\n4,5,6\n", "no column test or time_s", "Name the columns test,time_s"),
+    ("package.json", b'{"name": "robot"}', "no run in it", "slow-forward"),
+    ("list.json", b"[1, 2]", "not an object", "the JSON that SysId saved"),
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "what", "advice"), FOREIGN, ids=[f"{row[0]} {row[2]}" for row in FOREIGN]
+)
+def test_a_foreign_file_is_called_by_its_name(
+    tmp_path: Path, name: str, data: bytes, what: str, advice: str
+) -> None:
+    path = tmp_path / name
+    path.write_bytes(data)
+
+    with pytest.raises(Refusal, match=f"{what}.*{advice}") as caught:
+        sim.read(path)
+
+    assert str(caught.value).startswith(str(path))
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        pytest.param("", "this is a folder.*path of a log file", id="a folder"),
+        pytest.param("empty.csv", "the file is empty.*Copy it", id="an empty file"),
+        pytest.param("trian.csv", r"no such file\. Did you mean .*train\.csv\?", id="misspelled"),
+        pytest.param("zzz.wpilog", r"no such file\. Check the spelling", id="missing"),
+        pytest.param("deep/x.csv", r"no such file\. There is no folder .*deep", id="no folder"),
+        pytest.param("train.csv/x.csv", "no such file", id="a file for a folder"),
+        pytest.param("a\0b.csv", "this is no path.*path of a log file", id="a zero byte"),
+        pytest.param("x" * 5000, "cannot be read|no such file", id="a name too long"),
+    ],
+)
+def test_a_path_that_leads_to_no_log_is_refused_with_advice(
+    tmp_path: Path, name: str, said: str
+) -> None:
+    sim.write(LOG, tmp_path / "train.csv")
+    (tmp_path / "empty.csv").touch()
+
+    with pytest.raises(UnreadableFile, match=said):
+        sim.read(os.fspath(tmp_path) + os.sep + name)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "log.csv")
+
+    with pytest.raises(UnreadableFile, match="not a file on a disk"):
+        sim.read(tmp_path / "log.csv")
+
+
+def test_an_enormous_file_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sim.write(LOG, tmp_path / "log.csv")
+    monkeypatch.setattr(formats, "LARGEST_FILE", 10)
+
+    with pytest.raises(UnreadableFile, match="the most that is read.*Export only the four tests"):
+        sim.read(tmp_path / "log.csv")
+
+
+@pytest.mark.parametrize(
+    ("trouble", "said"),
+    [
+        (PermissionError(13, "Permission denied"), "may not read this file.*permissions"),
+        (OSError(5, "Input/output error"), r"cannot be read \(Input/output error\).*Copy it"),
+    ],
+)
+def test_a_file_the_system_withholds_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, trouble: OSError, said: str
+) -> None:
+    def withhold(*_: object, **__: object) -> None:
+        raise trouble
+
+    sim.write(LOG, tmp_path / "log.csv")
+    monkeypatch.setattr(Path, "open", withhold)
+
+    with pytest.raises(UnreadableFile, match=said):
+        sim.read(tmp_path / "log.csv")
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"units": "furlongs"}, "unknown units 'furlongs'.*meters, feet"),
+        ({"type": "catapult"}, "unknown type 'catapult'.*simple, elevator, arm"),
+    ],
+)
+def test_an_unknown_word_is_refused_with_the_known_ones(
+    tmp_path: Path, asked: dict[str, str], said: str
+) -> None:
+    sim.write(LOG, tmp_path / "log.csv")
+
+    with pytest.raises(BadRequest, match=said):
+        sim.read(tmp_path / "log.csv", **asked)
+
+
+@pytest.mark.parametrize(
+    ("test", "asked", "type_", "codes"),
+    [
+        ("Arm", None, "arm", []),
+        ("Arm", "arm", "arm", []),
+        ("Arm", "elevator", "elevator", ["contradicting-type"]),
+    ],
+)
+def test_a_type_one_says_goes_before_that_of_the_file(
+    tmp_path: Path, test: str, asked: str | None, type_: str, codes: list[str]
+) -> None:
+    path = tmp_path / "log.json"
+    path.write_text(
+        f'{{"fast-forward": [[0, 1, 2, 3]], "units": "Radians", "test": "{test}"}}', "utf-8"
+    )
+
+    log = sim.read(path, type=asked)
+
+    assert log.type == type_
+    assert [doubt.code for doubt in log.doubts] == codes
+    assert all("of type arm; it is taken as elevator" in doubt.message for doubt in log.doubts)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        pytest.param("log.json", r"ends in '\.json'.*End its name in one of: .*\.csv", id="json"),
+        pytest.param("log", r"ends in 'nothing'.*one of: .*\.csv", id="no suffix"),
+        pytest.param("deep/log.csv", "cannot be written.*a folder that exists", id="no folder"),
+        pytest.param("folder.csv", "is there already and cannot be replaced.*another", id="folder"),
+        pytest.param("file/log.csv", "cannot be written", id="a file for a folder"),
+        pytest.param("a\0b.csv", "zero byte", id="a zero byte"),
+    ],
+)
+def test_what_cannot_be_written_is_refused_with_advice(
+    tmp_path: Path, name: str, said: str
+) -> None:
+    (tmp_path / "folder.csv").mkdir()
+    (tmp_path / "file").touch()
+
+    with pytest.raises(BadRequest, match=said):
+        sim.write(LOG, os.fspath(tmp_path) + os.sep + name)
+
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["file", "folder.csv"]
+
+
+@pytest.mark.parametrize("trouble", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_a_file_is_written_whole_or_stays_as_it_was(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, trouble: BaseException
+) -> None:
+    def halfway(_: Log, path: Path) -> None:
+        path.write_text("half a log", encoding="utf-8")
+        raise trouble
+
+    sim.write(LOG, tmp_path / "log.csv")
+    before = (tmp_path / "log.csv").read_bytes()
+    monkeypatch.setattr(MODULES["csv"], "write", halfway)
+
+    with pytest.raises((BadRequest, KeyboardInterrupt)) as caught:
+        sim.write(LOG, tmp_path / "log.csv")
+
+    assert (tmp_path / "log.csv").read_bytes() == before
+    assert [entry.name for entry in tmp_path.iterdir()] == ["log.csv"]
+    if isinstance(trouble, OSError):
+        assert "(No space left on device). Choose a folder" in str(caught.value)
+
+
+def test_an_existing_file_is_replaced(tmp_path: Path) -> None:
+    path = tmp_path / "LOG.CSV"
+    path.write_text("old", encoding="utf-8")
+
+    sim.write(LOG, path)
+
+    assert sim.read(path).runs[0].test == "dynamic-forward"
+    assert [entry.name for entry in tmp_path.iterdir()] == ["LOG.CSV"]
+
+
+def test_a_link_stays_a_link(tmp_path: Path) -> None:
+    sim.write(LOG, tmp_path / "log.csv")
+    link = tmp_path / "link.csv"
+    try:
+        link.symlink_to(tmp_path / "log.csv")
+    except OSError:
+        pytest.skip("this system does not let us make symbolic links")
+    (tmp_path / "log.csv").write_text("old", encoding="utf-8")
+
+    sim.write(LOG, link)
+
+    assert link.is_symlink()
+    assert len(sim.read(tmp_path / "log.csv").runs) == 1
