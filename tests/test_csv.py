@@ -1,36 +1,16 @@
-"""CSV logs: what is read, what is refused and where, and that nothing is lost on the way."""
+"""CSV logs: what is read, and that nothing is lost on the way out and back."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from csv_text import HEADER, PLAIN, read_text
 
 import sim
-from sim.errors import BadRequest, BadSample, MissingSignal, Refusal, UnreadableFile
+from sim.errors import BadRequest
 from sim.log import Log, Run
 
-HEADER = "test,time_s,voltage,position,velocity"
 SIGNALS = ("time", "voltage", "position", "velocity", "current", "bus_voltage")
-PLAIN = f"""{HEADER}
-quasistatic-forward,0.0,0.5,1.0,0.25
-quasistatic-forward,0.02,0.75,1.5,0.5
-dynamic-reverse,3.0,-7.0,2.0,-1.0
-"""
-
-
-def read_text(folder: Path, text: str | bytes, **asked: object) -> Log:
-    path = folder / "log.csv"
-    path.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
-    return sim.read(path, **asked)
-
-
-def read_or_refusal(path: Path) -> Log | Refusal:
-    try:
-        return sim.read(path)
-    except Refusal as refusal:
-        return refusal
 
 
 def columns(log: Log) -> list[tuple[str, list[list[float]]]]:
@@ -195,130 +175,6 @@ def test_repeated_times_are_dropped_with_a_doubt(tmp_path: Path) -> None:
     assert [doubt.code for doubt in log.doubts] == ["repeated-time"]
 
 
-def row(**cells: str) -> str:
-    """One row of a sound file, cells replaced."""
-    sound = {"test": "dynamic-forward", "time_s": "1", "voltage": "2", "position": "3"}
-    return ",".join({**sound, "velocity": "4", **cells}.values())
-
-
-REFUSED = [
-    pytest.param(
-        [row(), row(velocity="abc")],
-        BadSample,
-        r"log\.csv, line 3: velocity is 'abc', not a number\. Write a number there",
-        id="a word for a number",
-    ),
-    pytest.param(
-        ["", row(), "", row(position=" ")],
-        BadSample,
-        r"line 5: position is empty\. Write a number",
-        id="an empty cell, blank lines counted",
-    ),
-    pytest.param(
-        [row(voltage="nan")], BadSample, r"line 2: voltage is nan\. Write a number", id="nan"
-    ),
-    pytest.param(
-        [row(time_s="-inf")], BadSample, r"line 2: time_s is -inf\. Write a number", id="infinite"
-    ),
-    pytest.param(
-        [row(voltage="1e12")], BadSample, r"line 2: voltage is 1e12\. Write", id="absurdly large"
-    ),
-    pytest.param(
-        [row(velocity="1_000")], BadSample, r"velocity is '1_000', not a number", id="underscore"
-    ),
-    pytest.param(
-        [row(), "dynamic-forward,1,2"],
-        UnreadableFile,
-        r"line 3: the row has 3 cells where the header has 5\. Complete the line",
-        id="a row that is too short",
-    ),
-    pytest.param(
-        [row() + ",5"],
-        UnreadableFile,
-        r"line 2: the row has 6 cells where the header has 5",
-        id="a row that is too long",
-    ),
-    pytest.param(
-        [row(test="dynamics")],
-        UnreadableFile,
-        r"line 2: test is 'dynamics', .* quasistatic\|dynamic\|coast.* -forward or -reverse\.",
-        id="an unknown test",
-    ),
-    pytest.param([], UnreadableFile, r"a header without rows\. Record", id="no rows"),
-    pytest.param(
-        ['"' + row()], UnreadableFile, r"line 2: damaged CSV .* quotation mark", id="open quote"
-    ),
-]
-
-
-@pytest.mark.parametrize(("rows", "refusal", "said"), REFUSED)
-def test_a_damaged_row_is_named_by_line_and_column(
-    tmp_path: Path, rows: list[str], refusal: type[Refusal], said: str
-) -> None:
-    with pytest.raises(refusal, match=said):
-        read_text(tmp_path, "\n".join([HEADER, *rows]))
-
-
-@pytest.mark.parametrize(
-    ("text", "refusal", "said"),
-    [
-        pytest.param(
-            PLAIN.replace("velocity", "speed"),
-            MissingSignal,
-            r"no column velocity; .*speed.*Name the columns test,time_s.* --velocity",
-            id="a column of another name",
-        ),
-        pytest.param(
-            PLAIN.replace("position", "velocity"),
-            UnreadableFile,
-            "two columns are named velocity.*rename one",
-            id="a column twice",
-        ),
-        pytest.param(
-            PLAIN.encode() + b"\xff",
-            UnreadableFile,
-            f"byte {len(PLAIN)} is not UTF-8.*Save",
-            id="bytes that are no text",
-        ),
-        pytest.param(
-            PLAIN.replace(",", ";").replace("0.5;", "1.000,5;"),
-            UnreadableFile,
-            "both commas and points.*one decimal sign",
-            id="a sign for thousands",
-        ),
-        pytest.param(
-            f"run,{HEADER}\n1,{row()}\n1,{row(test='coast-forward', time_s='2')}\n",
-            UnreadableFile,
-            r"line 3: run '1' changes its test here.*value of its own",
-            id="two tests in one run",
-        ),
-        pytest.param(
-            f"run,{HEADER}\n1,{row()}\n1,{row(time_s='0.5')}\n",
-            UnreadableFile,
-            r"line 3: run '1' goes back in time here.*or leave the column out",
-            id="time back in one run",
-        ),
-        pytest.param(
-            f"{HEADER},current\n{row()},5\n{row(time_s='2')},\n",
-            BadSample,
-            r"line 3: current is empty, in a run that has it elsewhere.*whole run",
-            id="a current that stops",
-        ),
-        pytest.param(
-            f"{HEADER},current\n{row()},nan\n",
-            BadSample,
-            r"line 2: current is nan",
-            id="a current that is nan",
-        ),
-    ],
-)
-def test_a_file_that_is_not_sound_is_refused_with_advice(
-    tmp_path: Path, text: str | bytes, refusal: type[Refusal], said: str
-) -> None:
-    with pytest.raises(refusal, match=said):
-        read_text(tmp_path, text)
-
-
 def sampled(test: str, n: int, *, rng: np.random.Generator, **more: bool) -> Run:
     signals = {name: rng.normal(size=n) * 10.0 for name in SIGNALS[1:4]}
     signals |= {name: rng.normal(size=n) for name, wanted in more.items() if wanted}
@@ -387,26 +243,6 @@ def test_what_rows_cannot_hold_is_not_written(
         sim.write(Log(runs), tmp_path / "log.csv")
 
     assert list(tmp_path.iterdir()) == []
-
-
-@given(
-    st.text('0123456789.,-+einf;\t\n\r" abc_#\u00e9\x00'),
-    st.integers(0, len(PLAIN)),
-    st.integers(0, 20),
-)
-def test_any_damage_is_read_or_refused_in_one_line(
-    tmp_path_factory: pytest.TempPathFactory, junk: str, at: int, cut: int
-) -> None:
-    path = tmp_path_factory.getbasetemp() / "damaged.csv"
-    path.write_bytes((PLAIN[:at] + junk + PLAIN[at + cut :]).encode("utf-8"))
-
-    outcome = read_or_refusal(path)
-
-    if isinstance(outcome, Refusal):
-        assert str(path) in str(outcome)
-        assert "\n" not in str(outcome)
-    else:
-        assert all(len(run) for run in outcome.runs)
 
 
 @pytest.mark.shared

@@ -1,0 +1,185 @@
+"""Sides and signs in JSON of 2019 to 2023: every repair is right, and said aloud."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from old_tools import RUNS, document, motion, only_doubt, read_json, scaled, sysid
+
+import sim
+from sim.errors import MissingSignal
+
+
+def test_an_angular_drivetrain_is_half_the_difference_of_its_sides(tmp_path: Path) -> None:
+    made = sysid(9, "Drivetrain (Angular)")
+    for key in RUNS:
+        scaled(made, key, 1, 3, 5)  # turning left, the left side runs backward
+
+    log = read_json(tmp_path, made)
+
+    (run,) = log.of("quasistatic-reverse")
+    _, voltage, _, velocity = motion("slow-backward")
+    assert run.voltage.tolist() == voltage.tolist()
+    np.testing.assert_allclose(run.velocity, 1.05 * 0.5 * velocity, rtol=1e-14)
+    assert (log.type, log.mechanism) == ("simple", "Drivetrain (Angular)")
+    assert only_doubt(log).code == "turning-drivetrain"
+    assert "half the track width" in only_doubt(log).message
+
+
+REPAIRS = [
+    pytest.param(
+        {"slow-backward": [3, 4], "fast-backward": [3, 4]},
+        {"unsigned-voltage": ["left", "right"]},
+        id="no voltage has a sign",
+    ),
+    pytest.param(
+        {"slow-backward": [4], "fast-backward": [4]},
+        {"unsigned-voltage": ["right"]},
+        id="the right voltage has no sign",
+    ),
+    pytest.param(
+        {key: [4] for key in RUNS},
+        {"inverted-voltage": ["right"]},
+        id="the right voltage is inverted",
+    ),
+    pytest.param(
+        {"fast-forward": [3]},
+        {"inverted-voltage": ["left"]},
+        id="the left voltage is inverted in one run",
+    ),
+    pytest.param(
+        {key: [6, 8] for key in RUNS},
+        {"inverted-encoder": ["right"]},
+        id="the right encoder is inverted",
+    ),
+    pytest.param(
+        {key: [4, 6, 8] for key in RUNS},
+        {"mirrored-side": ["right"]},
+        id="the right side is mirrored",
+    ),
+]
+
+
+@pytest.mark.parametrize(("spoiled", "said"), REPAIRS)
+def test_a_side_with_wrong_signs_is_turned_and_every_run_of_it_named(
+    tmp_path: Path, spoiled: dict[str, list[int]], said: dict[str, list[str]]
+) -> None:
+    sound = document(10, units="Meters")
+    made = document(10, units="Meters")
+    for key, columns in spoiled.items():
+        scaled(made, key, *columns)
+
+    log = read_json(tmp_path, made)
+
+    for run, right in zip(log.runs, read_json(tmp_path, sound).runs, strict=True):
+        for name in ("voltage", "position", "velocity"):
+            assert np.array_equal(getattr(run, name), getattr(right, name))
+    assert [doubt.code for doubt in log.doubts] == [code for code in said for _ in said[code]]
+    for doubt, side in zip(log.doubts, next(iter(said.values())), strict=True):
+        assert f", {side}, " in doubt.message
+        for key, test in RUNS.items():
+            assert (test in doubt.message) == (key in spoiled)
+
+
+def test_a_doubt_about_one_side_does_not_follow_the_other(tmp_path: Path) -> None:
+    made = sysid(10, "Drivetrain")
+    for key in RUNS:
+        scaled(made, key, 4)
+
+    assert read_json(tmp_path, made, motor="left").doubts == ()
+    assert only_doubt(read_json(tmp_path, made, motor="right")).code == "inverted-voltage"
+
+
+def test_a_voltage_without_a_sign_gets_one_in_a_mechanism_of_one_side(tmp_path: Path) -> None:
+    made = sysid(4, "Elevator")
+    scaled(made, "slow-backward", 1)
+    scaled(made, "fast-backward", 1)
+
+    log = read_json(tmp_path, made)
+
+    sound = read_json(tmp_path, sysid(4, "Elevator"))
+    for run, right in zip(log.runs, sound.runs, strict=True):
+        assert np.array_equal(run.voltage, right.voltage)
+    assert only_doubt(log).code == "unsigned-voltage"
+    assert "quasistatic-reverse" in only_doubt(log).message
+    assert "forward" not in only_doubt(log).message
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        pytest.param(list(RUNS), id="in all runs"),
+        pytest.param(["slow-forward"], id="in a forward run"),
+    ],
+)
+def test_other_signs_of_one_mechanism_are_left_to_later_checks(
+    tmp_path: Path, keys: list[str]
+) -> None:
+    made = sysid(4, "Arm")
+    for key in keys:
+        scaled(made, key, 1)
+
+    log = read_json(tmp_path, made)
+
+    assert log.doubts == ()
+    for key, test in RUNS.items():
+        sign = -1.0 if key in keys else 1.0
+        assert np.array_equal(log.of(test)[0].voltage, sign * motion(key)[1])
+
+
+def test_both_sides_against_the_tests_name_stay_as_recorded(tmp_path: Path) -> None:
+    made = sysid(9, "Drivetrain")
+    made["fast-forward"], made["fast-backward"] = made["fast-backward"], made["fast-forward"]
+
+    log = read_json(tmp_path, made)
+
+    assert log.doubts == ()
+    assert log.of("dynamic-forward")[0].velocity[-1] < 0
+
+
+def test_a_side_that_does_not_move_is_refused_unless_the_other_is_chosen(tmp_path: Path) -> None:
+    made = sysid(9, "Drivetrain")
+    for key in RUNS:
+        scaled(made, key, 4, 6, by=0.0)
+
+    with pytest.raises(MissingSignal, match="right encoder .*stands still.* --motor left"):
+        read_json(tmp_path, made)
+    assert read_json(tmp_path, made, motor="left").of("dynamic-forward")[0].velocity[-1] == 1.5
+
+
+def test_sides_that_move_differently_are_doubted(tmp_path: Path) -> None:
+    made = sysid(9, "Drivetrain")
+    scaled(made, "fast-forward", 6, by=1.5)
+
+    doubt = only_doubt(read_json(tmp_path, made))
+
+    assert doubt.code == "sides-differ"
+    assert "dynamic-forward" in doubt.message
+    assert "--motor left and --motor right" in doubt.message
+
+
+def test_signs_that_come_and_go_are_doubted(tmp_path: Path) -> None:
+    made = sysid(9, "Drivetrain")
+    for row in made["fast-forward"][::2]:
+        row[5] *= -1
+
+    log = read_json(tmp_path, made, motor="left")
+
+    assert only_doubt(log).code == "unclear-sign"
+    assert "left, dynamic-forward" in only_doubt(log).message
+
+
+@pytest.mark.shared
+@pytest.mark.parametrize("motor", ["left", "right", None])
+@pytest.mark.parametrize("name", ["frc4646-2022-drivetrain", "frc501-2020-drivetrain"])
+def test_both_sides_of_a_real_drivetrain_go_the_way_they_are_pushed(
+    shared: Path, name: str, motor: str | None
+) -> None:
+    log = sim.read(shared / "data" / "real" / f"{name}.json", motor=motor)
+
+    for run in log.runs:
+        way = 1.0 if run.direction == "forward" else -1.0
+        assert (way * run.voltage >= 0).all()
+        assert (way * run.velocity >= 0).all()
+        assert way * (run.position[-1] - run.position[0]) > 0.5
+        assert (run.bus_voltage is not None) == ("2020" in name)
