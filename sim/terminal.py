@@ -48,7 +48,7 @@ def show_fit(found: Fit, *, preset: Preset, title: str, console: Console | None 
             f"feedback to start from ({preset.name}): "
             + "; ".join(f"{loop} kP {g.kp:.4g}, kD {g.kd:.4g}" for loop, g in loops.items())
         )
-    for doubt in found.doubts:
+    for doubt in found.all_doubts(preset):
         console.print(f"{'wrong' if doubt.grave else 'look'}: {doubt.message}", style="bold")
 
 

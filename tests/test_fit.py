@@ -167,6 +167,27 @@ def test_repeated_runs_are_said_to_be_ignored(drive):
     assert "quasistatic-forward (2 runs)" in doubt.message
 
 
+def test_a_velocity_logged_faster_than_it_is_sent_is_doubted(drive):
+    held = [np.repeat(run.velocity[::4], 4)[: len(run)] for run in drive.runs]
+    runs = tuple(replace(run, velocity=v) for run, v in zip(drive.runs, held, strict=True))
+
+    found = fit(replace(drive, runs=runs))
+
+    (doubt,) = [doubt for doubt in found.doubts if doubt.code == "stale-velocity"]
+    assert "75% of the moving samples repeat" in doubt.message
+    assert "kA comes out too small" in doubt.message
+
+
+def test_a_suggested_gain_that_would_run_away_is_doubted():
+    log = simulate(MECHANISMS["shooter"], Routine(ramp=0.5, step=3.5), rng=np.random.default_rng(1))
+    found = fit(log).in_log_units()
+    assert found.feedback()["position"].kp < 0  # the premise: SysId itself suggests this
+
+    codes = [warning["code"] for warning in found.to_json()["warnings"]]
+
+    assert codes == ["negative-feedback"]
+
+
 def test_an_inverted_sensor_is_a_grave_doubt(drive):
     runs = tuple(replace(r, velocity=-r.velocity, position=-r.position) for r in drive.runs)
 

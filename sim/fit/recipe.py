@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from sim.doubt import Doubt
 from sim.errors import BadRequest
 from sim.fit.metrics import Simulated, simulated_velocity
@@ -12,6 +14,9 @@ from sim.prepare import Prepared, prepare
 from sim.units import unit
 
 DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA dubious
+STALE = (
+    0.25  # [share of moving samples] more than this repeat only when frames are slower than logs
+)
 SURELY = 2.0  # [standard errors] further below zero than this is no accident of noise
 UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
@@ -69,7 +74,7 @@ def sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A002 - SysId
 def _doubts(
     log: Log, prepared: Prepared, found: Regression, simulated: tuple[Simulated, ...]
 ) -> list[Doubt]:
-    doubts = [*_repeats(log), *_signs(found.gains, found.errors)]
+    doubts = [*_repeats(log), *_stale(log), *_signs(found.gains, found.errors)]
     if found.r2 < DUBIOUS_R2:
         doubts.append(
             Doubt(
@@ -126,6 +131,26 @@ def _repeats(log: Log) -> list[Doubt]:
     if other:
         doubts.append(Doubt("unused-test", f"SysId's recipe has no use for: {', '.join(other)}."))
     return doubts
+
+
+def _stale(log: Log) -> list[Doubt]:
+    """Velocities that were logged more often than they were measured."""
+    steps = [np.diff(log.of(test)[0].velocity) for test in FOUR_TESTS if test.startswith("dyn")]
+    moving = [log.of(test)[0].velocity[1:] != 0.0 for test in FOUR_TESTS if test.startswith("dyn")]
+    repeated = np.concatenate(
+        [step[moves] == 0.0 for step, moves in zip(steps, moving, strict=True)]
+    )
+    if not repeated.size or repeated.mean() < STALE:
+        return []
+    return [
+        Doubt(
+            "stale-velocity",
+            f"{repeated.mean():.0%} of the moving samples repeat the velocity before them: it was "
+            "logged faster than the motor controller sends it. SysId leaves those out and takes "
+            "the jumps between them for acceleration, so kA comes out too small. Log at the "
+            "controller's own rate, or raise that rate.",
+        )
+    ]
 
 
 def _signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:

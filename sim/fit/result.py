@@ -89,8 +89,8 @@ class Fit:
     def feedback(self, preset: Preset = PRESETS["default"]) -> dict[str, Feedback]:
         """Suggested gains of the velocity and the position loop; empty if the model allows none.
 
-        SysId adds the delay it saw in the data to nothing: it takes the larger of zero and that
-        delay in place of the preset's when the preset has none.
+        With the default preset the measurement's delay is the one seen in the log, as SysId sets it
+        on loading; any other preset brings its own.
         """
         kv, ka = self.gains["kV"], self.gains["kA"]
         if not (kv >= 0.0 and ka > 0.0):
@@ -116,6 +116,22 @@ class Fit:
             ),
         }
 
+    def all_doubts(self, preset: Preset = PRESETS["default"]) -> tuple[Doubt, ...]:
+        """The doubts about the gains, and those about the feedback gains of one preset."""
+        return (
+            *self.doubts,
+            *(
+                Doubt(
+                    "negative-feedback",
+                    f"The suggested {loop} kP is negative: with the delay in this log the loop "
+                    "cannot be as stiff as SysId's default error asks. Do not use it; start from "
+                    "a small positive one.",
+                )
+                for loop, gains in self.feedback(preset).items()
+                if gains.kp < 0.0
+            ),
+        )
+
     def to_json(self, preset: Preset = PRESETS["default"]) -> dict[str, object]:
         """The fit as plain data; the keys are fixed, other programs read them."""
         return {
@@ -133,7 +149,7 @@ class Fit:
                 loop: {"kP": gains.kp, "kD": gains.kd}
                 for loop, gains in self.feedback(preset).items()
             },
-            "warnings": [{"code": d.code, "message": d.message} for d in self.doubts],
+            "warnings": [{"code": d.code, "message": d.message} for d in self.all_doubts(preset)],
         }
 
     def gain_unit(self, gain: str) -> str:
