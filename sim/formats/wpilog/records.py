@@ -14,6 +14,7 @@ guessed: a record is taken only because the one before it ends where it begins.
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from os import SEEK_END
 from pathlib import Path
 from typing import TypeAlias, TypeVar
@@ -25,6 +26,7 @@ from sim.errors import UnreadableFile
 
 Bytes: TypeAlias = NDArray[np.uint8]
 Numbers: TypeAlias = NDArray[np.int64]
+Flags: TypeAlias = NDArray[np.bool_]
 Number = TypeVar("Number", bound=np.generic)
 
 MAGIC = b"WPILOG"
@@ -32,7 +34,9 @@ PREFACE = 12  # [bytes] magic, version (2), length of the extra header (4)
 MAJOR = 1  # the one version there is: 1.0
 PAD = 32  # [bytes] of zero behind the file, so that a header cut short can be looked at
 FIRST_WINDOW = 1 << 14  # [bytes] small while record headers of a new shape still turn up
-LARGEST_WINDOW = 1 << 18  # [bytes] larger ones leave the processor's cache
+MEMORY = 1 << 17  # [bytes] a header's shape is looked for this far behind where it was last seen
+LARGEST_WINDOW = 1 << 19  # [bytes] larger ones leave the processor's cache
+BLOCK = 1 << 15  # [records] read at a time, for the same reason
 FEW = 8  # so many comparisons cost less than one look-up by table
 
 _BITS = np.arange(256, dtype=np.int64)
@@ -40,8 +44,36 @@ ID_LENGTH = (_BITS & 3) + 1
 SIZE_LENGTH = (_BITS >> 2 & 3) + 1
 TIME_LENGTH = (_BITS >> 4 & 7) + 1
 HEADER_LENGTH = 1 + ID_LENGTH + SIZE_LENGTH + TIME_LENGTH
-_MASK64 = np.array([(1 << 8 * length) - 1 for length in range(9)], dtype=np.uint64)
-_MASK32 = _MASK64[:5].astype(np.uint32)
+_MASK = np.array([(1 << 8 * length) - 1 for length in range(9)], dtype=np.uint64)
+ID_MASK = _MASK[ID_LENGTH].astype(np.uint32)
+SIZE_MASK = _MASK[SIZE_LENGTH].astype(np.uint32)
+TIME_MASK = _MASK[TIME_LENGTH]
+
+
+@dataclass(frozen=True, eq=False)
+class File:
+    """A file in memory.
+
+    Args:
+        content: its bytes, and PAD zeros behind them.
+    """
+
+    content: bytearray
+
+    @property
+    def size(self) -> int:
+        """Its length [bytes]."""
+        return len(self.content) - PAD
+
+    @property
+    def buffer(self) -> Bytes:
+        """(size + PAD,) its content as an array."""
+        return np.frombuffer(self.content, dtype=np.uint8)
+
+    @cached_property
+    def letters(self) -> str:
+        """Its content as text, one letter a byte."""
+        return self.content.decode("latin-1")
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,14 +81,12 @@ class Records:
     """A file and where its records begin.
 
     Args:
-        buffer: (size + PAD,) the file, and zeros behind it.
-        size: length of the file [bytes].
+        file: the file.
         start: (n,) offset of each whole record, in order.
-        end: offset behind the last whole record; ``size`` if the chain reaches the end.
+        end: offset behind the last whole record; the file's size if the chain reaches its end.
     """
 
-    buffer: Bytes
-    size: int
+    file: File
     start: Numbers
     end: int
 
@@ -82,37 +112,41 @@ def load(path: Path) -> Records:
     """Read a file and find its records.
 
     Raises:
-        UnreadableFile: it is missing, not to be opened, empty, foreign, or of a later version.
+        UnreadableFile: it is empty, foreign, of a later version, or ends before its first record.
     """
-    buffer, size = _bytes_of(path)
-    first = _preface(buffer[:size], where=str(path))
-    start, end = chain(buffer, first=first, size=size)
-    return Records(buffer, size, start, end)
+    with path.open("rb") as file:
+        content = bytearray(file.seek(0, SEEK_END) + PAD)
+        file.seek(0)
+        size = file.readinto(memoryview(content)[:-PAD])
+    del content[size + PAD :]  # of a file that became shorter while it was read
+    whole = File(content)
+    start, end = chain(whole, first=_preface(whole, where=str(path)))
+    return Records(whole, start, end)
 
 
-def chain(buffer: Bytes, *, first: int, size: int) -> tuple[Numbers, int]:
+def chain(file: File, *, first: int) -> tuple[Numbers, int]:
     """Follow the records from ``first`` for as long as they are whole.
 
     Args:
-        buffer: (size + PAD,) the file, and zeros behind it.
+        file: the file.
         first: offset of the first record.
-        size: length of the file.
 
     Returns:
         The offset of each record, and the offset behind the last.
     """
-    shapes: list[int] = []  # header bytes met so far
+    shapes: dict[int, int] = {}  # header bytes met lately, and where the last of them was seen
+    buffer, size = file.buffer, file.size
     pieces = [np.zeros(0, dtype=np.int64)]
     at, window = first, FIRST_WINDOW
     while at < size:
-        if int(buffer[at]) not in shapes:
-            shapes.append(int(buffer[at]))
-            window = FIRST_WINDOW
+        shapes = {shape: seen for shape, seen in shapes.items() if at - seen < MEMORY}
+        shapes[int(buffer[at])] = at
         stop = min(at + window, size)
-        found, after = _follow(buffer, shapes, at=at, stop=stop, size=size)
+        found, after = _follow(buffer, tuple(shapes), at=at, stop=stop, size=size)
         pieces.append(found)
         if not found.size:
             break
+        shapes |= dict.fromkeys(np.flatnonzero(np.bincount(buffer[found])).tolist(), after)
         window = min(2 * window, LARGEST_WINDOW) if after >= stop else FIRST_WINDOW
         at = after
     return np.concatenate(pieces), at
@@ -120,15 +154,19 @@ def chain(buffer: Bytes, *, first: int, size: int) -> tuple[Numbers, int]:
 
 def fields(buffer: Bytes, start: Numbers) -> Fields:
     """Read the headers of the records that begin at ``start``."""
-    bits = buffer[start]
-    at = start + 1
-    number = view(buffer, np.uint32)[at] & _MASK32[ID_LENGTH[bits]]
-    at += ID_LENGTH[bits]
-    size = view(buffer, np.uint32)[at] & _MASK32[SIZE_LENGTH[bits]]
-    at += SIZE_LENGTH[bits]
-    time = view(buffer, np.uint64)[at] & _MASK64[TIME_LENGTH[bits]]
-    at += TIME_LENGTH[bits]
-    return Fields(number.astype(np.int64), size.astype(np.int64), time.view(np.int64), at)
+    table = np.empty((4, start.size), dtype=np.int64)
+    for first in range(0, start.size, BLOCK):
+        block = slice(first, first + BLOCK)
+        at = start[block]
+        bits = buffer[at].astype(np.intp)  # an index of any other type is converted at every use
+        at = at + 1
+        table[0, block] = view(buffer, np.uint32)[at] & ID_MASK[bits]
+        at += ID_LENGTH[bits]
+        table[1, block] = view(buffer, np.uint32)[at] & SIZE_MASK[bits]
+        at += SIZE_LENGTH[bits]
+        table[2, block] = (view(buffer, np.uint64)[at] & TIME_MASK[bits]).view(np.int64)
+        table[3, block] = at + TIME_LENGTH[bits]
+    return Fields(*table)
 
 
 def view(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
@@ -137,43 +175,17 @@ def view(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
     return np.ndarray((buffer.size - dtype.itemsize + 1,), dtype, buffer, strides=(1,))
 
 
-def _bytes_of(path: Path) -> tuple[Bytes, int]:
-    """The file in memory, with zeros behind it, and its length."""
-    try:
-        with path.open("rb") as file:
-            buffer = np.zeros(file.seek(0, SEEK_END) + PAD, dtype=np.uint8)
-            file.seek(0)
-            size = file.readinto(memoryview(buffer)[:-PAD])
-    except FileNotFoundError:
-        raise UnreadableFile(
-            "there is no such file", where=str(path), advice="Check the name and the folder."
-        ) from None
-    except OSError as error:
-        raise UnreadableFile(
-            f"it cannot be opened ({error.strerror or error})",
-            where=str(path),
-            advice="Check that it is a file, and that you may read it.",
-        ) from None
-    return buffer, size
-
-
-def _preface(content: Bytes, *, where: str) -> int:
+def _preface(file: File, *, where: str) -> int:
     """The offset of the first record, behind a preface that is found in order."""
-    if not content.size:
-        raise UnreadableFile(
-            "the file is empty",
-            where=where,
-            advice="Copy it from the robot again, or record it again.",
-        )
-    opening = content[:PREFACE].tobytes()
-    if not MAGIC.startswith(opening[: len(MAGIC)]) or len(opening) < len(MAGIC) <= content.size:
+    opening = file.content[: min(PREFACE, file.size)]
+    if not opening.startswith(MAGIC[: len(opening)]):
         raise UnreadableFile(
             f"it does not begin with {MAGIC.decode()}, so it is no WPILOG file",
             where=f"{where}, byte 0",
             advice="Give the .wpilog file itself; export a .hoot file to WPILOG first.",
         )
-    if content.size < PREFACE:
-        raise _cut_in_preface(where, content.size)
+    if len(opening) < PREFACE:
+        raise _cut_short(where, file.size)
     version, extra = struct.unpack("<HI", opening[len(MAGIC) :])
     if version >> 8 != MAJOR:
         raise UnreadableFile(
@@ -182,12 +194,12 @@ def _preface(content: Bytes, *, where: str) -> int:
             advice="Record or export it as WPILOG 1.0.",
         )
     first = PREFACE + int(extra)
-    if first > content.size:
-        raise _cut_in_preface(where, content.size)
+    if first > file.size:
+        raise _cut_short(where, file.size)
     return first
 
 
-def _cut_in_preface(where: str, size: int) -> UnreadableFile:
+def _cut_short(where: str, size: int) -> UnreadableFile:
     return UnreadableFile(
         f"the file ends after {size} bytes, before its first record",
         where=f"{where}, byte {size}",
@@ -221,13 +233,13 @@ def _follow(
     return begin[taken] + at, int(after[last]) + at
 
 
-def _any_of(window: Bytes, shapes: Sequence[int]) -> NDArray[np.bool_]:
+def _any_of(window: Bytes, shapes: Sequence[int]) -> Flags:
     """Which bytes are one of the header bytes met so far."""
     if len(shapes) > FEW:
         known = np.zeros(256, dtype=bool)
         known[list(shapes)] = True
-        return known[window]
-    found = window == shapes[0]
+        return np.take(known, window)
+    found: Flags = np.equal(window, shapes[0])
     for shape in shapes[1:]:
         found |= window == shape
     return found
@@ -235,12 +247,13 @@ def _any_of(window: Bytes, shapes: Sequence[int]) -> NDArray[np.bool_]:
 
 def _lengths(buffer: Bytes, start: Numbers) -> Numbers:
     """Length of the records that would begin at ``start``, header and payload."""
-    bits = buffer[start]
-    size = view(buffer, np.uint32)[start + 1 + ID_LENGTH[bits]] & _MASK32[SIZE_LENGTH[bits]]
-    return HEADER_LENGTH[bits] + size
+    bits = buffer[start].astype(np.intp)
+    size = view(buffer, np.uint32)[start + (1 + ID_LENGTH)[bits]] & SIZE_MASK[bits]
+    lengths: Numbers = HEADER_LENGTH[bits] + size
+    return lengths
 
 
-def _walk(begin: Numbers, after: Numbers) -> tuple[NDArray[np.bool_] | slice, int]:
+def _walk(begin: Numbers, after: Numbers) -> tuple[Flags | slice, int]:
     """Which candidates the chain from the first one visits, and which is its last.
 
     A stretch of candidates that follow one another directly is crossed in one step.

@@ -1,0 +1,181 @@
+"""What the records of a WPILOG file belong to: entries, up to the first record that cannot be.
+
+An id is free for another entry once the first is finished, and an entry may come back under
+another id: its samples are joined, in the order of their times.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import TypeAlias
+
+import numpy as np
+
+from sim.formats.wpilog.control import Finish, Start, parse
+from sim.formats.wpilog.entry import SIZES, Entry
+from sim.formats.wpilog.records import Fields, Numbers, Records, fields
+
+SMALL_IDS = 1 << 16  # ids below fit 16 bits, which NumPy sorts by radix
+LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is hardly larger
+
+
+@dataclass(frozen=True)
+class Damage:
+    """Where reading stopped before the end of the file.
+
+    Args:
+        offset: the first byte that was not used.
+        left: how many bytes there are from it to the end of the file.
+        what: what is wrong with the record there, a clause.
+        torn: whether the file merely ends too soon, as when a robot loses power.
+    """
+
+    offset: int
+    left: int
+    what: str
+    torn: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """The entries of a file, and what kept the rest of it from being read, if anything did."""
+
+    entries: tuple[Entry, ...]
+    damage: Damage | None
+
+
+@dataclass(frozen=True, order=True)
+class _Stop:
+    """The first record that cannot be, and why."""
+
+    index: int
+    what: str
+
+
+@dataclass
+class _Life:
+    """An entry from the record that starts it to the one that ends it, by index."""
+
+    start: Start
+    metadata: str
+    first: int
+    last: int
+
+    def own(self, members: Numbers) -> Numbers:
+        """Those of the records with this id that fall into this life."""
+        first, last = np.searchsorted(members, (self.first, self.last))
+        return members[first:last]
+
+
+_Lives: TypeAlias = dict[int, list[_Life]]
+
+
+def contents_of(records: Records) -> Contents:
+    """Sort the records of a file into entries, up to the first record that cannot be."""
+    head = fields(records.file.buffer, records.start)
+    members = _members(head.id)
+    lives, stop = _lives(records, head, before=head.id.size)
+    stops = [stop] if stop else []
+    for number, own in members.items():
+        stops += _misfits(number, own, lives.get(number, ()), head)
+    if stops:
+        stop = min(stops)
+        lives, _ = _lives(records, head, before=stop.index)
+    return Contents(tuple(_joined(lives, members, records, head)), _damage(records, lives, stop))
+
+
+def _members(ids: Numbers) -> dict[int, Numbers]:
+    """For each entry id the records that carry it, in order; control records left out."""
+    if not ids.size:
+        return {}
+    keys = ids.astype(np.uint16) if int(ids.max()) < SMALL_IDS else ids
+    order = np.argsort(keys, kind="stable")
+    sorted_ids = ids[order]
+    first = np.flatnonzero(np.concatenate(([True], np.diff(sorted_ids) != 0)))
+    numbers = sorted_ids[first].tolist()
+    return {
+        number: own
+        for number, own in zip(numbers, np.split(order, first[1:]), strict=True)
+        if number
+    }
+
+
+def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Stop | None]:
+    """When each entry began and ended, by the control records up to the first senseless one."""
+    lives: _Lives = {}
+    for index in np.flatnonzero(head.id[:before] == 0).tolist():
+        begin = int(head.payload[index])
+        said = parse(bytes(records.file.content[begin : begin + int(head.size[index])]))
+        if said is None:
+            return lives, _Stop(index, "a control record that makes no sense")
+        known = lives.setdefault(said.id, [])
+        current = known[-1] if known and known[-1].last == before else None
+        if current and isinstance(said, Start | Finish):
+            current.last = index
+        elif current and not isinstance(said, Start | Finish):
+            current.metadata = said.metadata
+        if isinstance(said, Start):
+            known.append(_Life(said, said.metadata, index, before))
+    return lives, None
+
+
+def _misfits(number: int, own: Numbers, lives: Sequence[_Life], head: Fields) -> Iterator[_Stop]:
+    """The first record of an id that belongs to no entry, and any of a size its type cannot have.
+
+    Records between a finish and the next start are passed over, as WPILib's own tools do.
+    """
+    if not lives or own[0] < lives[0].first:
+        yield _Stop(int(own[0]), f"a record of entry {number}, which was never started")
+    for life in lives:
+        size = SIZES.get(life.start.type)
+        if size is None:
+            continue
+        part = life.own(own)
+        wrong = part[head.size[part] != size]
+        if wrong.size:
+            bytes_found = int(head.size[wrong[0]])
+            yield _Stop(int(wrong[0]), f"a {life.start.type} of {bytes_found} bytes")
+
+
+def _joined(
+    lives: _Lives, members: Mapping[int, Numbers], records: Records, head: Fields
+) -> Iterator[Entry]:
+    """One entry for all lives of the same name and type, in the order they first appear."""
+    named: dict[tuple[str, str], list[_Life]] = {}
+    for life in sorted(chain.from_iterable(lives.values()), key=lambda life: life.first):
+        named.setdefault((life.start.name, life.start.type), []).append(life)
+    none = np.zeros(0, dtype=np.int64)
+    for (name, kind), several in named.items():
+        own = [life.own(members.get(life.start.id, none)) for life in several]
+        at = np.concatenate(own) if len(own) > 1 else own[0]
+        time = head.time[at]
+        if np.any(time[1:] < time[:-1]):
+            order = np.argsort(time, kind="stable")
+            at, time = at[order], time[order]
+        metadata = next((life.metadata for life in reversed(several) if life.metadata), "")
+        yield Entry(name, kind, metadata, time, head.payload[at], head.size[at], records.file)
+
+
+def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> Damage | None:
+    """What kept the rest of the file from being read, if anything did."""
+    offset = int(records.start[stop.index]) if stop else records.end
+    left = records.file.size - offset
+    if not left:
+        return None
+    if not records.file.buffer[offset : records.file.size].any():
+        return Damage(offset, left, "nothing but zero bytes", torn=True)
+    if stop:
+        return Damage(offset, left, stop.what, torn=False)
+    return _overrun(records, lives, offset, left)
+
+
+def _overrun(records: Records, lives: _Lives, offset: int, left: int) -> Damage:
+    """The record at ``offset`` says it is longer than the file: cut off, or nonsense."""
+    head = fields(records.file.buffer, np.array([offset]))
+    number, size = int(head.id[0]), int(head.size[0])
+    if int(head.payload[0]) > records.file.size:
+        return Damage(offset, left, "a record that stops within its header", torn=True)
+    open_now = [life for life in lives.get(number, ()) if life.last == records.start.size]
+    sizes = [SIZES.get(life.start.type) for life in open_now] or [None] * (number == 0)
+    torn = any(size == fixed if fixed else size <= LIKELY_SIZE for fixed in sizes)
+    return Damage(offset, left, f"a record that claims {size} bytes", torn=torn)
