@@ -1,1 +1,36 @@
-"""Robot code in, facts out: Java and RobotPy are parsed, never executed."""
+"""Robot code in, facts out: Java and RobotPy are parsed, never executed.
+
+    file ──source──▶ text ──java | python──▶ common syntax ──routine──▶ RoutineFacts
+
+``source`` refuses what is no text, ``java`` and ``python`` bring both languages to one small
+syntax, and everything after that is written once: ``scope`` finds what a name stands for,
+``measure`` works out a constant, ``trace`` follows a callback (``drive`` and ``logged`` say what
+they saw), and ``routine`` collects the facts. Words that change with the season are in
+``vocabulary``.
+"""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from grader.robotcode.facts import RoutineFacts
+
+
+def read(path: "Path") -> "RoutineFacts":
+    """Read what a robot program says about its SysIdRoutine, without running any of it.
+
+    Constants are looked up in other files of the same language beside it, where it names them.
+
+    Args:
+        path: a ``.java`` or ``.py`` file.
+
+    Returns:
+        The facts. Code that does not parse gives facts with ``problems``.
+
+    Raises:
+        UnreadableFile: it is missing, empty, too large, not text, or neither Java nor Python.
+    """
+    from grader.robotcode.routine import facts_of  # noqa: PLC0415 - a command's start stays quick
+
+    return facts_of(path)

@@ -55,9 +55,10 @@ class DriveCall:
         method: the call as written: ``setVoltage``.
         output: what kind of command it is.
         uses_parameter: whether the callback's voltage reaches the call; None if it cannot be told.
-        scaled: whether the voltage is changed on its way (``voltage.in(Volts) / 12``); None unknown.
+        scaled: whether the voltage is changed on its way (``voltage.in(Volts) / 12``), a sign
+            apart; None if it cannot be told.
         text: the call's source text.
-        line: line in the source, from 1.
+        line: line in the source, from 1; 0 if it stands in another file.
     """
 
     motor: str
@@ -87,8 +88,8 @@ class LoggedSignal:
         family: ``linear``, ``angular`` or empty where it does not apply or cannot be told.
         unit: the unit as written, ``Meters``, ``RotationsPerSecond``; empty if none.
         source: where the value comes from.
-        text: the call's source text.
-        line: line in the source, from 1.
+        text: the call's source text, without what it is called on.
+        line: line in the source, from 1; 0 if it stands in another file.
     """
 
     motor: str
@@ -133,6 +134,8 @@ class RoutineFacts:
         config_argument, mechanism_argument: positions of the two in the constructor call (0 and 1
             when right), -1 if absent.
         problems: syntax errors; when there are any, the other facts may be incomplete.
+        unread: where the callbacks lead to code that is not in these files, or too deep to
+            follow: what is missing in ``drive`` or ``logged`` may be there.
     """
 
     language: str
@@ -154,3 +157,4 @@ class RoutineFacts:
     config_argument: int = -1
     mechanism_argument: int = -1
     problems: tuple[Problem, ...] = ()
+    unread: tuple[Problem, ...] = ()

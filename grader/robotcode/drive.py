@@ -1,0 +1,126 @@
+"""The drive callback: which motors it commands, how, and whether the voltage gets there."""
+
+from grader.robotcode.facts import DriveCall, Output
+from grader.robotcode.meaning import class_of, last_name, simple, type_of
+from grader.robotcode.measure import Measures
+from grader.robotcode.motors import motor_names
+from grader.robotcode.names import Names
+from grader.robotcode.scope import Scope
+from grader.robotcode.syntax import Call, Element, Member, Name, Node, Self
+from grader.robotcode.trace import Trace
+from grader.robotcode.value import Value, joined
+from grader.robotcode.vocabulary import (
+    BY_MODE,
+    BY_REQUEST,
+    COMMANDS,
+    DRIVES,
+    GROUPS,
+    MODES,
+    SILENT,
+    WITHOUT_MODE,
+    constant,
+    is_motor,
+    plain,
+    request_output,
+)
+
+
+class DriveTrace(Trace):
+    """Follows the drive callback and notes every command to a motor.
+
+    Args:
+        names: the names of the program.
+        measures: its constants.
+    """
+
+    def __init__(self, names: Names, measures: Measures) -> None:
+        super().__init__(names, measures)
+        self.calls: list[DriveCall] = []
+
+    def entries(self) -> int:
+        """How many commands have been noted."""
+        return len(self.calls)
+
+    def command(
+        self, call: Call, receiver: Value | None, args: list[Value], at: Value
+    ) -> Value | None:
+        """Note a command to a motor, or a call that may be one."""
+        method = plain(last_name(call.target))
+        if not self._may_be_motor(method, receiver, at):
+            return None
+        values = [arg for arg in args if _mode(arg) is None]
+        sent = joined(values[:1] if method in BY_MODE else values, at=at)
+        named = method in COMMANDS or method in BY_MODE or method in BY_REQUEST
+        if not named and (sent.carries is False or SILENT.fullmatch(method)):
+            return None
+        output = self._output(method, args)
+        if output is not None:
+            self._note(call, receiver, output, sent)
+        return at
+
+    def _output(self, method: str, args: list[Value]) -> Output | None:
+        """What kind of command a method is; None if it moves nothing."""
+        if method in BY_MODE:
+            mode = next(filter(None, map(_mode, args)), None)
+            return WITHOUT_MODE[method] if mode is None else mode
+        if method in BY_REQUEST and args:
+            type_ = simple(type_of(args[0].origin, args[0].scope, self.names))
+            return request_output(type_)
+        return COMMANDS.get(method, Output.UNKNOWN)
+
+    def _note(self, call: Call, receiver: Value | None, output: Output, sent: Value) -> None:
+        if sent.closed:
+            output = Output.CLOSED_LOOP
+        for motor in self._motors(receiver, sent):
+            self.calls.append(
+                DriveCall(
+                    motor=motor,
+                    method=last_name(call.target),
+                    output=output,
+                    uses_parameter=sent.carries,
+                    scaled=sent.scaled,
+                    text=call.place.text,
+                    line=self.line_of(call),
+                )
+            )
+
+    def _motors(self, receiver: Value | None, sent: Value) -> tuple[str, ...]:
+        if receiver is None or isinstance(receiver.origin, Self):
+            me = sent.me if receiver is None else receiver.me
+            java = sent.scope.module.language == "java"
+            return (me.removesuffix(".") or ("this" if java else "self"),)
+        found = motor_names(receiver.origin, receiver.scope, self.names)
+        return tuple(f"{receiver.me}{name}" for name in found)
+
+    def _may_be_motor(self, method: str, receiver: Value | None, at: Value) -> bool:
+        """Whether what a method is called on can be a motor, or stand for some."""
+        named = method in COMMANDS or method in BY_REQUEST
+        if receiver is None:  # a method of a class above, which these files do not hold
+            above = bool(at.scope.classes and at.scope.classes[-1].bases)
+            return at.scope.module.language == "java" and (named or above)
+        origin = receiver.origin
+        if isinstance(origin, Self):
+            return True
+        if receiver.carries is not False or not self._is_variable(origin, receiver.scope):
+            return False
+        type_ = type_of(origin, receiver.scope, self.names)
+        known = is_motor(type_) or simple(type_) in GROUPS | DRIVES
+        if known or not type_ or class_of(origin, receiver.scope, self.names) is not None:
+            return True
+        return named or method in BY_MODE - {"set"}  # much can be set that is no motor
+
+    def _is_variable(self, node: Node, scope: Scope) -> bool:
+        """Whether a node can hold an object: no class, no module, no number."""
+        while isinstance(node, Element):
+            node = node.owner
+        brought = {one.name for one in scope.module.imports}
+        if isinstance(node, Name) and node.name in brought:
+            return bool(self.names.local(node.name, scope))
+        return isinstance(node, Call) or last_name(node).lstrip("_")[:1].islower()
+
+
+def _mode(value: Value) -> Output | None:
+    """The control mode that an argument names, if it is one."""
+    return (
+        MODES.get(constant(last_name(value.origin))) if isinstance(value.origin, Member) else None
+    )

@@ -1,0 +1,148 @@
+"""How a value goes through an expression: what arithmetic and library calls do to the voltage."""
+
+from dataclasses import replace
+
+from grader.robotcode.meaning import last_name, simple, type_of
+from grader.robotcode.measure import Measure, Measures
+from grader.robotcode.names import Names
+from grader.robotcode.scope import Scope
+from grader.robotcode.syntax import Call, Member, Node, Operation
+from grader.robotcode.value import CHANGED, Mark, Value, joined
+from grader.robotcode.vocabulary import (
+    AMOUNTS,
+    APPLIED_DUTY,
+    APPLIED_VOLTAGE,
+    ARGUMENT,
+    BUS_VOLTAGE,
+    CALCULATES,
+    CONTROLLERS,
+    MEASURED,
+    OPPOSITE,
+    OVER,
+    REPLACES,
+    SAME,
+    TIMES,
+    UNITS,
+    is_motor,
+    plain,
+)
+
+
+class Flow:
+    """What happens to values in expressions.
+
+    Args:
+        names: the names of the program.
+        measures: its constants.
+    """
+
+    def __init__(self, names: Names, measures: Measures) -> None:
+        self._names = names
+        self._measures = measures
+
+    def operated(self, node: Operation, left: Value | None, right: Value, at: Value) -> Value:
+        """The value of ``left sign right``."""
+        if left is None:
+            return joined([right.times(-1.0 if node.sign == "-" else 1.0)], at=at)
+        both = joined([left, right], at=at)
+        if both.carries is False:
+            return both
+        if left.carries is not False and right.carries is not False:
+            return replace(both, factor=CHANGED)
+        carrying, other = (left, node.right) if left.carries is not False else (right, node.left)
+        constant = None if other is None else self._measures.of(other, at.scope)
+        factor = _factor(node.sign, constant, left_carries=carrying is left)
+        if constant is None and (left.marks | right.marks) & {Mark.BUS}:
+            factor = CHANGED
+        return replace(both, factor=carrying.times(factor).factor)
+
+    def through(self, call: Call, receiver: Value | None, args: list[Value], at: Value) -> Value:
+        """The value of a call whose function is not in these files."""
+        name = plain(last_name(call.target))
+        several = [*args] if receiver is None else [receiver, *args]
+        made = joined(several, at=at)
+        made = replace(made, marks=made.marks | self._marks(name, receiver))
+        if name in CALCULATES:
+            controller = receiver is not None and self._is_controller(receiver)
+            return replace(made, closed=made.closed or controller, factor=CHANGED)
+        kept = "" if name == "in" else made.unit
+        made = replace(made, unit=self._unit(call, name, at.scope) or kept)
+        if receiver is not None and (name in TIMES or name in OVER) and call.args:
+            sign = "*" if name in TIMES else "/"
+            constant = self._measures.of(call.args[0], at.scope)
+            factor = _factor(sign, constant, left_carries=receiver.carries is not False)
+            return replace(made, factor=receiver.times(factor).factor)
+        if made.carries is False:
+            return made
+        return replace(made, factor=self._factor_of_call(call, name, made, at.scope))
+
+    def _factor_of_call(self, call: Call, name: str, made: Value, scope: Scope) -> float | None:
+        """The factor after a call that the parameter goes into or is asked."""
+        if name in OPPOSITE:
+            return made.times(-1.0).factor
+        if name == "in":
+            return made.times(self._size(call.args, scope, inverse=True)).factor
+        if name in AMOUNTS and isinstance(call.target, Member):
+            return made.times(self._size((call.target.owner,), scope)).factor
+        if name in REPLACES:
+            return made.times(self._size(call.args[1:2], scope)).factor
+        kept = name in SAME or name in ARGUMENT or name.startswith("with")
+        return made.factor if kept or name[:1].isupper() else None  # upper: a constructor
+
+    def _size(
+        self, units: tuple[Node, ...], scope: Scope, *, inverse: bool = False
+    ) -> float | None:
+        """How many volts a unit is; 1 where none is named."""
+        if not units:
+            return 1.0
+        unit = self._measures.of(units[0], scope)
+        if unit is None or not unit.unit:
+            return None
+        return 1.0 / unit.value if inverse else unit.value
+
+    def _unit(self, call: Call, name: str, scope: Scope) -> str:
+        """The unit a call wraps a number in, as written."""
+        node: Node | None = None
+        if name in AMOUNTS and isinstance(call.target, Member):
+            node = call.target.owner
+        elif name in REPLACES and len(call.args) > 1:
+            node = call.args[1]
+        if node is None:
+            return ""
+        measure = self._measures.of(node, scope)
+        if measure is None or not measure.unit:
+            return ""
+        return last_name(node) if last_name(node) in UNITS else node.place.text
+
+    def _marks(self, name: str, receiver: Value | None) -> set[Mark]:
+        found = set()
+        if name in APPLIED_VOLTAGE:
+            found.add(Mark.APPLIED)
+        if name in BUS_VOLTAGE:
+            found.add(Mark.BUS)
+        motor = receiver is not None and is_motor(
+            type_of(receiver.origin, receiver.scope, self._names)
+        )
+        if motor and name == "getVoltage":
+            found.add(Mark.APPLIED)
+        if name in APPLIED_DUTY and (motor or name != "get"):
+            found.add(Mark.DUTY)
+        elif MEASURED.fullmatch(name):
+            found.add(Mark.MEASURED)
+        return found
+
+    def _is_controller(self, receiver: Value) -> bool:
+        type_ = simple(type_of(receiver.origin, receiver.scope, self._names))
+        return bool(CONTROLLERS.fullmatch(type_ or receiver.origin.place.text))
+
+
+def _factor(sign: str, constant: Measure | None, *, left_carries: bool) -> float | None:
+    """What ``x sign constant`` multiplies x with."""
+    if sign in {"+", "-"}:
+        flip = -1.0 if sign == "-" and not left_carries else 1.0
+        return flip if constant is not None and constant.value == 0.0 else CHANGED
+    if sign == "*":
+        return None if constant is None else constant.value
+    if sign == "/" and left_carries:
+        return None if constant is None or not constant.value else 1.0 / constant.value
+    return CHANGED

@@ -1,0 +1,102 @@
+"""Java's declarations and statements in the common syntax, one small function each."""
+
+import re
+
+from tree_sitter import Node as Tree
+
+from grader.robotcode import syntax
+from grader.robotcode.java.lowering import Lowering, Maker, said
+
+
+def _declaration(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    type_ = said(tree.child_by_field_name("type"))
+    made = []
+    for child in tree.children_by_field_name("declarator"):
+        name = child.child_by_field_name("name")
+        value = child.child_by_field_name("value")
+        made.append(
+            syntax.Assign(
+                lowering.place(child),
+                syntax.Name(lowering.place(name or child), said(name)),
+                None if value is None else lowering.one(value, around=child),
+                type="" if type_ == "var" else type_,
+                declares=True,
+            )
+        )
+    return tuple(made)
+
+
+def _return(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    inside = lowering.many(tree.children)
+    return (syntax.Return(lowering.place(tree), inside[0]),) if len(inside) == 1 else inside
+
+
+def _loop(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    body = tree.child_by_field_name("body")
+    statements = () if body is None else lowering.done[body.id]
+    variable = said(tree.child_by_field_name("name"))
+    return (syntax.Loop(lowering.place(tree), variable, lowering.field(tree, "value"), statements),)
+
+
+def _parameters(tree: Tree | None) -> tuple[tuple[str, str], ...]:
+    """Name and type of each parameter of a method or lambda."""
+    if tree is None:
+        return ()
+    if tree.type == "identifier":
+        return ((said(tree), ""),)
+    found = []
+    for child in tree.named_children:
+        name = child if child.type == "identifier" else child.child_by_field_name("name")
+        if name is not None:
+            found.append((said(name), said(child.child_by_field_name("type"))))
+    return tuple(found)
+
+
+def _function(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    place, body = lowering.place(tree), tree.child_by_field_name("body")
+    listed = tree.child_by_field_name("parameters")
+    parameters = tuple(
+        syntax.Parameter(lowering.place(listed or tree), name, type_)
+        for name, type_ in _parameters(listed)
+    )
+    name = said(tree.child_by_field_name("name"))
+    if tree.type == "constructor_declaration":
+        name = "<init>"
+    if body is None:
+        return (syntax.Function(place, name, parameters, ()),)
+    statements = lowering.many(body.children) if body.children else lowering.done[body.id]
+    if tree.type == "lambda_expression" and body.type != "block":
+        value = lowering.one(body, around=tree)
+        statements = (syntax.Return(value.place, value),)
+    type_ = said(tree.child_by_field_name("type"))
+    return (syntax.Function(place, name, parameters, statements, type=type_),)
+
+
+def _class(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    body = tree.child_by_field_name("body")
+    members = () if body is None else lowering.many(body.children)
+    bases = [
+        re.sub(r"<.*", "", said(kind), flags=re.DOTALL).rpartition(".")[2]
+        for child in tree.children
+        if child.type in {"superclass", "super_interfaces", "extends_interfaces"}
+        for group in child.named_children
+        for kind in (group.named_children if group.type == "type_list" else [group])
+    ]
+    name = said(tree.child_by_field_name("name"))
+    return (syntax.Class(lowering.place(tree), name, tuple(bases), members),)
+
+
+DECLARATIONS: dict[str, Maker] = {
+    "field_declaration": _declaration,
+    "constant_declaration": _declaration,
+    "local_variable_declaration": _declaration,
+    "return_statement": _return,
+    "enhanced_for_statement": _loop,
+    "lambda_expression": _function,
+    "method_declaration": _function,
+    "constructor_declaration": _function,
+    "class_declaration": _class,
+    "interface_declaration": _class,
+    "enum_declaration": _class,
+    "record_declaration": _class,
+}

@@ -1,0 +1,176 @@
+"""Java's expressions in the common syntax, one small function each."""
+
+from tree_sitter import Node as Tree
+
+from grader.robotcode import syntax
+from grader.robotcode.java.lowering import SKIPPED, Lowering, Maker, said
+
+
+def _name(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    return (syntax.Name(lowering.place(tree), said(tree)),)
+
+
+def _self(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    return (syntax.Self(lowering.place(tree)),)
+
+
+def _null(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    return (syntax.Null(lowering.place(tree)),)
+
+
+def _number(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    place, digits = lowering.place(tree), said(tree).replace("_", "").lower()
+    try:
+        if tree.type == "decimal_floating_point_literal":
+            return (syntax.Number(place, float(digits.rstrip("fd")), integer=False),)
+        base = 8 if tree.type == "octal_integer_literal" else 0
+        return (syntax.Number(place, float(int(digits.rstrip("l"), base)), integer=True),)
+    except (ValueError, OverflowError):
+        return (syntax.Opaque(place),)
+
+
+def _string(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    return (syntax.Text(lowering.place(tree), said(tree).strip('"').strip()),)
+
+
+def _member(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    field = tree.child_by_field_name("field")
+    if field is not None and field.type == "this":  # Outer.this
+        return _self(lowering, tree)
+    owner = lowering.field(tree, "object")
+    return (syntax.Member(lowering.place(tree), owner, said(field)),)
+
+
+def _reference(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    named = tree.named_children
+    owner = lowering.one(named[0] if named else None, around=tree)
+    name = said(named[-1]) if len(named) > 1 else "new"
+    return (syntax.Reference(lowering.place(tree), owner, name),)
+
+
+def _scoped_type(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    named = tree.named_children
+    if not named:
+        return ()
+    owner = lowering.one(named[0], around=tree)
+    return (syntax.Member(lowering.place(tree), owner, said(named[-1])),)
+
+
+def _generic_type(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    return (lowering.one(tree.named_children[0] if tree.named_children else None, around=tree),)
+
+
+def _method_call(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    name = tree.child_by_field_name("name") or tree
+    owner = tree.child_by_field_name("object")
+    start = lowering.place(name)
+    place = syntax.Place(lowering.source, name.start_byte, tree.end_byte, start.line)
+    target: syntax.Node = syntax.Name(place, said(name))
+    if owner is not None:  # a chain begins far above; its method stands where its name does
+        target = syntax.Member(place, lowering.one(owner, around=tree), said(name))
+    return (syntax.Call(lowering.place(tree), target, _arguments(lowering, tree)),)
+
+
+def _creation(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    args = _arguments(lowering, tree)
+    bodies = [child for child in tree.children if child.type == "class_body"]
+    methods = [
+        node
+        for body in bodies
+        for node in lowering.many(body.children)
+        if isinstance(node, syntax.Function)
+    ]
+    if len(methods) == 1 and not args:  # an anonymous Consumer is a lambda written long
+        method = methods[0]
+        return (syntax.Function(method.place, "", method.parameters, method.body),)
+    return (syntax.Call(lowering.place(tree), lowering.field(tree, "type"), args),)
+
+
+def _arguments(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    """The arguments one by one, so that a damaged one does not move the others."""
+    arguments = tree.child_by_field_name("arguments")
+    if arguments is None:
+        return ()
+    return tuple(
+        lowering.one(child, around=arguments)
+        for child in arguments.named_children
+        if child.type not in SKIPPED
+    )
+
+
+def _operation(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    sign = said(tree.child_by_field_name("operator"))
+    place = lowering.place(tree)
+    if tree.type == "unary_expression":
+        return (syntax.Operation(place, sign, None, lowering.field(tree, "operand")),)
+    left, right = lowering.field(tree, "left"), lowering.field(tree, "right")
+    return (syntax.Operation(place, sign, left, right),)
+
+
+def _choice(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    three = (lowering.field(tree, name) for name in ("condition", "consequence", "alternative"))
+    return (syntax.Choice(lowering.place(tree), *three),)
+
+
+def _cast(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    type_ = said(tree.child_by_field_name("type"))
+    return (syntax.Cast(lowering.place(tree), type_, lowering.field(tree, "value")),)
+
+
+def _element(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    owner, index = lowering.field(tree, "array"), lowering.field(tree, "index")
+    return (syntax.Element(lowering.place(tree), owner, index),)
+
+
+def _items(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    return (syntax.Items(lowering.place(tree), lowering.many(tree.children)),)
+
+
+def _array(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    value = tree.child_by_field_name("value")
+    return lowering.done[value.id] if value is not None else (syntax.Opaque(lowering.place(tree)),)
+
+
+def _assignment(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    place, sign = lowering.place(tree), said(tree.child_by_field_name("operator"))
+    target, value = lowering.field(tree, "left"), lowering.field(tree, "right")
+    if sign != "=":
+        value = syntax.Operation(place, sign.removesuffix("="), target, value)
+    return (syntax.Assign(place, target, value),)
+
+
+def _update(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+    place, inside = lowering.place(tree), lowering.many(tree.children)
+    if len(inside) != 1:
+        return inside
+    return (syntax.Assign(place, inside[0], syntax.Opaque(place, inside)),)
+
+
+EXPRESSIONS: dict[str, Maker] = {
+    "identifier": _name,
+    "type_identifier": _name,
+    "super": _name,
+    "this": _self,
+    "null_literal": _null,
+    "decimal_integer_literal": _number,
+    "hex_integer_literal": _number,
+    "octal_integer_literal": _number,
+    "binary_integer_literal": _number,
+    "decimal_floating_point_literal": _number,
+    "string_literal": _string,
+    "field_access": _member,
+    "method_reference": _reference,
+    "scoped_type_identifier": _scoped_type,
+    "generic_type": _generic_type,
+    "method_invocation": _method_call,
+    "object_creation_expression": _creation,
+    "binary_expression": _operation,
+    "unary_expression": _operation,
+    "ternary_expression": _choice,
+    "cast_expression": _cast,
+    "array_access": _element,
+    "array_initializer": _items,
+    "array_creation_expression": _array,
+    "assignment_expression": _assignment,
+    "update_expression": _update,
+}

@@ -1,0 +1,176 @@
+"""The motors of a class: which it owns, which follow another, and which a name stands for."""
+
+from collections.abc import Iterator
+
+from grader.robotcode.meaning import Placed, last_name, resolve, simple, type_from, type_of
+from grader.robotcode.names import DEEPEST, Names
+from grader.robotcode.scope import Scope, walk
+from grader.robotcode.syntax import (
+    Assign,
+    Call,
+    Element,
+    Items,
+    Loop,
+    Member,
+    Name,
+    Node,
+    Parameter,
+    Reference,
+    Self,
+    inside,
+)
+from grader.robotcode.vocabulary import (
+    COLLECTIONS,
+    DRIVES,
+    FOLLOWERS,
+    GROUPS,
+    constant,
+    is_motor,
+    plain,
+)
+
+
+def label(node: Node) -> str:
+    """What a motor is called in messages: ``m_left``, ``io.motor``."""
+    if isinstance(node, Name):
+        return node.name
+    if isinstance(node, Member) and isinstance(node.owner, Self):
+        return node.name
+    return node.place.text
+
+
+def elements(node: Node, scope: Scope, names: Names) -> tuple[Placed, ...]:
+    """The motors in an array, a list, a motor group or a drive, if they have names of their own."""
+    value, where = resolve(node, scope, names)
+    several: tuple[Node, ...] = ()
+    if isinstance(value, Items):
+        several = value.items
+    elif isinstance(value, Call):
+        maker = last_name(value.target)
+        owner = last_name(value.target.owner) if isinstance(value.target, Member) else ""
+        if maker in GROUPS | DRIVES or owner in COLLECTIONS:
+            several = value.args
+    found = tuple(item.owner if isinstance(item, Reference) else item for item in several)
+    named = all(isinstance(item, Name | Member | Element) for item in found)
+    return tuple((item, where) for item in found) if named else ()
+
+
+def motor_names(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tuple[str, ...]:
+    """The motors that a node stands for: itself, or all that are in it."""
+    if isinstance(node, Element):
+        node = node.owner
+    if depth < DEEPEST:
+        members = elements(node, scope, names)
+        if not members and isinstance(node, Name):
+            members = tuple(
+                (d.value.collection if isinstance(d.value, Loop) else d.value, d.scope)
+                for d in names.local(node.name, scope)
+                if isinstance(d.value, Loop | Name | Member | Element)
+            )
+        if members:
+            several = (motor_names(n, s, names, depth=depth + 1) for n, s in members)
+            return tuple(dict.fromkeys(name for some in several for name in some))
+    return (label(node),)
+
+
+def owned(home: Scope, names: Names) -> tuple[str, ...]:
+    """The motor controllers a class has, without those set to follow another."""
+    classes = with_bases(home, names)
+    found: dict[str, None] = {}
+    for place in classes:
+        for name, definitions in names.fields(place).items():
+            first = next((d for d in definitions if d.value is not None), None)
+            named = bool(first and first.value and elements(first.value, first.scope, names))
+            if is_motor(type_from(definitions, names)) and not named:
+                found[name] = None
+    following = {name for place in classes for name in _Followers(names).of(place)}
+    return tuple(name for name in found if name not in following)
+
+
+def with_bases(home: Scope, names: Names) -> list[Scope]:
+    """A class and those above it, as far as these files hold them."""
+    found = [home]
+    for place in found:
+        found += [base for base in names.bases(place) if base not in found]
+    return found
+
+
+class _Followers:
+    """Finds the motors of a class that are told to follow another, in the order of the text."""
+
+    def __init__(self, names: Names) -> None:
+        self._names = names
+        self._configs: set[tuple[str, Node | None]] = set()  # settings that make a follower
+
+    def of(self, home: Scope) -> set[str]:
+        """The names of the motors that follow."""
+        found: set[str] = set()
+        for node, scope in walk(home.classes[-1].body, home):
+            if isinstance(node, Assign) and node.value and _follow_calls(node.value):
+                self._configs.add(self._key(node.target, scope))
+            elif isinstance(node, Call) and isinstance(node.target, Member):
+                for motor, where in self._followers(node, node.target, scope):
+                    found.update(self._called_with(motor, where, home))
+        return found
+
+    def _followers(self, call: Call, target: Member, scope: Scope) -> list[Placed]:
+        """The motors that one call makes followers."""
+        name = plain(target.name)
+        motor = (target.owner, scope)
+        first = call.args[0] if call.args else None
+        if name == "addFollower":
+            return [(arg, scope) for arg in call.args]
+        if name == "follow":
+            if is_motor(type_of(target.owner, scope, self._names)):
+                return [motor]
+            self._configs.add(self._key(_root(target), scope))
+        elif name == "setControl" and first is not None:
+            return [motor] if simple(type_of(first, scope, self._names)) in FOLLOWERS else []
+        elif name == "set" and first is not None:
+            return [motor] if constant(last_name(first)) == "follower" else []
+        elif name == "configure" and first is not None:
+            follows = self._key(first, scope) in self._configs or self._settings_follow(
+                first, scope
+            )
+            return [motor] if follows else []
+        return []
+
+    def _settings_follow(self, settings: Node, scope: Scope) -> bool:
+        """Whether settings make a follower where they stand, or in the class they come from."""
+        if _follow_calls(settings):
+            return True
+        home = self._names.home(settings.owner, scope) if isinstance(settings, Member) else None
+        if home is None or not home.classes or home.classes == scope.classes:
+            return False
+        calls = [call for node in home.classes[-1].body for call in _follow_calls(node)]
+        return last_name(settings) in {last_name(_root(call.target)) for call in calls}
+
+    def _key(self, node: Node, scope: Scope) -> tuple[str, Node | None]:
+        """A variable, told apart from those of the same name in other methods."""
+        local = self._names.local(node.name, scope) if isinstance(node, Name) else ()
+        return label(node), local[0].scope.functions[-1] if local else None
+
+    def _called_with(self, motor: Node, scope: Scope, home: Scope) -> Iterator[str]:
+        """The motor's name; where it is a method's parameter, the motors it is called with."""
+        local = self._names.local(motor.name, scope) if isinstance(motor, Name) else ()
+        if not local or not isinstance(local[0].value, Parameter):
+            yield from motor_names(motor, scope, self._names)
+            return
+        function = local[0].scope.functions[-1]
+        at = function.parameters.index(local[0].value)
+        for node in inside(*home.classes[-1].body):
+            if isinstance(node, Call) and last_name(node.target) == function.name:
+                yield from (label(arg) for arg in node.args[at : at + 1])
+
+
+def _follow_calls(node: Node) -> list[Call]:
+    return [n for n in inside(node) if isinstance(n, Call) and last_name(n.target) == "follow"]
+
+
+def _root(node: Node) -> Node:
+    """The variable a chain of calls begins with."""
+    while isinstance(node, Member | Call):
+        if isinstance(node, Member) and isinstance(node.owner, Self):
+            return node
+        node = node.owner if isinstance(node, Member) else node.target
+    return node

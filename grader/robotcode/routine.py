@@ -1,0 +1,207 @@
+"""From a file to the facts about its SysIdRoutine."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from grader.robotcode.drive import DriveTrace
+from grader.robotcode.facts import Known, Quantity, RoutineFacts
+from grader.robotcode.files import Files
+from grader.robotcode.logged import LogTrace
+from grader.robotcode.meaning import Placed, constructed, methods, resolve, simple, type_of
+from grader.robotcode.measure import Measures
+from grader.robotcode.motors import owned, with_bases
+from grader.robotcode.names import Names
+from grader.robotcode.scope import Scope, walk
+from grader.robotcode.syntax import Call, Function, Node, Null, Number, Self, Text
+from grader.robotcode.value import MotorLog, Value
+from grader.robotcode.vocabulary import (
+    CONFIG,
+    DEFAULTS,
+    MECHANISM,
+    ROUTINE,
+    SUBSYSTEMS,
+    plain,
+)
+
+
+@dataclass(frozen=True)
+class _Routine:
+    """A SysIdRoutine constructor call, its two arguments found.
+
+    Args:
+        call: the call.
+        scope: where it stands.
+        config, mechanism: their positions among the arguments; -1 if absent.
+    """
+
+    call: Call
+    scope: Scope
+    config: int
+    mechanism: int
+
+    def argument(self, position: int) -> Placed | None:
+        """The argument at a position; None if there is none."""
+        found = _arguments(self.call, ROUTINE).get(position)
+        return None if found is None else (found, self.scope)
+
+
+def facts_of(path: Path) -> RoutineFacts:
+    """Read the facts from a file; see ``grader.robotcode.read``."""
+    names = Names(Files(path))
+    module = names.main
+    facts = RoutineFacts(module.language, problems=module.problems)
+    routine = _find(names)
+    if routine is None:
+        return facts
+    measures = Measures(names)
+    home = routine.scope.home
+    if home.classes:
+        above = {base for place in with_bases(home, names) for base in place.classes[-1].bases}
+        facts = replace(
+            facts,
+            class_name=home.classes[-1].name,
+            is_subsystem=not above.isdisjoint(SUBSYSTEMS),
+            motors=owned(home, names),
+        )
+    facts = replace(
+        facts,
+        routine_line=routine.call.place.line,
+        config_argument=routine.config,
+        mechanism_argument=routine.mechanism,
+    )
+    facts = _with_config(facts, routine.argument(routine.config), names, measures)
+    return _with_mechanism(facts, routine.argument(routine.mechanism), names, measures)
+
+
+def _find(names: Names) -> _Routine | None:
+    """The first routine that is complete, else the one that has most."""
+    found = [
+        _routine(node, scope, names)
+        for node, scope in walk(names.main.body, Scope(names.main))
+        if isinstance(node, Call) and constructed(node, scope, names) == "SysIdRoutine"
+    ]
+    return max(found, key=lambda one: (one.config >= 0) + (one.mechanism >= 0), default=None)
+
+
+def _routine(call: Call, scope: Scope, names: Names) -> _Routine:
+    kinds = {at: _kind(node, scope, names) for at, node in _arguments(call, ROUTINE).items()}
+    config, mechanism = (
+        next((at for at, kind in kinds.items() if kind == word), -1)
+        for word in ("Config", "Mechanism")
+    )
+    unclear = [at for at, kind in kinds.items() if not kind]
+    if config < 0 and unclear:
+        config = unclear.pop(0)
+    if mechanism < 0 and unclear:
+        mechanism = unclear.pop(0)
+    return _Routine(call, scope, config, mechanism)
+
+
+def _kind(node: Node, scope: Scope, names: Names) -> str:
+    """The class of an argument; empty if it cannot be told."""
+    value, where = resolve(node, scope, names)
+    if isinstance(value, Call):
+        return constructed(value, where, names)
+    if isinstance(value, Null | Text | Number | Function | Self):
+        return "other"
+    return simple(type_of(node, scope, names))
+
+
+def _arguments(call: Call, words: tuple[str, ...]) -> dict[int, Node]:
+    """Arguments by position, those given by keyword at the position of their word."""
+    named = ((plain(word), node) for word, node in call.named)
+    by_word = {words.index(word): node for word, node in named if word in words}
+    return dict(enumerate(call.args)) | by_word
+
+
+def _with_config(
+    facts: RoutineFacts, config: Placed | None, names: Names, measures: Measures
+) -> RoutineFacts:
+    if config is None:
+        return facts
+    call, scope = resolve(*config, names)
+    if not isinstance(call, Call) or constructed(call, scope, names) != "Config":
+        return facts
+    given = _arguments(call, CONFIG)
+    found = dict.fromkeys(DEFAULTS, Quantity(Known.UNKNOWN))
+    for at, (name, default) in enumerate(DEFAULTS.items()):
+        if at in given:
+            found[name] = _quantity(given[at], scope, default, names, measures)
+        elif not call.spread:
+            found[name] = default
+    return replace(facts, ramp=found["ramp"], step=found["step"], timeout=found["timeout"])
+
+
+def _quantity(
+    node: Node, scope: Scope, default: Quantity, names: Names, measures: Measures
+) -> Quantity:
+    """One number of a Config that was given something."""
+    place = node.place
+    line = place.line if place.source is names.main.source else 0
+    resolved, where = resolve(node, scope, names)
+    if isinstance(resolved, Null):  # only Java takes null for "your own"; Python stumbles over it
+        known = Known.DEFAULT if where.module.language == "java" else Known.UNKNOWN
+        stated = default if known is Known.DEFAULT else Quantity(known)
+        return replace(stated, text=place.text, line=line)
+    measure = measures.of(node, scope)
+    if measure is None or measure.unit:
+        return Quantity(Known.UNKNOWN, text=place.text, line=line)
+    return Quantity(Known.STATED, measure.value, measure.dimension, place.text, line)
+
+
+def _with_mechanism(
+    facts: RoutineFacts, mechanism: Placed | None, names: Names, measures: Measures
+) -> RoutineFacts:
+    if mechanism is None:
+        return facts
+    call, scope = resolve(*mechanism, names)
+    if not isinstance(call, Call) or constructed(call, scope, names) != "Mechanism":
+        return facts
+    given = _arguments(call, MECHANISM)
+    facts = replace(facts, subsystem_passed=_passed(given.get(2), call, scope, names))
+    drive = DriveTrace(names, measures)
+    callback = _callback(given.get(0), scope, names)
+    if callback is not None:
+        parameter = Value(callback, scope, carries=True)
+        facts = replace(
+            facts,
+            drive_found=drive.run(callback, scope, parameter),
+            drive_line=drive.line_of(callback),
+        )
+        _in_periodic(drive, scope, names)
+    commanded = {key for key, value in drive.stored.items() if value.carries is not False}
+    log = LogTrace(names, measures, commanded=commanded)
+    callback = _callback(given.get(1), scope, names)
+    if callback is not None:
+        found = log.run(callback, scope, Value(callback, scope, log=MotorLog()))
+        facts = replace(facts, log_found=found, log_line=log.line_of(callback))
+    return replace(
+        facts,
+        drive=tuple(drive.calls),
+        logged=tuple(log.signals),
+        log_is_null=given.get(1) is not None and callback is None,
+        unread=(*drive.unread.values(), *log.unread.values()),
+    )
+
+
+def _callback(node: Node | None, scope: Scope, names: Names) -> Node | None:
+    """A callback argument; None if it is left out or null."""
+    empty = node is None or isinstance(resolve(node, scope, names)[0], Null)
+    return None if empty else node
+
+
+def _passed(node: Node | None, call: Call, scope: Scope, names: Names) -> bool | None:
+    """Whether the subsystem argument is the object itself."""
+    if node is None:
+        return None if call.spread else False
+    value, _ = resolve(node, scope, names)
+    return True if isinstance(value, Self) else False if isinstance(value, Null) else None
+
+
+def _in_periodic(drive: DriveTrace, scope: Scope, names: Names) -> None:
+    """A callback that only keeps the voltage leaves the motors to periodic()."""
+    if drive.calls or not scope.classes:
+        return
+    if any(value.carries for value in drive.stored.values()):
+        for method in methods("periodic", scope.home, names)[:1]:
+            drive.then(method)

@@ -1,0 +1,88 @@
+"""Where a piece of code stands, and which names get a value there."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from grader.robotcode.syntax import (
+    Assign,
+    Class,
+    Function,
+    Loop,
+    Module,
+    Name,
+    Node,
+    inside,
+)
+
+
+@dataclass(frozen=True)
+class Scope:
+    """Where a piece of code stands: its file, the classes around it, the functions around it."""
+
+    module: Module
+    classes: tuple[Class, ...] = ()
+    functions: tuple[Function, ...] = ()
+
+    @property
+    def home(self) -> "Scope":
+        """The class around it, without the functions."""
+        return replace(self, functions=())
+
+    def within(self, node: Node) -> "Scope":
+        """The scope of what is inside a node that stands in this one."""
+        if isinstance(node, Class):
+            return Scope(self.module, (*self.classes, node))
+        if isinstance(node, Function):
+            return replace(self, functions=(*self.functions, node))
+        return self
+
+
+@dataclass(frozen=True)
+class Definition:
+    """One place where a variable gets its value.
+
+    Args:
+        value: what it gets; the Parameter or the Loop itself where the value comes from outside;
+            None for a bare declaration.
+        scope: where the value stands.
+        type: the declared type; empty if none.
+    """
+
+    value: Node | None
+    scope: Scope
+    type: str = ""
+
+
+Definitions = tuple[Definition, ...]
+
+
+def walk(nodes: tuple[Node, ...], scope: Scope) -> Iterator[tuple[Node, Scope]]:
+    """All nodes in and under some, each with the scope it stands in, in the order of the text."""
+    waiting = [(node, scope) for node in reversed(nodes)]
+    while waiting:
+        node, around = waiting.pop()
+        yield node, around
+        within = around.within(node)
+        waiting.extend((part, within) for part in reversed(node.parts))
+
+
+def bindings(nodes: tuple[Node, ...], scope: Scope) -> dict[str, Definitions]:
+    """The names that get a value in a body of code, not counting those of functions inside it.
+
+    In Java an assignment without a declaration is to a field, and brings no name into being.
+    """
+    found: dict[str, list[Definition]] = {}
+    declared = set()
+    for node in inside(*nodes, but=(Function, Class)):
+        if isinstance(node, Assign) and isinstance(node.target, Name):
+            name = node.target.name
+            found.setdefault(name, []).append(Definition(node.value, scope, node.type))
+            if node.declares or scope.module.language == "python":
+                declared.add(name)
+        elif isinstance(node, Loop) and node.variable:
+            found.setdefault(node.variable, []).append(Definition(node, scope))
+            declared.add(node.variable)
+        elif isinstance(node, Function) and node.name and scope.module.language == "python":
+            found.setdefault(node.name, []).append(Definition(node, scope))
+            declared.add(node.name)
+    return {name: tuple(found[name]) for name in found if name in declared}

@@ -1,0 +1,175 @@
+"""Follows a callback through the code, into methods and lambdas, without running anything.
+
+Every expression becomes a Value. What a call means to the matter at hand (a command to a motor, an
+entry in a log) is for a subclass to say.
+"""
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from grader.robotcode.facts import Problem
+from grader.robotcode.meaning import Method, called, class_of, last_name, resolve, type_of
+from grader.robotcode.motors import label
+from grader.robotcode.scope import Scope
+from grader.robotcode.statements import Frame, Statements
+from grader.robotcode.syntax import Call, Function, Member, Node, Reference, Self
+from grader.robotcode.value import Value, joined
+from grader.robotcode.vocabulary import LOOPS, RUNS, is_motor, plain
+
+MOST_CALLS = 4  # methods followed, one inside the other
+
+
+class Trace(Statements):
+    """Follows one callback.
+
+    Args:
+        names: the names of the program.
+        measures: its constants.
+    """
+
+    @abstractmethod
+    def command(
+        self, call: Call, receiver: Value | None, args: list[Value], at: Value
+    ) -> Value | None:
+        """Take note of a call of code outside these files, if it is one this trace is after.
+
+        Returns:
+            What the call gives; None if it is nothing to this trace.
+        """
+
+    @abstractmethod
+    def entries(self) -> int:
+        """How much has been noted so far."""
+
+    def run(self, callback: Node, scope: Scope, parameter: Value) -> bool:
+        """Follow a callback.
+
+        Args:
+            callback: a lambda, a method reference, or a variable that holds one.
+            scope: where it stands.
+            parameter: what it is called with.
+
+        Returns:
+            Whether it could be found.
+        """
+        node, where = resolve(callback, scope, self.names)
+        if not isinstance(node, Function | Member):
+            self.cannot_read(callback)
+            return False
+        frame = Frame(where)
+        self._invoked(frame.value(node), [parameter], frame)
+        return True
+
+    def then(self, method: Method) -> None:
+        """Follow another method of the class after the callback."""
+        self.follow(method, [], {}, Frame(method[1].home), me="")
+
+    def cannot_read(self, node: Node) -> None:
+        """Say that the way leads out of these files."""
+        said = f"`{node.place.text}` leads to code that is not in this file or those beside it"
+        self.unread.setdefault(said, Problem(said, self.line_of(node)))
+
+    def call(self, node: Call, frame: Frame) -> Value:
+        """The value of a call, its arguments first."""
+        owner = node.target.owner if isinstance(node.target, Member) else None
+        receiver = None if owner is None else self.evaluate(owner, frame)
+        args = [self.evaluate(arg, frame) for arg in node.args]
+        named = {word: self.evaluate(value, frame) for word, value in node.named}
+        return self._applied(node, receiver, args, named, frame)
+
+    def _applied(
+        self,
+        call: Call,
+        receiver: Value | None,
+        args: list[Value],
+        named: dict[str, Value],
+        frame: Frame,
+    ) -> Value:
+        """A call, when what it is called on and with is known."""
+        name = last_name(call.target)
+        if receiver is None and name in frame.locals and frame.scope.module.language == "python":
+            return self._invoked(frame.locals[name], args, frame)
+        if receiver is not None and plain(name) in RUNS and self._holds_lambda(receiver):
+            return self._invoked(receiver, args, frame)
+        if receiver is not None and plain(name) in LOOPS and args:
+            several = self.elements(receiver, frame)
+            return [self._invoked(args[0], [element], frame) for element in several][-1]
+        owner = None if receiver is None else (receiver.origin, receiver.scope)
+        methods = called(call, frame.scope, self.names, owner=owner)
+        fresh = next((method for method in methods if method[0] not in frame.around), None)
+        if fresh is not None:
+            before = self.entries()
+            value = self.follow(fresh, args, named, frame, me=self._object(receiver, frame))
+            if fresh[0].body or self.entries() > before:
+                return value
+        every = [*args, *named.values()]
+        if fresh is not None or not methods:
+            said = self.command(call, receiver, every, frame.value(call))
+            if said is not None:
+                return said
+        self._keep(call, receiver, every, frame)
+        return self.flow.through(call, receiver, every, frame.value(call))
+
+    def _invoked(self, callee: Value, args: list[Value], frame: Frame) -> Value:
+        """A call of a lambda or of a method reference."""
+        node, scope = resolve(callee.origin, callee.scope, self.names)
+        if isinstance(node, Function):
+            method = (node, scope.within(node))
+            captured = callee.captured
+            return self.follow(method, args, {}, frame, me=callee.me, captured=captured)
+        if not isinstance(node, Member):
+            return joined(args, at=callee).times(None)
+        inner = Frame(scope, callee.me, dict(callee.captured), around=frame.around)
+        written_out = Call(node.place, node, tuple(arg.origin for arg in args))
+        return self._applied(written_out, self.evaluate(node.owner, inner), args, {}, inner)
+
+    def follow(
+        self,
+        method: Method,
+        args: list[Value],
+        named: dict[str, Value],
+        frame: Frame,
+        *,
+        me: str,
+        captured: Mapping[str, Value] = MappingProxyType({}),
+    ) -> Value:
+        """Follow a function of these files."""
+        function, scope = method
+        if len(frame.around) > MOST_CALLS:
+            return self.too_deep(function, frame)
+        inner = Frame(scope, me, around=(*frame.around, function))
+        inner.locals |= captured
+        inner.locals |= {one.name: inner.value(one) for one in function.parameters}
+        inner.locals |= {one.name: arg for one, arg in zip(function.parameters, args, strict=False)}
+        inner.locals |= named
+        for statement in function.body:
+            self.evaluate(statement, inner)
+        if len(inner.returned) == 1:
+            return inner.returned[0]
+        return joined(inner.returned, at=inner.value(function))
+
+    def _object(self, receiver: Value | None, frame: Frame) -> str:
+        """The object whose code a method is, to be put before the names of its fields."""
+        if receiver is None:
+            return frame.me
+        if isinstance(receiver.origin, Self):
+            return receiver.me
+        if self.names.home(receiver.origin, receiver.scope) is not None:
+            return ""
+        return f"{receiver.me}{label(receiver.origin)}."
+
+    def _holds_lambda(self, value: Value) -> bool:
+        node, _ = resolve(value.origin, value.scope, self.names)
+        return isinstance(node, Function | Reference)
+
+    def _keep(self, call: Call, receiver: Value | None, args: list[Value], frame: Frame) -> None:
+        """Remember what an object was given: ``m_applied.mut_replace(volts, Volts)``."""
+        if receiver is None or not isinstance(call.target, Member):
+            return
+        type_ = type_of(receiver.origin, receiver.scope, self.names)
+        foreign = bool(type_) and not is_motor(type_)
+        if foreign and class_of(receiver.origin, receiver.scope, self.names) is not None:
+            foreign = False
+        if foreign or plain(call.target.name).startswith(("mut", "with")):
+            self.store(call.target.owner, joined(args, at=frame.value(call)), frame)

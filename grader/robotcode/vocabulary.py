@@ -1,0 +1,241 @@
+"""The words of the season: units, motor controllers, methods and the library's defaults.
+
+WPILib and the vendors rename things from year to year. A new name is one entry here. Words are kept
+in Java's spelling; ``plain`` brings ``set_voltage`` to ``setVoltage``, and ``constant`` brings
+``kForward``, ``FORWARD`` and ``Forward`` to ``forward``, so that RobotPy's names of 2026 and those
+of 2027 need no table of their own. Packages (``edu.wpi.first``, ``org.wpilib``) play no part.
+"""
+
+import re
+from dataclasses import dataclass
+
+from grader.robotcode.facts import Known, Output, Quantity
+
+# What Config uses where it is given nothing. WPILib 2024 to 2026; under discussion for 2027.
+DEFAULTS = {
+    "ramp": Quantity(Known.DEFAULT, 1.0, "volts-per-second"),
+    "step": Quantity(Known.DEFAULT, 7.0, "volts"),
+    "timeout": Quantity(Known.DEFAULT, 10.0, "seconds"),
+}
+
+# Keyword arguments, in order of position.
+CONFIG = ("rampRate", "stepVoltage", "timeout", "recordState")
+MECHANISM = ("drive", "log", "subsystem", "name")
+ROUTINE = ("config", "mechanism")
+
+SUBSYSTEMS = frozenset(
+    {
+        "Subsystem",
+        "SubsystemBase",
+        "PIDSubsystem",
+        "ProfiledPIDSubsystem",
+        "TrapezoidProfileSubsystem",
+    }
+)
+
+DIRECTIONS = frozenset({"forward", "reverse"})  # as `constant` gives them
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit of Java's Units class.
+
+    Args:
+        si: how much one of it is in SI; 1 for those that no Config holds.
+        volts, seconds: the powers of volt and second in it.
+        family: ``linear``, ``angular``, or empty where neither applies.
+        other: whether there is more in it than volts and seconds.
+    """
+
+    si: float
+    volts: int = 0
+    seconds: int = 0
+    family: str = ""
+    other: bool = False
+
+
+def _with_singular(name: str, unit: Unit) -> dict[str, Unit]:
+    """A unit under its plural and its singular name."""
+    singular = {"Feet": "Foot", "Inches": "Inch"}.get(name, name.removesuffix("s"))
+    return {name: unit, singular: unit}
+
+
+def _units() -> dict[str, Unit]:
+    units: dict[str, Unit] = {}
+    for prefix, size in (("", 1.0), ("Milli", 1e-3), ("Micro", 1e-6), ("Kilo", 1e3)):
+        units |= _with_singular((prefix + "volts").capitalize(), Unit(size, volts=1))
+        units |= _with_singular((prefix + "seconds").capitalize(), Unit(size, seconds=1))
+        units |= _with_singular((prefix + "amps").capitalize(), Unit(size, other=True))
+    units |= _with_singular("Minutes", Unit(60.0, seconds=1))
+    linear = ("Meters", "Millimeters", "Centimeters", "Feet", "Inches")
+    angular = ("Rotations", "Revolutions", "Radians", "Degrees")
+    for family, names in (("linear", linear), ("angular", angular)):
+        length = Unit(1.0, family=family, other=True)
+        for name in names:
+            units |= _with_singular(name, length)
+            units[f"{name}PerSecond"] = units[f"{name}PerSecondPerSecond"] = length
+    units["RPM"] = Unit(1.0, family="angular", other=True)
+    return units
+
+
+UNITS = _units()
+
+# Python's wpimath.units: calling one leaves a float as it is, but for those that convert.
+PYTHON_UNITS = {
+    "volts": 1.0,
+    "millivolts": 1.0,
+    "volts_per_second": 1.0,
+    "units_per_second": 1.0,
+    "seconds": 1.0,
+    "milliseconds": 1.0,
+    "minutes": 1.0,
+    "millisecondsToSeconds": 1e-3,
+    "secondsToMilliseconds": 1e3,
+    "float": 1.0,
+}
+
+_MOTORS = re.compile(
+    r"TalonFXS?|TalonSRX|VictorSPX|BaseTalon|CommonTalon|CoreTalonFXS?|WPI_\w+"
+    r"|(CAN)?Spark(Max|Flex|Base|LowLevel)|ThriftyNova|(CAN)?Venom"
+    r"|PWM(?!Sim)\w+|Spark|Talon|Victor(SP)?|Jaguar|DMC60|SD540|Koors40|NidecBrushless"
+    r"|\w*MotorController"
+)
+GROUPS = frozenset({"MotorControllerGroup", "SpeedControllerGroup"})  # all get the same command
+DRIVES = frozenset({"DifferentialDrive", "MecanumDrive", "KilloughDrive"})  # all get duty cycles
+
+
+def is_motor(type_: str) -> bool:
+    """Whether a type is a motor controller, or holds some: ``TalonFX[]``, ``List<SparkMax>``."""
+    return any(_MOTORS.fullmatch(word) for word in re.findall(r"\w+", type_))
+
+
+def plain(name: str) -> str:
+    """A method's name in Java's spelling: ``set_voltage`` is ``setVoltage``."""
+    first, *rest = name.split("_")
+    if not first or not name.islower() or not rest:
+        return name
+    return first + "".join(word.capitalize() for word in rest)
+
+
+def constant(name: str) -> str:
+    """An enum constant without its season's dress: ``dutycycle`` of ``kDutyCycle``."""
+    bare = name[1:] if re.match(r"k[A-Z]", name) else name
+    return bare.replace("_", "").lower()
+
+
+# Commands a motor (or whatever stands for one) is given, by method.
+COMMANDS = {
+    "setVoltage": Output.VOLTAGE,
+    "setVoltageOutput": Output.VOLTAGE,
+    "setPower": Output.DUTY,
+    "setDutyCycle": Output.DUTY,
+    "setPercentOutput": Output.DUTY,
+    "tankDrive": Output.DUTY,
+    "arcadeDrive": Output.DUTY,
+    "curvatureDrive": Output.DUTY,
+    "driveCartesian": Output.DUTY,
+}
+BY_MODE = frozenset({"set", "setReference", "setSetpoint"})  # ... where a further argument decides
+BY_REQUEST = frozenset({"setControl"})  # ... where the request that is handed over decides
+
+# That further argument: ControlType of REV, ControlMode of Phoenix 5. Without one, WITHOUT_MODE.
+MODES = {
+    "voltage": Output.VOLTAGE,
+    "dutycycle": Output.DUTY,
+    "percentoutput": Output.DUTY,
+    "velocity": Output.CLOSED_LOOP,
+    "position": Output.CLOSED_LOOP,
+    "motionmagic": Output.CLOSED_LOOP,
+    "motionprofile": Output.CLOSED_LOOP,
+    "smartmotion": Output.CLOSED_LOOP,
+    "smartvelocity": Output.CLOSED_LOOP,
+    "maxmotionpositioncontrol": Output.CLOSED_LOOP,
+    "maxmotionvelocitycontrol": Output.CLOSED_LOOP,
+    "current": Output.CLOSED_LOOP,
+}
+WITHOUT_MODE = {
+    "set": Output.DUTY,
+    "setReference": Output.CLOSED_LOOP,
+    "setSetpoint": Output.CLOSED_LOOP,
+}
+
+_REQUESTS = (  # Phoenix 6 control requests; the first that fits
+    (re.compile(r"(Differential)?VoltageOut|SysIdSwerve\w+"), Output.VOLTAGE),
+    (re.compile(r"(Differential)?DutyCycleOut"), Output.DUTY),
+    (
+        re.compile(r"(Diff_|Differential|Dynamic)*(MotionMagic|Position|Velocity)\w*"),
+        Output.CLOSED_LOOP,
+    ),
+)
+NEUTRAL = frozenset({"NeutralOut", "CoastOut", "StaticBrake", "Follower", "StrictFollower"})
+FOLLOWERS = frozenset(
+    {"Follower", "StrictFollower", "DifferentialFollower", "DifferentialStrictFollower"}
+)
+
+
+def request_output(type_: str) -> Output | None:
+    """What a control request tells a motor; None if it tells nothing: a follower, a brake."""
+    if type_ in NEUTRAL | FOLLOWERS:
+        return None
+    return next((out for form, out in _REQUESTS if form.fullmatch(type_)), Output.UNKNOWN)
+
+
+# How the voltage goes through a call.
+SAME = frozenset(  # the call gives back what it was called on
+    {
+        "magnitude",
+        "baseUnitMagnitude",
+        "copy",
+        "mutableCopy",
+        "getValue",
+        "getValueAsDouble",
+        "refresh",
+        "doubleValue",
+        "stream",
+    }
+)
+ARGUMENT = frozenset(  # the call gives back its argument, at most limited
+    {"float", "double", "valueOf", "clamp", "min", "max", "volts"}
+)
+OPPOSITE = frozenset({"unaryMinus", "negate"})
+TIMES = frozenset({"times", "mutTimes"})
+OVER = frozenset({"div", "divide", "mutDivide"})
+AMOUNTS = frozenset({"of", "ofBaseUnits", "mutable"})  # Volts.of(x)
+REPLACES = frozenset({"mutReplace", "mutSetMagnitude", "mutSetBaseUnitMagnitude"})
+CALCULATES = frozenset({"calculate", "calculateWithVelocities"})
+CONTROLLERS = re.compile(r".*(PID|BangBang|LinearQuadratic|LinearSystemLoop).*", re.IGNORECASE)
+LOOPS = frozenset({"forEach"})
+RUNS = frozenset({"accept", "apply", "run", "call"})  # run a lambda that a variable holds
+COLLECTIONS = frozenset({"List", "Set", "Arrays", "Stream"})  # List.of(left, right)
+SILENT = re.compile(  # methods that show or keep a value, and move nothing
+    r"(get|is|has|with|mut|put|log|record|print|publish|append|report|add|info|equals|to)([A-Z]\w*)?"
+    r"|println|printf|calculate\w*|abs|max|min|clamp|in|of|signum|copySign|format|times|div|divide"
+)
+
+# Where a logged value comes from, by the methods it is read with.
+APPLIED_VOLTAGE = frozenset({"getMotorVoltage", "getMotorOutputVoltage", "getOutputVoltage"})
+APPLIED_DUTY = frozenset(
+    {"get", "getAppliedOutput", "getDutyCycle", "getMotorOutputPercent", "getPercentOutput"}
+)
+BUS_VOLTAGE = frozenset(
+    {"getBatteryVoltage", "getBusVoltage", "getSupplyVoltage", "getInputVoltage"}
+)
+MEASURED = re.compile(  # position, velocity, acceleration and current of encoders and motors
+    r"get\w*(Position|Velocity|Distance|Rate|Angle|Acceleration|Current|Speed)\w*|get"
+)
+
+# Methods of a MotorLog -> signal, and family where the method says it.
+SIGNALS = {
+    "voltage": ("voltage", ""),
+    "current": ("current", ""),
+    "linearPosition": ("position", "linear"),
+    "linearVelocity": ("velocity", "linear"),
+    "linearAcceleration": ("acceleration", "linear"),
+    "angularPosition": ("position", "angular"),
+    "angularVelocity": ("velocity", "angular"),
+    "angularAcceleration": ("acceleration", "angular"),
+    "position": ("position", ""),
+    "velocity": ("velocity", ""),
+    "acceleration": ("acceleration", ""),
+    "value": ("other", ""),
+}
