@@ -59,6 +59,19 @@ class Format(Protocol):
         """Read a file."""
 
 
+def lone_motor(asked: Reading, *, where: str) -> tuple[Doubt, ...]:
+    """A doubt if a motor was asked for in a file that holds the signals of one only."""
+    if asked.motor is None:
+        return ()
+    return (
+        Doubt(
+            "one-motor",
+            f"{where} holds one motor's signals and does not name it, so {asked.motor!r} made no "
+            "difference.",
+        ),
+    )
+
+
 def sound_run(
     test: str, signals: Mapping[str, Array], *, si: float, where: str
 ) -> tuple[Run, tuple[Doubt, ...]]:

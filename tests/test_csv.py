@@ -256,3 +256,17 @@ def test_the_reference_logs_read_whole(shared: Path) -> None:
         rows = path.read_text("utf-8").strip().count("\n")
         assert sum(len(run) for run in log.runs) == rows
         assert log.doubts == ()
+
+
+def test_a_motor_asked_of_a_file_with_one_is_said_to_make_no_difference(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text(
+        "test,time_s,voltage,position,velocity\n"
+        "dynamic-forward,0,1,0,0\ndynamic-forward,0.02,1,0,0.1\n",
+        encoding="utf-8",
+    )
+
+    (doubt,) = sim.read(path, motor="left").doubts
+
+    assert doubt.code == "one-motor"
+    assert "'left' made no difference" in doubt.message

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.errors import BadRequest, BadSample, UnreadableFile
-from sim.format import Reading, sound_run
+from sim.format import Reading, lone_motor, sound_run
 from sim.formats.csv.table import EXTRA, KNOWN, NEEDED, Table, first_names, open_table
 from sim.log import Array, Log, Run
 from sim.units import unit
@@ -47,7 +47,7 @@ def read(path: Path, asked: Reading) -> Log:
     signals |= {name: table.numbers(name, gaps=True) for name in EXTRA if name in table.cells}
     si = unit(asked.units_or_default).si
     runs: list[Run] = []
-    doubts = list(table.doubts)
+    doubts = [*table.doubts, *lone_motor(asked, where=table.where)]
     for number, rows in enumerate(_split(table, codes, signals["time"])):
         mine = {
             name: values[rows]

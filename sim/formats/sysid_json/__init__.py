@@ -12,7 +12,7 @@ from pathlib import Path
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest
-from sim.format import Reading, sound_run
+from sim.format import Reading, lone_motor, sound_run
 from sim.formats.sysid_json.drivetrain import two_sides
 from sim.formats.sysid_json.rows import Form, check, form_of, load, tables_of
 from sim.formats.sysid_json.said import Said, said_in
@@ -54,7 +54,7 @@ def read(path: Path, asked: Reading) -> Log:
     tables, doubts = tables_of(document, where=where)
     form = form_of(tables, said, where=where)
     check(tables, form, where=where)
-    sides, odd = _sides(tables, form, said, motor=asked.motor, where=where)
+    sides, odd = _sides(tables, form, said, asked, where=where)
     runs = []
     doubts = [*said.doubts, *doubts, *odd]
     for test in sorted(tables, key=lambda test: float(tables[test][0, 0])):
@@ -75,7 +75,7 @@ def read(path: Path, asked: Reading) -> Log:
 
 
 def _sides(
-    tables: dict[str, Array], form: Form, said: Said, *, motor: str | None, where: str
+    tables: dict[str, Array], form: Form, said: Said, asked: Reading, *, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
     """One side for every test: the only one, the one asked for, or both made one."""
     found = [
@@ -83,5 +83,7 @@ def _sides(
         for columns in form.sides
     ]
     if len(found) == 1:
-        return one_side(found[0], where=where)
-    return two_sides(found, motor=motor or "combined", angular=said.angular, where=where)
+        sides, doubts = one_side(found[0], where=where)
+        return sides, [*doubts, *lone_motor(asked, where=where)]
+    motor = asked.motor or "combined"
+    return two_sides(found, motor=motor, angular=said.angular, where=where)
