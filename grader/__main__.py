@@ -22,7 +22,7 @@ OLDEST = (3, 11)
 ROOT = Path(__file__).resolve().parent.parent
 HOPPED = "SYSID_COURSE_ENVIRONMENT"  # set in the second process, so that it cannot make a third
 INSTALLED = "SYSID_COURSE_INSTALLED"  # the same for an installation that does not help
-SIZE = "about 500 MB, so a few minutes"
+SIZE, SIZE_TO_TEST = "750 MB", "1.1 GB"  # on the disk, measured on Linux
 LAST = 6  # lines of pip's complaint that are worth reading
 COULD_NOT, INTERRUPTED = 2, 130
 
@@ -137,16 +137,17 @@ def _install_and_go(arguments: list[str]) -> int:
             f"{', '.join(names)} is still missing after installing",
             f"Try by hand: {sys.executable} -m pip install -e {ROOT}",
         )
-    problem = _install(testing=arguments[:1] == ["test"], size=SIZE if len(names) > 1 else "")
+    problem = _install(testing=arguments[:1] == ["test"])
     if problem:
         return _give_up(*problem)
     environment = dict(os.environ, **{INSTALLED: "1"})
     return _run([sys.executable, "-m", "grader", *arguments], env=environment)
 
 
-def _install(*, testing: bool, size: str) -> tuple[str, str] | None:
+def _install(*, testing: bool) -> tuple[str, str] | None:
     """Install the course into this Python; the problem and the advice if that does not work."""
-    _say(f"Installing what the course needs{f' ({size})' if size else ''} ...")
+    size = SIZE_TO_TEST if testing else SIZE
+    _say(f"Installing what the course needs: up to {size}, which may take a few minutes ...")
     if find_spec("pip") is None:
         _quietly([sys.executable, "-m", "ensurepip"])
     what = ".[test]" if testing else "."
@@ -162,14 +163,15 @@ def _install(*, testing: bool, size: str) -> tuple[str, str] | None:
 
 
 def _quietly(command: list[str], *, cwd: Path | None = None) -> str:
-    """Run a command; nothing if it went well, else the last lines it said."""
+    """Run a command; nothing if it went well, else the last lines of what it said went wrong."""
     done = subprocess.run(  # noqa: S603 - our own arguments, no shell
         command, cwd=cwd, capture_output=True, text=True, errors="replace", check=False
     )
     if not done.returncode:
         return ""
     lines = (done.stdout + done.stderr).strip().splitlines()
-    return "\n".join(lines[-LAST:]) or f"exit code {done.returncode}"
+    telling = [line for line in lines if re.match(r"\s*(ERROR|error|\w*Error)\b", line)]
+    return "\n".join((telling or lines)[-LAST:]) or f"exit code {done.returncode}"
 
 
 def _run(command: list[str], *, cwd: Path | None = None, env: dict[str, str] | None = None) -> int:

@@ -53,7 +53,7 @@ class Asked:
     Args:
         name: as in the answer file: ``kV``.
         expected: the key, in ``unit``.
-        unit: ``V·s/m``.
+        unit: ``V·s/m``; empty if it has none.
         band: how near is near enough.
     """
 
@@ -100,7 +100,8 @@ def number(raw: object, asked: Asked) -> float:
     Raises:
         Wrong: it is not a number, or not of that unit; the message says what it is instead.
     """
-    ask = f"Write a number, such as {asked.name} = 0.5 (then it is in {asked.unit})."
+    unit = f" (then it is in {asked.unit})" if asked.unit else ""
+    ask = f"Write a number, such as {asked.name} = 0.5{unit}."
     if raw is None or raw == "":
         raise Wrong("nothing yet", hint=ask)
     if isinstance(raw, bool):
@@ -129,13 +130,13 @@ def _finite(value: float, asked: Asked) -> float:
 
 def _scale(unit: str, asked: Asked) -> float:
     """How many of the unit asked for one of the unit given is."""
-    wanted = read_unit(asked.unit)
+    wanted = read_unit(asked.unit or "1")
     try:
         given = read_unit(unit)
     except NotAUnitError as part:
         raise Wrong(
             f"the unit {unit!r}, in which {str(part)!r} is not known",
-            hint=f"Write {asked.unit}, or leave the unit out.",
+            hint=f"Write {asked.unit}, or leave the unit out." if asked.unit else "It has no unit.",
         ) from None
     if given.powers != wanted.powers:
         raise Wrong(

@@ -134,7 +134,7 @@ def check(
         sentence = (look.__doc__ or "").strip().partition("\n")[0].removesuffix(".")
         if not sentence:
             raise ValueError(f"the check {look.__name__} needs a docstring: the learner reads it")
-        return Check(look.__name__.replace("_", "-"), sentence, points, before, look)
+        return Check(look.__name__.replace("_", "-"), sentence, float(points), before, look)
 
     return made
 

@@ -1,7 +1,7 @@
 """Misconceptions the examiner can name: a code for statistics, a sentence that puts it right."""
 
 MISCONCEPTIONS: dict[str, str] = {
-    "M-UNITS": "A gain is volts per something. Change the unit of the something, and the number "
+    "M-UNITS": "A number means something only with its unit. Change the unit, and the number "
     "changes with it: one rotation is 2π radians, one minute is 60 seconds.",
     "M-ARGORDER": "Values that stand side by side are told apart only by their order. Look up "
     "which comes first.",

@@ -17,6 +17,7 @@ MARKS = {
     Status.ERROR: ("!", "magenta"),
 }
 INDENT = "    "
+ONCE = {"", "why  "}  # leads of what is said once, however many checks it stands under
 
 
 def to_json(grade: Grade) -> str:
@@ -29,8 +30,9 @@ def to_json(grade: Grade) -> str:
 def to_lines(grade: Grade, *, hints_shown: int = 0) -> list[Line]:
     """The grade for a terminal."""
     lines = [_verdict(grade), line()]
+    said: set[str] = set()  # what has been said once is not said again
     for result in grade.checks:
-        lines += _result(result)
+        lines += _result(result, said)
     if grade.status != "passed":
         lines += [line(), line(_next_hint(grade.exercise, hints_shown), "cyan")]
     return lines
@@ -45,30 +47,29 @@ def _verdict(grade: Grade) -> Line:
     return (Span(f"{mark} {score}, {said}", f"bold {style}"), Span(file, "dim"))
 
 
-def _result(result: Result) -> list[Line]:
+def _result(result: Result, said: set[str]) -> list[Line]:
     mark, style = MARKS[result.status]
     points = f"{result.points:g} of {result.max_points:g}"
-    room = width() - len(points) - 1
-    rows = wrapped(result.description, lead=f"{mark} ")
-    first = "".join(span.text for span in rows[0])
-    if len(first) <= room:
-        rows[0] = (
-            Span(f"{mark} ", style),
-            Span(first[2:].ljust(room - 1)),
-            Span(points, style),
-        )
-    else:
-        rows.append((Span(points.rjust(width()), style),))
-    told = [("got", result.seen), ("try", result.hint)]
-    if result.status is Status.PASSED:
-        told = [("note", result.hint)]
-    if result.status in {Status.NOT_REACHED, Status.ERROR}:
-        told = [("", result.seen)]
-    told.append(("why", MISCONCEPTIONS.get(result.misconception, "")))
-    for word, text in told:
-        if text:
-            rows += wrapped(text, lead=f"{INDENT}{word.ljust(5) if word else ''}")
+    rows = wrapped(result.description, lead="  ", spare=len(points) + 1)
+    _, first = rows[0]
+    room = width() - len(points) - 2
+    rows[0] = (Span(f"{mark} ", style), Span(first.text.ljust(room)), Span(points, style))
+    for word, text in _told(result):
+        if text and text not in said:
+            rows += wrapped(text, lead=f"{INDENT}{word}")
+        if word in ONCE:
+            said.add(text)
     return rows
+
+
+def _told(result: Result) -> list[tuple[str, str]]:
+    """What stands under a check: a word that leads, and what is said."""
+    if result.status is Status.PASSED:
+        return [("note ", result.hint)]
+    if result.status is not Status.FAILED:
+        return [("", result.seen)]
+    why = MISCONCEPTIONS.get(result.misconception, "")
+    return [("got  ", result.seen), ("try  ", result.hint), ("why  ", why)]
 
 
 def _next_hint(exercise: str, shown: int) -> str:

@@ -14,11 +14,12 @@ from grader.report import overview
 from grader.terminal import line, show
 from sim.errors import BadRequest
 
-# Nothing leaves the machine: no news, no look for updates, no catalogue of extensions.
+# Nothing leaves the machine: no news, no look for updates, no catalogue of extensions. And no chat.
 QUIET = (
     "--LabApp.news_url=None",
     "--LabApp.check_for_updates_class=jupyterlab.handlers.announcements.NeverCheckForUpdate",
     "--LabApp.extension_manager=readonly",
+    "--log-level=ERROR",
 )
 
 
@@ -44,21 +45,21 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     for one in found:
         one.prepare(student, say=_say)
     if not _on_path("grade"):
-        _say(f"To type grade and sysid in this terminal:  {activation(Path(sys.prefix))}")
-        _say("Or say  python -m grader exercise4  where the course says  grade exercise4")
+        if sys.prefix != sys.base_prefix:
+            _say(f"To type grade and sysid in this terminal:  {activation(Path(sys.prefix))}")
+        _say("Without that, type  python -m grader exercise4  for  grade exercise4")
     lessons = sorted((course / "lessons").glob("*.ipynb"))
     if not lab:
-        first = lessons[0].relative_to(course).as_posix() if lessons else "the first exercise"
-        _say(f"Ready. Begin with {first}; to open it in JupyterLab:  grade start")
+        place = lessons[0].relative_to(course).as_posix() if lessons else "exercises"
+        _say(f"Ready. Begin with {place}; to open it in JupyterLab:  grade start")
         return 0
     return _open_lab(course, lessons[0] if lessons else course)
 
 
 def activation(prefix: Path, *, windows: bool = os.name == "nt") -> str:
     """What to type to make a virtual environment's commands known to a terminal."""
-    if windows:
-        return rf"{prefix}\Scripts\activate"
-    return f"source {prefix}/bin/activate"
+    place = prefix.relative_to(Path.cwd()) if prefix.is_relative_to(Path.cwd()) else prefix
+    return rf"{place}\Scripts\activate" if windows else f"source {place}/bin/activate"
 
 
 def _on_path(command: str) -> bool:
@@ -76,7 +77,8 @@ def _open_lab(course: Path, what: Path) -> int:
     sys.stdout.flush()
     scripts = sysconfig.get_path("scripts")
     paths = os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part)
-    command = [sys.executable, "-m", "jupyterlab", *QUIET, place]
+    root = f"--ServerApp.root_dir={course}"  # else it shows the lessons' folder alone
+    command = [sys.executable, "-m", "jupyterlab", *QUIET, root, place]
     lab = subprocess.Popen(command, cwd=course, env={**os.environ, "PATH": paths})  # noqa: S603 - our own arguments, no shell
     while True:
         try:

@@ -26,7 +26,9 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
         return _own(folder, names)
     if not given.exists():
         raise UnreadableFile(
-            "there is no such file", where=str(given), advice=f"Look for it: {', '.join(names)}."
+            "there is no such file",
+            where=str(given),
+            advice=f"Look at the name; the exercise's own is {folder / names[0]}.",
         )
     if not given.is_dir():
         return (given,)

@@ -40,15 +40,16 @@ def line(text: str = "", style: str = "") -> Line:
     return (Span(text, style),)
 
 
-def wrapped(text: str, *, lead: str, style: str = "") -> list[Line]:
+def wrapped(text: str, *, lead: str, style: str = "", spare: int = 0) -> list[Line]:
     """A text under a lead of its own, broken into lines that fit.
 
     Args:
         text: what to say; a line break in it stays.
         lead: what the first line starts with; the others are indented as far.
         style: of the text.
+        spare: columns to keep free at the end.
     """
-    room = width() - len(lead)
+    room = width() - len(lead) - spare
     rows = [
         row
         for paragraph in text.splitlines() or [""]

@@ -46,7 +46,7 @@ class Setting:
         unit: its symbol.
         dimension: as in ``Quantity.dimension``.
         default: WPILib's own value.
-        example: how to write it.
+        java, python: how to write it.
     """
 
     name: str
@@ -54,7 +54,8 @@ class Setting:
     unit: str
     dimension: str
     default: float
-    example: str
+    java: str
+    python: str
 
     def compare(
         self, facts: RoutineFacts, got: Quantity, *, advice: Advice = no_advice
@@ -85,23 +86,27 @@ class Setting:
             if right:
                 return f"This is {seen}. Write it down all the same: a default may change."
         else:
-            self._check_dimension(got, language=facts.language)
+            self._check_dimension(got, facts)
             seen = f"{at(got)}: {value:g} {self.unit}"
         if right:
             return None
         said, misconception = advice(value)
         if value == 0 and "/" in got.text:
             said = "Whole numbers divide to a whole number in Java: 1 / 2 is 0."
-        hint = f"{said} Here it is {self.example}.".strip()
+        hint = f"{said} This exercise asks for {self._asked(facts)}.".strip()
         raise Wrong(seen, hint=hint, misconception=misconception)
 
-    def _check_dimension(self, got: Quantity, *, language: str) -> None:
-        plain = got.dimension == "number" and language == "python"
+    def _asked(self, facts: RoutineFacts) -> str:
+        example = self.python if facts.language == "python" else self.java
+        return f"{self.value:g} {self.unit}: {example}"
+
+    def _check_dimension(self, got: Quantity, facts: RoutineFacts) -> None:
+        plain = got.dimension == "number" and facts.language == "python"
         if got.dimension == self.dimension or plain:
             return
         raise Wrong(
             f"{at(got)}, which is not in {self.unit}",
-            hint=f"The {self.name} is in {self.unit}: {self.example}.",
+            hint=f"The {self.name} is in {self.unit}. Here it is {self._asked(facts)}.",
             misconception="M-UNITS",
         )
 
@@ -143,7 +148,7 @@ def check_open_loop(call: DriveCall) -> None:
     Raises:
         Wrong: it is a closed loop or a share of the battery, or it cannot be told.
     """
-    if call.output is Output.DUTY or (call.scaled and BATTERY.search(call.text)):
+    if call.output is Output.DUTY:
         hint = "A test asks for volts and should get volts: setVoltage(voltage), undivided."
         raise Wrong(at(call), hint=hint, misconception="M-DUTY")
     if call.output is Output.CLOSED_LOOP:
@@ -204,9 +209,7 @@ def check_units(signals: Sequence[LoggedSignal], *, mechanism: str) -> None:
     Raises:
         Wrong: they do not, or no unit can be told.
     """
-    seen = ", ".join(
-        dict.fromkeys(f"{s.signal} in {s.unit or s.family} (line {s.line})" for s in signals)
-    )
+    seen = ", ".join(f"{s.signal} {_kind(s)} (line {s.line})" for s in signals)
     families = {one.family for one in signals if one.family}
     if not families:
         raise Wrong(cannot_tell("the units", seen), hint="Name the unit where you log the value.")
@@ -222,6 +225,12 @@ def check_units(signals: Sequence[LoggedSignal], *, mechanism: str) -> None:
         hint = f"{mechanism} sounds like something that moves in {unit}. Log it so."
     if hint:
         raise Wrong(seen, hint=hint, misconception="M-UNITS")
+
+
+def _kind(signal: LoggedSignal) -> str:
+    """The unit of a value, or where none is written, what kind of unit it has."""
+    kinds = {"linear": "along a line", "angular": "as an angle"}
+    return f"in {signal.unit}" if signal.unit else kinds.get(signal.family, "in an unknown unit")
 
 
 def _length(unit: str) -> str:

@@ -18,9 +18,11 @@ from sim.errors import UnreadableFile
 
 FILES = ("ExampleSubsystem.java", "example_subsystem.py")
 
-RAMP = Setting("ramp", 0.5, "V/s", "volts-per-second", 1.0, "Volts.of(0.5).per(Second)")
-STEP = Setting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)")
-TIMEOUT = Setting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)")
+RAMP = Setting(
+    "ramp", 0.5, "V/s", "volts-per-second", 1.0, "Volts.of(0.5).per(Second)", "rampRate=0.5"
+)
+STEP = Setting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)", "stepVoltage=3.5")
+TIMEOUT = Setting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)", "timeout=10.0")
 LESSON_STEP = 3.0  # [V] in the source lesson's example
 
 
@@ -165,7 +167,7 @@ def assembled(facts: RoutineFacts) -> None:
         )
     if not facts.subsystem_passed:
         raise Wrong(
-            f"the Mechanism does not get {this}",
+            f"no {this} among the Mechanism's arguments",
             hint=f"Pass {this} after the two callbacks. Then no other command can move the motors "
             "during a test.",
         )

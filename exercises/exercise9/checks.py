@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from sim.mechanism import Mechanism
 
 FILES = ("answers.toml",)
+FILES_MADE = ("log.wpilog", "log.csv")
 HERE = Path(__file__).resolve().parent
 
 KINDS = ("drivetrain", "shooter")
@@ -91,31 +92,29 @@ def prepare(student: str, *, say: Callable[[str], None]) -> None:
     folder = HERE / "data" / folder_name(student)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        news = [_put(variant.log, folder / name) for name in ("log.wpilog", "log.csv")]
+        news = [_put(variant.log, folder / name) for name in FILES_MADE]
     except OSError as error:
         raise BadRequest(
             f"your log cannot be written: {error.strerror}",
             where=str(folder),
             advice="Make room there, or allow writing.",
         ) from error
-    for path, state in news:
-        if state:
-            place = path.relative_to(HERE.parents[1]).as_posix()
-            say(f"Your log of a {variant.mechanism.name} {state}: {place}")
+    if any(news):
+        place = (folder / FILES_MADE[0]).relative_to(HERE.parents[1]).as_posix()
+        say(f"Your log of a {variant.mechanism.name} has been made: {place}")
 
 
-def _put(log: "Log", path: Path) -> tuple[Path, str]:
-    """Write a log unless it is there already; what is to be said about it."""
+def _put(log: "Log", path: Path) -> bool:
+    """Write a log; whether the file is new, or was not as it was made."""
     from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
 
     part = path.with_name(f"{os.getpid()}.part{path.suffix}")
     write(log, part)
-    there = path.is_file()
-    if there and path.read_bytes() == part.read_bytes():
+    if path.is_file() and path.read_bytes() == part.read_bytes():
         part.unlink()
-        return path, ""
+        return False
     part.replace(path)
-    return path, "was not as it was made, and is now" if there else "is ready"
+    return True
 
 
 def read(path: Path, *, student: str) -> Answers:
@@ -170,7 +169,7 @@ def metrics(answers: Answers) -> None:
 def _metric(name: str, answers: Answers) -> None:
     expected = {one: float(getattr(answers.variant.fit, one)) for one in METRICS}
     asked = {
-        one: Asked(one, expected[one], "1", Band(0, 0, METRIC_BANDS[one], METRIC_BANDS[one]))
+        one: Asked(one, expected[one], "", Band(0, 0, METRIC_BANDS[one], METRIC_BANDS[one]))
         for one in METRICS
     }
     value = number(answers.given[name], asked[name])

@@ -19,7 +19,7 @@ MISTAKES = (
             (f"          {MECHANISM});\n", ""),
         ),
         "routine",
-        "no SysIdRoutine in ExampleSubsystem",
+        "no SysIdRoutine in this file",
     ),
     Mistake(
         "a ramp in volts",
@@ -202,7 +202,7 @@ MISTAKES = (
         JAVA,
         replacing((", this))", ", null))")),
         "assembled",
-        "does not get this",
+        "no this among the Mechanism's arguments",
     ),
     Mistake(
         "a class that is no subsystem",

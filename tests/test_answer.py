@@ -1,0 +1,282 @@
+"""Numbers as people write them, the bands they are judged by, and the slips behind wrong ones."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grader.answer import BANDS, FAST_KA, Key, gains_asked, judge, number
+from grader.check import Wrong
+from grader.measure import NotAUnitError, read_number, read_unit
+from grader.misconception import MISCONCEPTIONS
+from grader.slip import Lookalike, Scene, Slip
+
+TURN = 2 * math.pi
+GAINS = {"kS": 0.15, "kV": 2.4, "kA": 0.3}
+KEY = Key(gains_asked(GAINS, position="m"), Scene(ratio=8.46, motors=4, ramp=0.5, period=0.02))
+FLYWHEEL = {"kS": 0.10, "kV": 0.13, "kA": 0.035}
+FLYWHEEL_KEY = Key(
+    gains_asked(FLYWHEEL, position="rot"), Scene(angular=True, motors=2, ramp=0.5, period=0.02)
+)
+
+
+def wrong(name, given_, key=KEY, *, points=2):
+    with pytest.raises(Wrong) as caught:
+        judge(name, given_, key, points=points)
+    return caught.value
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "V·s²/m",
+        "V*s^2/m",
+        "V s² / m",
+        "V·s²·m⁻¹",
+        "Vs²/m",
+        "V/(m/s²)",
+        "V/(m/s^2)",
+        "V·s**2/m",
+        "volt-seconds squared per meter",
+        "V per m/s²",
+    ],
+)
+def test_a_unit_may_be_written_in_any_way(text):
+    assert read_unit(text) == read_unit("V·s²/m")
+
+
+@pytest.mark.parametrize(
+    ("text", "factor"),
+    [
+        ("V·s/rad", 1.0),
+        ("V·s/rot", 1 / TURN),
+        ("V·s/deg", 180 / math.pi),
+        ("V/rpm", 60 / TURN),
+        ("V/rps", 1 / TURN),
+        ("mV·s/rad", 0.001),
+        ("V·min/rot", 60 / TURN),
+    ],
+)
+def test_a_unit_knows_its_size(text, factor):
+    assert read_unit(text).factor == pytest.approx(factor)
+
+
+@pytest.mark.parametrize(
+    ("text", "part"), [("V·x/m", "x"), ("V/(m/s", "("), ("", "nothing"), ("V %", "%")]
+)
+def test_what_is_no_unit_is_named(text, part):
+    with pytest.raises(NotAUnitError) as caught:
+        read_unit(text)
+
+    assert part in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("raw", "value"),
+    [
+        (2.4, 2.4),
+        (2, 2.0),
+        ("2.4", 2.4),
+        ("2,4", 2.4),
+        (" 2.4 ", 2.4),
+        (".5", 0.5),
+        ("1e-3", 0.001),
+        ("−2.4", -2.4),
+        ("2.4 V·s/m", 2.4),
+        ("2.4V*s/m", 2.4),
+        ("2,4 V/(m/s)", 2.4),
+        ("0.73152 V·s/ft", 2.4),
+        ("2400 mV·s/m", 2.4),
+        ("0.04 V·min/m", 2.4),
+    ],
+)
+def test_a_number_is_read_as_people_write_it(raw, value):
+    assert number(raw, KEY.asked["kV"]) == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    ("raw", "seen"),
+    [
+        (math.nan, "nan"),
+        (math.inf, "a number without end"),
+        (10**400, "a number without end"),
+        ("1e999", "a number without end"),
+        (True, "true, which is yes or no"),
+        ([2.4], "a list"),
+        ({"value": 2.4}, "a dict"),
+        ("", "nothing yet"),
+        (None, "nothing yet"),
+        ("about 2", "not one number"),
+        ("1,234.5", "not one number"),
+        ("2.4 2.5", "not one number"),
+        ("2.4 V/m/s", "does not measure kV"),
+        ("2.4 V·s/rad", "does not measure kV"),
+        ("2.4 furlongs", "'furlongs' is not known"),
+    ],
+    ids=str,
+)
+def test_what_is_no_number_is_named_and_answered(raw, seen):
+    with pytest.raises(Wrong) as caught:
+        number(raw, KEY.asked["kV"])
+
+    assert seen in caught.value.seen
+    assert caught.value.hint
+
+
+@given(st.text(max_size=30))
+def test_any_text_is_a_number_or_is_refused(text):
+    try:
+        value = number(text, KEY.asked["kV"])
+    except Wrong:
+        return
+    assert math.isfinite(value)
+
+
+@given(
+    st.floats(allow_nan=False, allow_infinity=False, min_value=-1e6, max_value=1e6),
+    st.sampled_from([".", ","]),
+)
+def test_what_is_printed_is_read_back(value, mark):
+    assert read_number(f"{value!r}".replace(".", mark)) == (value, "")
+
+
+@pytest.mark.parametrize(
+    ("name", "share", "earned"),
+    [
+        ("kV", 1.029, 2),
+        ("kV", 0.971, 2),
+        ("kV", 1.031, 1),
+        ("kV", 0.921, 1),
+        ("kV", 1.081, 0),
+        ("kA", 1.149, 2),
+        ("kA", 1.151, 1),
+        ("kA", 1.31, 0),
+        ("kS", 0.81, 2),  # 0.03 V is more than 15 % of 0.15 V
+        ("kS", 0.79, 1),
+        ("kS", 0.46, 0),
+    ],
+)
+def test_bands_give_full_half_or_no_credit(name, share, earned):
+    answers = {name: GAINS[name] * share}
+    if earned == 2:
+        assert judge(name, answers, KEY, points=2) is None
+    else:
+        assert wrong(name, answers).earned == earned
+
+
+def test_a_fast_mechanism_gets_wider_bands_for_ka():
+    slow = gains_asked({"kV": 2.0, "kA": 0.101}, position="m")
+    fast = gains_asked({"kV": 2.0, "kA": 0.099}, position="m")
+
+    assert (slow["kA"].band, fast["kA"].band) == (BANDS["kA"], FAST_KA)
+
+
+@pytest.mark.parametrize(
+    ("name", "answers", "said", "misconception"),
+    [
+        ("kV", {"kV": 0.13 / TURN}, "6.28 times too small", "M-UNITS"),
+        ("kV", {"kV": 0.13 * TURN}, "6.28 times too large", "M-UNITS"),
+        ("kV", {"kV": 0.13 / 60}, "rpm", "M-UNITS"),
+        ("kV", {"kV": 0.13 * 60}, "60 times too large", "M-UNITS"),
+        ("kV", {"kV": 0.13 / (180 / math.pi)}, "57.3 = 180/π", "M-UNITS"),
+        ("kV", {"kV": 0.13 / 360}, "a rotation is 360°", "M-UNITS"),
+        ("kV", {"kV": 0.13 / 12}, "in place of volts", "M-DUTY"),
+        ("kV", {"kV": 0.13 * 12}, "in place of volts", "M-DUTY"),
+        ("kS", {"kS": 0.10 / 12}, "in place of volts", "M-DUTY"),
+        ("kS", {"kS": 100.0}, "millivolts", "M-UNITS"),
+        ("kV", {"kV": -0.13}, "the sign is not", ""),
+        ("kA", {"kA": 0.035 * 50}, "divide the change of velocity", ""),
+        ("kS", {"kS": 0.10 + 0.035 / 0.13 * 0.5}, "crosses v = 0", "M-KS-INTERCEPT"),
+        ("kV", {"kV": 0.035, "kA": 0.13}, "swapped", "M-ARGORDER"),
+    ],
+)
+def test_a_slip_is_named(name, answers, said, misconception):
+    caught = wrong(name, answers, FLYWHEEL_KEY)
+
+    assert said in caught.hint
+    assert caught.misconception == misconception
+
+
+@pytest.mark.parametrize(
+    ("factor", "said"),
+    [
+        (0.3048, "feet"),
+        (0.0254, "inches"),
+        (100, "100 cm"),
+        (1 / 8.46, "the gear ratio"),
+        (8.46, "the gear ratio"),
+        (4, "4 motors"),
+        (2, "a diameter and a radius"),
+    ],
+)
+def test_a_slip_of_what_goes_along_is_named(factor, said):
+    assert said in wrong("kV", {"kV": 2.4 * factor}).hint
+
+
+def test_what_a_wrong_recipe_gives_is_recognized():
+    slip = Slip("recipe", "it comes from the wrong recipe", "M-NOISE-AVERAGES")
+    key = Key(KEY.asked, Scene(lookalikes={"kA": (Lookalike(0.22, slip),)}))
+
+    assert "the wrong recipe" in wrong("kA", {"kA": 0.221}, key).hint
+    assert "the wrong recipe" not in wrong("kA", {"kA": 0.235}, key).hint
+
+
+def test_two_suspects_are_both_named():
+    caught = wrong("kV", {"kV": 0.26}, FLYWHEEL_KEY)
+
+    assert "radius" in caught.hint
+    assert "2 motors" in caught.hint
+    assert not caught.misconception
+
+
+def test_a_slip_two_numbers_share_is_named_alone():
+    alone = wrong("kA", {"kA": 0.035 / 60}, FLYWHEEL_KEY).hint
+    shared = wrong("kA", {"kA": 0.035 / 60, "kV": 0.13 / 60}, FLYWHEEL_KEY).hint
+
+    assert "degrees" in alone
+    assert "rpm" in shared
+    assert "degrees" not in shared
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (2.4 * 1.05, "within ±8 %, not yet within ±3 %"),
+        (2.4 * 1.12, "outside the accepted ±3 %, by a little"),
+        (2.4 * 1.6, "outside the accepted ±3 %, by a lot"),
+        (-17.0, "cannot be negative"),
+    ],
+)
+def test_without_a_slip_only_the_band_is_told(value, said):
+    assert said in wrong("kV", {"kV": value}).hint
+
+
+def test_a_band_in_volts_is_told_in_volts():
+    assert "±0.03 V" in wrong("kS", {"kS": 0.4}).hint
+
+
+def test_a_converted_answer_says_so():
+    note = judge("kV", {"kV": "0.73152 V·s/ft"}, KEY, points=2)
+
+    assert note == "0.73152 V·s/ft is 2.4 V·s/m"
+
+
+@given(st.floats(min_value=-50, max_value=50, allow_nan=False))
+def test_no_message_holds_the_key(value):
+    key = Key(gains_asked({"kS": 0.1537, "kV": 2.4371, "kA": 0.3191}, position="m"), KEY.scene)
+    try:
+        judge("kV", {"kV": value}, key, points=1)
+    except Wrong as caught:
+        told = caught.seen + caught.hint
+        if not math.isclose(value, 2.4371, rel_tol=1e-3):
+            assert "2.437" not in told
+
+
+def test_every_misconception_a_slip_names_is_known():
+    named = {
+        wrong("kV", {"kV": value}, FLYWHEEL_KEY).misconception
+        for value in (0.13 / TURN, 0.13 / 12, -0.13, 0.5)
+    }
+
+    assert named - {""} <= MISCONCEPTIONS.keys()

@@ -1,0 +1,269 @@
+"""`python -m grader` in a fresh clone: it installs what is missing, once, and says so."""
+
+import ast
+import os
+import subprocess
+import sys
+import sysconfig
+import tomllib
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from grader import __main__ as bootstrap
+
+ROOT = Path(__file__).resolve().parents[1]
+OLD = (3, 8)
+
+
+@pytest.fixture
+def world(tmp_path, monkeypatch):
+    """A fresh clone, in which every started process is noted and none is run."""
+    (tmp_path / "pyproject.toml").write_bytes((ROOT / "pyproject.toml").read_bytes())
+    world = SimpleNamespace(
+        root=tmp_path, quiet=[], foreground=[], missing=["click", "numpy"], says="", code=0
+    )
+
+    def run(command, **_more):
+        world.quiet.append(command)
+        failed = bool(world.says) and "pip" in command
+        return SimpleNamespace(returncode=int(failed), stdout=world.says, stderr="")
+
+    class Process:
+        def __init__(self, command, cwd=None, env=None):
+            world.foreground.append((command, cwd, env or {}))
+
+        def wait(self):
+            return world.code
+
+    monkeypatch.setattr(bootstrap, "ROOT", tmp_path)
+    monkeypatch.setattr(bootstrap, "lacking", lambda _command: world.missing)
+    monkeypatch.setattr(bootstrap.subprocess, "run", run)
+    monkeypatch.setattr(bootstrap.subprocess, "Popen", Process)
+    monkeypatch.setattr(bootstrap, "in_environment", lambda: False)
+    monkeypatch.delenv(bootstrap.HOPPED, raising=False)
+    monkeypatch.delenv(bootstrap.INSTALLED, raising=False)
+    return world
+
+
+def inside(monkeypatch):
+    monkeypatch.setattr(bootstrap, "in_environment", lambda: True)
+
+
+def test_an_old_python_can_read_this_file():
+    source = Path(bootstrap.__file__).read_text("utf-8")
+
+    ast.parse(source, feature_version=OLD)
+
+
+def test_it_needs_nothing_but_pythons_own_library():
+    tree = ast.parse(Path(bootstrap.__file__).read_text("utf-8"))
+    top = [node for node in tree.body if isinstance(node, ast.Import | ast.ImportFrom)]
+    names = {
+        name.split(".")[0]
+        for node in top
+        for name in ([node.module] if isinstance(node, ast.ImportFrom) else [node.names[0].name])
+    }
+
+    assert names <= sys.stdlib_module_names
+
+
+def test_an_old_python_is_told_which_one_to_get(world, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "version_info", (3, 8, 18))
+
+    assert bootstrap.main(["start"]) == 2
+    said = capsys.readouterr().err
+    assert "needs 3.11 or newer" in said
+    assert said.count("\n") == 1
+    assert world.quiet == []
+
+
+def test_where_everything_is_there_it_is_grade(world, monkeypatch):
+    world.missing = []
+    given = []
+    monkeypatch.setattr("grader.cli.run", lambda arguments: given.append(arguments) or 1)
+
+    assert bootstrap.main(["exercise4", "--json"]) == 1
+    assert given == [["exercise4", "--json"]]
+    assert world.quiet == world.foreground == []
+
+
+def test_test_runs_the_tests_in_the_project(world):
+    world.missing, world.code = [], 5
+
+    assert bootstrap.main(["test", "-q", "tests"]) == 5
+    (command, cwd, _), *_ = world.foreground
+    assert command == [sys.executable, "-m", "pytest", "-q", "tests"]
+    assert cwd == world.root
+
+
+def test_a_fresh_clone_gets_an_environment_and_goes_on_in_it(world, capsys):
+    world.code = 1
+
+    assert bootstrap.main(["start", "--no-lab"]) == 1
+    assert world.quiet == [[sys.executable, "-m", "venv", "--clear", str(world.root / ".venv")]]
+    (command, _, environment), *_ = world.foreground
+    assert Path(command[0]).is_relative_to(world.root / ".venv")
+    assert command[1:] == ["-m", "grader", "start", "--no-lab"]
+    assert environment[bootstrap.HOPPED]
+    assert "Making a place" in capsys.readouterr().err
+
+
+def test_an_environment_that_is_there_is_used_as_it_is(world):
+    scripts = world.root / ".venv" / ("Scripts" if os.name == "nt" else "bin")
+    scripts.mkdir(parents=True)
+    (scripts / ("python.exe" if os.name == "nt" else "python")).write_bytes(b"")
+
+    assert bootstrap.main(["exercise4"]) == 0
+    assert world.quiet == []
+    assert len(world.foreground) == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"), [(["start"], "."), (["exercise4"], "."), (["test", "-q"], ".[test]")]
+)
+def test_inside_an_environment_it_installs_into_that(world, monkeypatch, capsys, arguments, what):
+    inside(monkeypatch)
+
+    assert bootstrap.main(arguments) == 0
+    (pip,) = world.quiet
+    assert pip[:4] == [sys.executable, "-m", "pip", "install"]
+    assert pip[-2:] == ["-e", what]
+    (command, _, environment), *_ = world.foreground
+    assert command == [sys.executable, "-m", "grader", *arguments]
+    assert environment[bootstrap.INSTALLED]
+    said = capsys.readouterr().err
+    assert said.startswith("Installing what the course needs")
+    assert said.count("\n") == 1
+
+
+def test_the_second_process_installs_where_the_first_sent_it(world, monkeypatch):
+    monkeypatch.setenv(bootstrap.HOPPED, "1")
+
+    assert bootstrap.main(["start"]) == 0
+    assert "pip" in world.quiet[0]
+
+
+def test_an_installation_that_does_not_help_is_not_tried_again(world, monkeypatch, capsys):
+    inside(monkeypatch)
+    monkeypatch.setenv(bootstrap.INSTALLED, "1")
+
+    assert bootstrap.main(["start"]) == 2
+    assert "click, numpy is still missing after installing" in capsys.readouterr().err
+    assert world.quiet == []
+
+
+def test_when_pip_fails_its_last_words_are_shown_and_what_to_do(world, monkeypatch, capsys):
+    inside(monkeypatch)
+    chatter = "\n".join(f"  Downloading {number}" for number in range(50))
+    world.says = f"{chatter}\nERROR: Could not find a version that satisfies click\n"
+
+    assert bootstrap.main(["start"]) == 2
+    said = capsys.readouterr().err
+    assert "ERROR: Could not find a version" in said
+    assert "Downloading" not in said
+    assert said.splitlines()[-1].startswith("grade: pip could not install the course")
+    assert "Is this machine online" in said
+    assert world.foreground == []
+
+
+def test_without_venv_it_names_the_package_to_install(world, monkeypatch, capsys):
+    monkeypatch.setattr(bootstrap, "find_spec", lambda _name: None)
+
+    assert bootstrap.main(["start"]) == 2
+    assert "sudo apt install python3-venv" in capsys.readouterr().err
+    assert world.foreground == []
+
+
+def test_a_folder_that_is_something_else_is_left_alone(world, capsys):
+    (world.root / ".venv").mkdir()
+    (world.root / ".venv" / "diary.txt").write_text("mine", "utf-8")
+
+    assert bootstrap.main(["start"]) == 2
+    assert "Move it away." in capsys.readouterr().err
+    assert (world.root / ".venv" / "diary.txt").is_file()
+
+
+def test_without_the_project_it_says_what_to_install(world, capsys):
+    (world.root / "pyproject.toml").unlink()
+
+    assert bootstrap.main(["start"]) == 2
+    assert "python -m pip install sysid-course[test]" in capsys.readouterr().err
+
+
+def test_ctrl_c_is_quiet(monkeypatch, capsys):
+    def interrupted(_command):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(bootstrap, "lacking", interrupted)
+
+    assert bootstrap.main(["start"]) == 130
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize(
+    ("prefix", "folders", "own"),
+    [
+        ("venv", (), True),
+        ("base", (), False),
+        ("base", ("conda-meta",), True),
+        ("base", ("conda-meta", "condabin"), False),
+    ],
+    ids=["virtual", "system", "conda", "conda's base"],
+)
+def test_it_knows_an_environment_of_ones_own(tmp_path, monkeypatch, prefix, folders, own):
+    for folder in folders:
+        (tmp_path / prefix / folder).mkdir(parents=True)
+    monkeypatch.setattr(sys, "prefix", str(tmp_path / prefix))
+    monkeypatch.setattr(sys, "base_prefix", str(tmp_path / "base"))
+
+    assert bootstrap.in_environment() is own
+
+
+@pytest.mark.parametrize("command", [["start"], ["test"], ["exercise4"], []])
+def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
+    def nothing(name):
+        raise bootstrap.PackageNotFoundError(name)
+
+    monkeypatch.setattr(bootstrap, "distribution", nothing)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    names = bootstrap.lacking(command)
+
+    assert len(project["dependencies"]) <= len(names)
+    assert {"click", "numpy", "jupyterlab"} <= set(names)
+    assert ("pytest" in names) == (command == ["test"])
+    assert ("sysid-course" in names) == (command in (["start"], ["test"]))
+
+
+def test_what_is_there_is_not_missing(monkeypatch):
+    monkeypatch.setattr(bootstrap, "distribution", lambda _name: None)
+
+    assert bootstrap.lacking(["test"]) == []
+
+
+def test_an_isolated_python_gets_as_far_as_installing(tmp_path):
+    """A real process without any package: it starts, sees what is missing, and makes a place."""
+    clone = tmp_path / "clone"
+    (clone / "grader").mkdir(parents=True)
+    for name in ("__init__.py", "__main__.py"):
+        (clone / "grader" / name).write_bytes((ROOT / "grader" / name).read_bytes())
+    (clone / "pyproject.toml").write_bytes((ROOT / "pyproject.toml").read_bytes())
+    (clone / ".venv").mkdir()
+    (clone / ".venv" / "in the way").write_text("", "utf-8")
+    base = Path(sys.base_prefix) / Path(sysconfig.get_path("scripts", vars={"base": ""})).name
+    python = next((p for p in base.glob("python3*") if p.name[7:].replace(".", "").isdigit()), None)
+    if python is None:
+        pytest.skip(f"no Python without packages found in {base}")
+    done = subprocess.run(
+        [str(python), "-s", "-m", "grader", "start"],
+        cwd=clone,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "no virtual environment. Move it away." in done.stderr

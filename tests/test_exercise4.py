@@ -1,0 +1,200 @@
+"""Exercise 4: files of all kinds, and what is right in more than one way."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from grader.cli import run
+
+ROOT = Path(__file__).resolve().parents[1]
+JAVA = "ExampleSubsystem.java"
+
+
+@pytest.fixture
+def real(tmp_path, monkeypatch):
+    """A copy of the course's own exercises, in whose folder the command runs."""
+    ignored = shutil.ignore_patterns("data", "__pycache__")
+    shutil.copytree(ROOT / "exercises", tmp_path / "exercises", ignore=ignored)
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"", "the file is empty. Write your answer into it. To get the file back as it was: "),
+        (b"  \n", "git checkout -- exercises/exercise4/ExampleSubsystem.java"),
+        (b"// big\n" * 1_500_000, "10 MB is too large for an answer"),
+        (bytes(range(256)) * 20, "this is not text"),
+        (b"\x89PNG\r\n\x1a\n\0\0", "this is not text"),
+        (b"class A {\n  int a = (1;\n}\n", "line 2"),
+    ],
+    ids=["empty", "blank", "10 MB", "binary", "picture", "syntax"],
+)
+def test_a_file_that_is_no_code_is_refused_with_advice(real, capsys, content, said):
+    (real / "exercises" / "exercise4" / JAVA).write_bytes(content)
+
+    assert run(["exercise4", f"exercises/exercise4/{JAVA}"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert said in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [
+        ("class A {}\n", 1),
+        ("// nothing but a comment\n", 1),
+        ("class A { SysIdRoutine r = new SysIdRoutine(); }\n", 1),
+        ("class A { SysIdRoutine r = new SysIdRoutine(null, null); }\n", 1),
+        ("class A {" + "\n" * 50_000 + "}\n", 1),
+        ('class Ä { String é = "\\u0000"; }\r\n', 1),
+    ],
+    ids=["bare", "comment", "no-arguments", "nulls", "long", "letters"],
+)
+def test_code_without_a_routine_gets_few_points_and_no_traceback(real, capsys, content, code):
+    path = real / "A.java"
+    path.write_text(content, "utf-8")
+
+    assert run(["exercise4", "A.java", "--json"]) == code
+    assert json.loads(capsys.readouterr().out)["score"] <= 2
+
+
+def test_without_a_file_the_better_starter_is_graded_and_named(real, capsys):
+    folder = real / "exercises" / "exercise4"
+    solutions = ROOT / "solutions" / "exercise4"
+    assert run(["4"]) == 1
+    assert JAVA in capsys.readouterr().out.splitlines()[0]
+
+    shutil.copy(solutions / "example_subsystem.py", folder)
+    assert run(["4"]) == 0
+    assert "example_subsystem.py" in capsys.readouterr().out.splitlines()[0]
+
+    shutil.copy(solutions / JAVA, folder)
+    assert run(["4"]) == 0
+    assert JAVA in capsys.readouterr().out.splitlines()[0]
+
+
+def test_a_starter_with_a_syntax_error_is_not_hidden_by_the_untouched_one(real, capsys):
+    path = real / "exercises" / "exercise4" / JAVA
+    path.write_text(path.read_text("utf-8").replace("new TalonFX(1)", "new TalonFX(1"), "utf-8")
+
+    assert run(["4"]) == 2
+    assert JAVA in capsys.readouterr().err
+
+
+LESSON = """
+import edu.wpi.first.units.measure.*;
+import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine;
+import static edu.wpi.first.units.Units.*;
+
+public class DriveSubsystem extends SubsystemBase {
+  private final TalonFX m_leftLeader = new TalonFX(1);
+  private final TalonFX m_rightLeader = new TalonFX(2);
+  private final SysIdRoutine m_sysIdRoutine = new SysIdRoutine(
+    new SysIdRoutine.Config(
+      Volts.of(0.5).per(Second), // quasistatic ramp rate
+      Volts.of(3.0), // dynamic step voltage
+      Seconds.of(10), // test timeout
+      null
+    ),
+    new SysIdRoutine.Mechanism(
+      (voltage) -> {
+        m_leftLeader.setVoltage(voltage.in(Volts));
+        m_rightLeader.setVoltage(voltage.in(Volts));
+      },
+      (log) -> {
+        log.motor("drive-left")
+          .voltage(Volts.of(m_leftLeader.getMotorVoltage().getValueAsDouble()))
+          .linearPosition(Meters.of(getLeftPositionMeters()))
+          .linearVelocity(MetersPerSecond.of(getLeftVelocityMetersPerSecond()));
+        log.motor("drive-right")
+          .voltage(Volts.of(m_rightLeader.getMotorVoltage().getValueAsDouble()))
+          .linearPosition(Meters.of(getRightPositionMeters()))
+          .linearVelocity(MetersPerSecond.of(getRightVelocityMetersPerSecond()));
+      },
+      this
+    )
+  );
+  public Command sysIdQuasistaticForward() {
+    return m_sysIdRoutine.quasistatic(SysIdRoutine.Direction.kForward);
+  }
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("step", "code", "score"), [("3.0", 1, 14), ("3.5", 0, 15)], ids=["example", "practice"]
+)
+def test_the_source_lesson_to_the_letter(real, capsys, step, code, score):
+    (real / "DriveSubsystem.java").write_text(LESSON.replace("3.0", step), "utf-8")
+
+    assert run(["4", "DriveSubsystem.java", "--json"]) == code
+    result = json.loads(capsys.readouterr().out)
+    wrong = [check for check in result["checks"] if check["status"] != "passed"]
+
+    assert result["score"] == score
+    assert [check["id"] for check in wrong] == ["step"] * (15 - score)
+    for check in wrong:
+        assert "3 V is the lesson's own example" in check["hint"]
+        assert "Volts.of(3.5)" in check["hint"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "note"),
+    [
+        (
+            "m_left.setVoltage(voltage.in(Volts))",
+            "m_left.setControl(new VoltageOut(voltage.in(Volts)))",
+            "setVoltage() sends a VoltageOut, too",
+        ),
+        ("Seconds.of(10)", "null", "a default may change"),
+    ],
+)
+def test_what_is_right_in_another_way_passes_with_a_note(real, capsys, old, new, note):
+    text = (ROOT / "solutions" / "exercise4" / JAVA).read_text("utf-8")
+    assert old in text
+    (real / "Mine.java").write_text(text.replace(old, new), "utf-8")
+
+    assert run(["4", "Mine.java"]) == 0
+    assert note in " ".join(capsys.readouterr().out.split())
+
+
+PROGRAM = """
+from commands2.sysid import SysIdRoutine
+from wpilib.sysid import SysIdRoutineLog
+from example_subsystem import ExampleSubsystem
+
+robot = ExampleSubsystem()
+config = robot.routine.config
+print(config.rampRate, config.stepVoltage, config.timeout)
+for test in (robot.routine.quasistatic, robot.routine.dynamic):
+    print(test(SysIdRoutine.Direction.kForward).getRequirements() == {robot})
+robot.routine.mechanism.drive(3.0)
+print(round(robot.left.getVoltage(), 1), round(robot.right.getVoltage(), 1))
+robot.routine.mechanism.log(SysIdRoutineLog("drive"))
+"""
+
+
+@pytest.mark.robot
+def test_the_python_solution_runs_on_wpilibs_own_routine(tmp_path):
+    pytest.importorskip("commands2")
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "solutions" / "exercise4")},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[:4] == ["0.5 3.5 10.0", "True", "True", "3.0 3.0"]

@@ -1,0 +1,136 @@
+"""The course checks itself: starters fail, solutions pass, and every mistake is caught."""
+
+import importlib.util
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from grader.course import find_course
+from grader.exercise import HINTS, exercises
+from grader.misconception import MISCONCEPTIONS
+from grader.starter import blank
+
+ROOT = find_course(Path(__file__).resolve().parent)
+EXERCISES = {one.name: one for one in exercises(ROOT)}
+STUDENTS = ("ann", "ben", "zoë")  # between them they get every kind of mechanism there is
+
+
+def load(path):
+    spec = importlib.util.spec_from_file_location(f"_{path.parent.name}_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def mistakes_of(name):
+    return load(ROOT / "solutions" / name / "mistakes.py").MISTAKES
+
+
+MISTAKES = [
+    pytest.param(name, mistake, id=f"{name}: {mistake.name}")
+    for name in EXERCISES
+    for mistake in mistakes_of(name)
+]
+
+
+@pytest.fixture
+def answered(tmp_path):
+    """Makes the solution of an exercise for a student: file name -> text."""
+
+    def answer(name, student):
+        folder = ROOT / "solutions" / name
+        one = EXERCISES[name]
+        if not (folder / "solve.py").is_file():
+            return {file: (folder / file).read_text(encoding="utf-8") for file in one.files}
+        copy = tmp_path / "exercises" / name
+        shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data"))
+        moved = type(one)(name, copy)
+        moved.prepare(student, say=lambda _: None)
+        (data,) = (copy / "data").iterdir()
+        return load(folder / "solve.py").solve(copy, data)
+
+    return answer
+
+
+def grade(name, text, file, student, folder):
+    path = folder / file
+    path.write_text(text, encoding="utf-8")
+    return EXERCISES[name].grade(path, student=student)
+
+
+def test_there_are_exercises():
+    assert {"exercise4", "exercise9"} <= EXERCISES.keys()
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_an_exercise_has_a_task_hints_checks_and_mistakes(name):
+    one = EXERCISES[name]
+    readme = (one.folder / "README.md").read_text(encoding="utf-8")
+
+    assert re.search(r"^# Exercise \d+: \w", readme, re.MULTILINE)
+    assert f"grade {name}" in readme
+    assert len(one.hints) == len(HINTS) == 3
+    assert all(len(hint) > 40 for hint in one.hints)
+    assert all(one.checks)
+    assert len({check.id for check in one.checks}) == len(one.checks)
+    assert all((one.folder / file).is_file() for file in one.files)
+    assert len(mistakes_of(name)) >= 5
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_the_starter_is_readable_and_wrong(name):
+    for file in EXERCISES[name].files:
+        result = EXERCISES[name].grade(EXERCISES[name].folder / file, student="ann")
+
+        assert result.status == "failed"
+        assert result.score < result.max_score / 2
+
+
+@pytest.mark.parametrize("student", STUDENTS)
+@pytest.mark.parametrize("name", EXERCISES)
+def test_the_solution_gets_full_marks(name, student, answered, tmp_path):
+    for file, text in answered(name, student).items():
+        result = grade(name, text, file, student, tmp_path)
+
+        assert [check for check in result.checks if check.status != "passed"] == []
+        assert (result.status, result.score) == ("passed", result.max_score)
+
+
+@pytest.mark.parametrize("student", STUDENTS)
+@pytest.mark.parametrize(("name", "mistake"), MISTAKES)
+def test_a_mistake_is_caught_and_named(name, mistake, student, answered, tmp_path):
+    text = answered(name, student)[mistake.file]
+    result = grade(name, mistake.make(text), mistake.file, student, tmp_path)
+    (check,) = (one for one in result.checks if one.id == mistake.check)
+
+    assert result.status == "failed"
+    assert check.status == "failed"
+    assert mistake.says in f"{check.seen} {check.hint}"
+    assert check.misconception == mistake.misconception
+
+
+@pytest.mark.parametrize(("name", "mistake"), MISTAKES)
+def test_a_mistake_names_a_known_misconception(name, mistake):
+    assert mistake.check in {check.id for check in EXERCISES[name].checks}
+    assert mistake.misconception in {"", *MISCONCEPTIONS}
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_a_starter_is_its_solution_with_the_answers_taken_out(name):
+    for file in EXERCISES[name].files:
+        solution = ROOT / "solutions" / name / file
+        if solution.is_file():
+            starter = (EXERCISES[name].folder / file).read_text(encoding="utf-8")
+
+            assert starter == blank(solution.read_text(encoding="utf-8"))
+            assert "TODO" in starter
+
+
+def test_answers_are_taken_out_in_both_languages():
+    java = "a;\n  // --- answer: Add\n  // ---   them up.\n  b += a;\n  // --- end\nc;\n"
+    python = "a\n    # --- answer: Add.\n    b += a\n    # --- end\nc\n"
+
+    assert blank(java) == "a;\n  // TODO: Add\n  //       them up.\nc;\n"
+    assert blank(python) == "a\n    # TODO: Add.\nc\n"

@@ -1,0 +1,425 @@
+"""The command `grade`: what it prints, what it keeps, and the exit code it leaves with."""
+
+import json
+import os
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grader.cli import run
+from grader.course import PLACE, Progress, Standing, find_course, load, save
+from grader.variant import folder_name, generator, seed, student_name
+from sim.errors import BadRequest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+CHECKS = '''
+"""An exercise to test the examiner with."""
+from grader.check import Wrong, check
+from grader.submission import read_answers
+FILES = ("answers.toml",)
+
+def read(path, *, student):
+    return read_answers(path)
+
+@check(points=2)
+def size(answers):
+    """The size is 3."""
+    if answers.get("size") == "boom":
+        raise KeyError("boom")
+    if answers.get("size") != 3:
+        raise Wrong(str(answers.get("size")), hint="Count again ≈ ±1.", misconception="M-UNITS")
+
+@check(points=1, after=size)
+def color(answers):
+    """The color is green."""
+    if answers.get("color") != "green":
+        raise Wrong(str(answers.get("color")), hint="Look again.", earned=0.5)
+'''
+HINTS = 'concept = "Sizes are counted."\npointer = "Look at the ruler."\nstep = "One, two, …"\n'
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A small course, in whose folder the command runs."""
+    folder = tmp_path / "exercises" / "exercise1"
+    folder.mkdir(parents=True)
+    (tmp_path / "lessons").mkdir()
+    (folder / "README.md").write_text("# Exercise 1: Measure\n\ngrade exercise1\n", "utf-8")
+    (folder / "checks.py").write_text(CHECKS, "utf-8")
+    (folder / "hints.toml").write_text(HINTS, "utf-8")
+    (folder / "answers.toml").write_text("size = 0\n", "utf-8")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def answer(course, text):
+    (course / "exercises" / "exercise1" / "answers.toml").write_text(text, "utf-8")
+
+
+RIGHT, HALF = 'size = 3\ncolor = "green"\n', 'size = 3\ncolor = "blue"\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "verdict"),
+    [
+        (RIGHT, 0, "✓ exercise1: 3 of 3 points, all right"),
+        (HALF, 1, "✗ exercise1: 2.5 of 3 points, not all right yet"),
+        ("size = 1", 1, "✗ exercise1: 0 of 3 points, not all right yet"),
+    ],
+    ids=["right", "in-part", "wrong"],
+)
+def test_the_verdict_comes_first_and_the_exit_code_says_the_same(
+    course, capsys, text, code, verdict
+):
+    answer(course, text)
+
+    assert run(["exercise1"]) == code
+    assert capsys.readouterr().out.startswith(verdict)
+
+
+def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys):
+    answer(course, "size = 1")
+    run(["1"])
+    out = capsys.readouterr().out
+
+    assert "got  1" in out
+    assert "try  Count again ≈ ±1." in out
+    assert "why  A number means something only with its unit." in out
+    assert "looked at once this is right: The size is 3" in out
+    assert "Hint 1 of 3: grade exercise1 --hint" in out
+    assert max(map(len, out.splitlines())) <= 80
+    assert "\x1b" not in out
+
+
+def test_json_has_these_keys_and_no_others(course, capsys):
+    answer(course, HALF)
+
+    assert run(["exercise1", "--student", "Zoë", "--json"]) == 1
+    out = capsys.readouterr().out
+    result = json.loads(out)
+
+    assert out.isascii()
+    assert [*result] == ["exercise", "student", "score", "max_score", "status", "checks"]
+    assert result | {"checks": []} == {
+        "exercise": "exercise1",
+        "student": "Zoë",
+        "score": 2.5,
+        "max_score": 3,
+        "status": "failed",
+        "checks": [],
+    }
+    assert result["checks"][1] == {
+        "id": "color",
+        "description": "The color is green",
+        "status": "failed",
+        "points": 0.5,
+        "max_points": 1,
+        "seen": "blue",
+        "hint": "Look again.",
+        "misconception": "",
+    }
+
+
+def test_our_own_error_blames_nobody(course, capsys):
+    answer(course, 'size = "boom"')
+
+    assert run(["exercise1", "--json"]) == 2
+    out, err = capsys.readouterr()
+    result = json.loads(out)
+
+    assert result["status"] == "ungradable"
+    assert [check["status"] for check in result["checks"]] == ["error", "not-reached"]
+    assert err.count("\n") == 1
+    assert "a fault of the course, not yours" in err
+
+
+def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(course, capsys, monkeypatch):
+    (course / "exercises" / "exercise1" / "checks.py").write_text("1 / 0", "utf-8")
+
+    assert run(["exercise1"]) == 2
+    err = capsys.readouterr().err
+    assert err.startswith("grade: ZeroDivisionError: division by zero.")
+    assert "GRADE_TRACEBACK=1" in err
+    assert err.count("\n") == 1
+
+    monkeypatch.setenv("GRADE_TRACEBACK", "1")
+    with pytest.raises(ZeroDivisionError):
+        run(["exercise1"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["exercise2"], "There are: exercise1."),
+        (["exrcise1"], "Did you mean exercise1?"),
+        (["exercise1", "nowhere.toml"], "nowhere.toml: there is no such file."),
+        (["exercise1", "lessons"], "lessons: no .toml file in this folder. Name the file itself."),
+        (["--json"], "no exercise was named. Say which: grade exercise4 --json"),
+        (["--hint"], "no exercise was named. Say which: grade exercise4 --hint"),
+        (["exercise1", "--color"], "No such option '--color'. What there is: grade --help"),
+        (["exercise1", "a", "b"], "What there is: grade --help"),
+        (["exercise1", "--student", "a/b"], "has a path separator"),
+        (["exercise1", "--student", "a\\b"], "has a path separator"),
+        (["exercise1", "--student", " "], "is empty"),
+        (["exercise1", "--student", "x" * 65], "has 65 characters"),
+        (["exercise1", "--student", "a\x07"], "nobody can see"),
+    ],
+)
+@pytest.mark.usefixtures("course")
+def test_what_cannot_be_done_is_one_line_and_code_2(capsys, arguments, said):
+    assert run(arguments) == 2
+    out, err = capsys.readouterr()
+
+    assert out == ""
+    assert err.startswith("grade: ")
+    assert err.count("\n") == 1
+    assert said in err
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("size = 0,5", "Write a decimal point"),
+        ("color = 1\nsize =", "line 2: nothing stands after size ="),
+        ("size is 3", "'size is 3' cannot be read. Every line is a name, = and a number"),
+        ("", "the file is empty. Write your answer into it."),
+        (" \n\n", "git checkout -- exercises/exercise1/answers.toml"),
+        ("size = 3\0", "this is not text"),
+    ],
+)
+def test_an_answer_file_that_cannot_be_read_names_the_line(course, capsys, text, said):
+    answer(course, text)
+
+    assert run(["exercise1"]) == 2
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["exercise1", "exercise01", "Exercise1", "ex1", "1", "exercise 1"])
+def test_an_exercise_is_known_by_its_name_or_number(course, name):
+    answer(course, RIGHT)
+
+    assert run([name]) == 0
+
+
+def test_a_file_may_be_a_folder_or_any_file(course):
+    elsewhere = course / "mine"
+    elsewhere.mkdir()
+    (elsewhere / "anything.toml").write_text(RIGHT, "utf-8")
+
+    assert run(["exercise1", "mine"]) == 0
+    assert run(["exercise1", str(elsewhere / "anything.toml")]) == 0
+    assert run(["exercise1"]) == 1
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_what_windows_editors_save_can_be_read(course, encoding):
+    path = course / "exercises" / "exercise1" / "answers.toml"
+    path.write_bytes(RIGHT.encode(encoding))
+
+    assert run(["exercise1"]) == 0
+
+
+@pytest.mark.usefixtures("course")
+def test_hints_come_one_by_one_and_then_all_again(capsys):
+    shown = []
+    for _ in range(5):
+        assert run(["exercise1", "--hint"]) == 0
+        shown.append(capsys.readouterr().out)
+
+    assert shown[0] == "Hint 1 of 3: Sizes are counted.\n"
+    assert shown[1].startswith("Hint 2 of 3: Look at the ruler.")
+    assert shown[2].startswith("Hint 3 of 3: One, two")
+    assert shown[3] == shown[4]
+    assert "no more hints" in shown[3]
+    assert all(hint in shown[3] for hint in ("Sizes", "ruler", "One"))
+
+
+@pytest.mark.usefixtures("course")
+def test_hints_are_counted_for_each_student(capsys):
+    run(["exercise1", "--hint"])
+    run(["exercise1", "--hint", "--student", "ann"])
+
+    assert capsys.readouterr().out.count("Hint 1 of 3") == 2
+
+
+def test_without_a_name_it_shows_how_far_one_is_and_what_is_next(course, capsys):
+    assert run([]) == 0
+    before = capsys.readouterr().out
+    answer(course, RIGHT)
+    run(["exercise1"])
+    capsys.readouterr()
+    assert run([]) == 0
+    after = capsys.readouterr().out
+
+    assert "0 of 1 exercises done" in before
+    assert "not tried yet" in before
+    assert "Next: read exercises/exercise1/README.md, then: grade exercise1" in before
+    assert "1 of 1 exercises done" in after
+    assert "exercise1  Measure" in after
+    assert "Everything here is done." in after
+
+
+def test_the_best_score_is_kept(course, capsys):
+    for text in (HALF, "size = 0"):
+        answer(course, text)
+        run(["exercise1"])
+    capsys.readouterr()
+    run([])
+
+    assert "2.5 of 3" in capsys.readouterr().out
+    kept = tomllib.loads((course / PLACE).read_text("utf-8"))
+    assert kept["progress"]["me"]["exercise1"]["score"] == 2.5
+    assert [file.name for file in (course / ".course").iterdir()] == ["progress.toml"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "not toml",
+        "student = 3\n[progress.me]\nexercise1 = 5",
+        "progress = 1",
+        "\0",
+        'student = "/"',
+    ],
+)
+def test_damaged_progress_is_said_set_aside_and_begun_anew(course, capsys, text):
+    (course / ".course").mkdir()
+    (course / PLACE).write_text(text, "utf-8")
+
+    assert run([]) == 0
+    out, err = capsys.readouterr()
+    assert "could not be read; it starts anew" in err
+    assert "0 of 1 exercises done" in out
+    assert (course / ".course" / "progress.toml.bak").read_text("utf-8") == text
+
+    run([])
+    assert capsys.readouterr().err == ""
+
+
+def test_progress_that_cannot_be_kept_does_not_stop_grading(course, capsys):
+    (course / ".course").write_text("a file where a folder should be", "utf-8")
+    answer(course, RIGHT)
+
+    assert run(["exercise1"]) == 0
+    assert "could not be saved" in capsys.readouterr().err
+
+
+@given(
+    st.dictionaries(
+        st.text(st.characters(exclude_categories=["C"]), min_size=1, max_size=9),
+        st.dictionaries(
+            st.sampled_from(["exercise4", "exercise 9", "ü.x"]),
+            st.builds(
+                lambda share, most, hints: Standing(share * most, most, hints),
+                st.sampled_from([0.0, 0.5, 1.0]),
+                st.integers(1, 20).map(float),
+                st.integers(0, 3),
+            ),
+        ),
+    )
+)
+def test_progress_is_read_back_as_it_was_written(tmp_path_factory, standings):
+    folder = tmp_path_factory.mktemp("course")
+    progress = Progress("ann", standings)
+
+    assert save(progress, folder) == ""
+    assert load(folder) == (progress, "")
+
+
+def test_outside_a_course_it_uses_the_one_it_belongs_to(tmp_path):
+    assert find_course(tmp_path) == ROOT
+
+
+def test_a_student_who_is_someone_else_is_somewhere_else():
+    names = ["ann", "a.nn", "ann ", "con", "a:b", "a*b", "ä", "😀", "x" * 64, "..", "a.", "Straße"]
+    folders = {folder_name(name) for name in names}
+
+    assert len(folders) == len(names) - 1  # "ann " is ann
+    assert all(not set(folder) & set('<>:"/\\|?*') for folder in folders)
+    assert all(len(folder.encode()) < 200 for folder in folders)
+    assert folder_name("Ann") == folder_name("ann")
+
+
+@given(st.text(max_size=70))
+def test_any_name_has_a_folder_or_is_refused(name):
+    try:
+        student_name(name)
+    except BadRequest:
+        return
+    assert folder_name(name).strip(". ") == folder_name(name) != ""
+
+
+def test_numbers_are_drawn_from_who_one_is():
+    assert seed("ann", "exercise9") == seed("Ann ", "exercise9")
+    drawn = {
+        generator(*who, draw=draw).integers(2**62)
+        for who in (("ann", "exercise9"), ("ben", "exercise9"), ("ann", "exercise1"))
+        for draw in (0, 1)
+    }
+    assert len(drawn) == 6
+    assert seed("ann", "exercise9") != seed("ann", "exercise9", secret=b"a class's own")
+
+
+def grade(*arguments, cwd, **environment):
+    return subprocess.run(
+        [sys.executable, "-m", "grader", *arguments],
+        cwd=cwd,
+        env={**os.environ, "PYTHONPATH": str(ROOT), **environment},
+        capture_output=True,
+        check=False,
+        timeout=120,
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "code"),
+    [(RIGHT, ["1"], 0), (HALF, ["1"], 1), (HALF, ["2"], 2), (HALF, ["--help"], 0), (HALF, [], 0)],
+    ids=["right", "wrong", "unknown", "help", "overview"],
+)
+def test_the_process_leaves_with_the_exit_code(course, text, arguments, code):
+    answer(course, text)
+    done = grade(*arguments, cwd=course)
+
+    assert done.returncode == code
+    assert b"Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
+def test_a_sign_the_terminal_lacks_becomes_a_plain_one(course, encoding):
+    answer(course, "size = 1")
+    done = grade("1", cwd=course, PYTHONIOENCODING=encoding)
+    out = done.stdout.decode(encoding)
+
+    assert done.returncode == 1
+    assert out.startswith("✗ exercise1" if encoding == "utf-8" else "x exercise1")
+    assert {"ascii": "~ +-1", "cp1252": "~ ±1", "utf-8": "≈ ±1"}[encoding] in out
+
+
+def test_help_imports_nothing_heavy():
+    code = "import sys; from grader.cli import run; run(['--help']); print(*sorted(sys.modules))"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+
+    assert "grade [EXERCISE [FILE]]" in done.stdout
+    assert not {"numpy", "scipy", "rich", "numba", "tomli_w"} & set(done.stdout.split())
+
+
+def test_a_reader_who_leaves_early_causes_no_traceback(course):
+    writer = subprocess.Popen(
+        [sys.executable, "-m", "grader"],
+        cwd=course,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    writer.stdout.close()
+    _, err = writer.communicate(timeout=60)
+
+    assert err == b""

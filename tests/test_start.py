@@ -1,0 +1,178 @@
+"""`grade start`: where one stands first, then the data, then JupyterLab."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from grader import start as starting
+from grader.cli import run
+from grader.course import load
+
+MAKER = '''
+"""An exercise with data of its own."""
+from grader.check import check
+FILES = ("answers.toml",)
+
+def prepare(student, *, say):
+    say(f"made for {student}")
+
+@check(points=1)
+def anything(_):
+    """Anything will do."""
+'''
+
+
+class Lab:
+    """What stands in for JupyterLab: it notes how it was started, and ends as told."""
+
+    ends: tuple = (0,)
+    command: tuple = ()
+    place = ""
+    path = ""
+
+    def __init__(self, command, cwd, env):
+        Lab.command, Lab.place, Lab.path = tuple(command), Path(cwd), env["PATH"]
+        self.waits = iter(Lab.ends)
+
+    def wait(self):
+        """The next thing that happens: an exit code, or Ctrl-C."""
+        end = next(self.waits)
+        if isinstance(end, type):
+            raise end
+        return end
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A course with one lesson and one exercise, and a JupyterLab that opens no window."""
+    folder = tmp_path / "exercises" / "exercise1"
+    folder.mkdir(parents=True)
+    (folder / "checks.py").write_text(MAKER, "utf-8")
+    (folder / "README.md").write_text("# Exercise 1: Measure\n", "utf-8")
+    (tmp_path / "lessons").mkdir()
+    for name in ("01_motor.ipynb", "00_guess.ipynb"):
+        (tmp_path / "lessons" / name).write_text("{}", "utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(starting.subprocess, "Popen", Lab)
+    monkeypatch.setattr(Lab, "ends", (0,))
+    monkeypatch.setattr(Lab, "command", ())
+    return tmp_path
+
+
+def test_it_shows_where_one_stands_before_anything_is_made(course, capsys):
+    assert run(["start", "--no-lab", "--student", "ann"]) == 0
+    out = capsys.readouterr().out
+
+    assert course.is_dir()
+    assert out.startswith("Welcome to the SysId course.")
+    assert "0 of 1 exercises done (ann)" in out
+    assert "lessons/00_guess.ipynb" in out
+    assert "Next: read exercises/exercise1/README.md, then: grade exercise1" in out
+    assert out.index("Next:") < out.index("made for ann") < out.index("Ready.")
+    assert Lab.command == ()
+
+
+def test_who_one_is_is_remembered(course, capsys):
+    run(["start", "--no-lab", "--student", "ann"])
+    run(["start", "--no-lab"])
+    capsys.readouterr()
+
+    assert load(course)[0].student == "ann"
+    assert run([]) == 0
+    assert "(ann)" in capsys.readouterr().out
+
+
+def test_jupyterlab_opens_the_first_lesson_and_keeps_to_itself(course):
+    assert run(["start"]) == 0
+
+    assert Lab.command[:3] == (sys.executable, "-m", "jupyterlab")
+    assert Lab.command[-1] == "lessons/00_guess.ipynb"
+    assert {
+        "--LabApp.news_url=None",
+        "--LabApp.check_for_updates_class=jupyterlab.handlers.announcements.NeverCheckForUpdate",
+        "--LabApp.extension_manager=readonly",
+        f"--ServerApp.root_dir={course}",
+    } <= set(Lab.command)
+    assert Lab.place == course
+
+
+def test_commands_of_this_environment_are_found_in_its_terminals(course):
+    run(["start"])
+    scripts = Path(Lab.path.split(os.pathsep, maxsplit=1)[0])
+
+    assert course.is_dir()
+    assert any(scripts.glob("python*"))
+
+
+@pytest.mark.parametrize(
+    ("ends", "code"),
+    [((0,), 0), ((KeyboardInterrupt, 0), 0), ((KeyboardInterrupt, -2), 0), ((3,), 2)],
+    ids=["closed", "Ctrl-C", "Ctrl-C twice", "broken"],
+)
+@pytest.mark.usefixtures("course")
+def test_it_ends_quietly_with_jupyterlab(monkeypatch, capsys, ends, code):
+    monkeypatch.setattr(Lab, "ends", ends)
+
+    assert run(["start"]) == code
+    assert capsys.readouterr().err == ""
+
+
+def test_ctrl_c_before_jupyterlab_is_quiet_too(course, capsys):
+    path = course / "exercises" / "exercise1" / "checks.py"
+    path.write_text(MAKER.replace('say(f"made for {student}")', "raise KeyboardInterrupt"), "utf-8")
+
+    assert run(["start"]) == 130
+    assert capsys.readouterr().err.strip() == ""
+
+
+@pytest.mark.usefixtures("course")
+def test_without_jupyterlab_it_says_how_to_get_it(monkeypatch, capsys):
+    monkeypatch.setattr(starting.importlib.util, "find_spec", lambda _name: None)
+
+    assert run(["start"]) == 2
+    assert "python -m pip install jupyterlab" in capsys.readouterr().err
+
+
+def test_without_lessons_it_opens_the_course_itself(course):
+    for lesson in (course / "lessons").glob("*.ipynb"):
+        lesson.unlink()
+
+    assert run(["start"]) == 0
+    assert Lab.command[-1] == "."
+
+
+@pytest.mark.usefixtures("course")
+def test_where_grade_cannot_be_typed_it_says_what_to_type(monkeypatch, capsys):
+    monkeypatch.setattr(starting, "_on_path", lambda _command: False)
+    monkeypatch.setattr(starting.sys, "prefix", str(Path.cwd() / ".venv"))
+    run(["start", "--no-lab"])
+    out = capsys.readouterr().out
+
+    assert str(starting.activation(Path(".venv"))) in out
+    assert "python -m grader exercise4" in out
+
+
+def test_each_system_is_told_its_own_way_to_activate():
+    place = Path("elsewhere") / ".venv"
+
+    assert starting.activation(place, windows=False) == f"source {place}/bin/activate"
+    assert starting.activation(place, windows=True) == rf"{place}\Scripts\activate"
+
+
+def test_jupyterlab_knows_the_settings_that_keep_it_quiet():
+    pytest.importorskip("jupyterlab")
+    done = subprocess.run(
+        [sys.executable, "-m", "jupyterlab", *starting.QUIET, "--show-config-json"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    told = json.loads(done.stdout[done.stdout.index("{") :])["LabApp"]
+
+    assert str(told["news_url"]) == "None"
+    assert told["extension_manager"] == "readonly"
+    assert "NeverCheckForUpdate" in str(told["check_for_updates_class"])
