@@ -34,7 +34,7 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
         return (given,)
     own = [given / name for name in names if (given / name).is_file()]
     endings = {Path(name).suffix for name in names}
-    like = sorted(file for file in given.iterdir() if file.suffix in endings and file.is_file())
+    like = sorted(file for file in given.iterdir() if file.suffix in endings and _filled(file))
     if not own and not 0 < len(like) <= MANY:
         raise UnreadableFile(
             f"{len(like) or 'no'} {' or '.join(sorted(endings))} file in this folder",
@@ -42,6 +42,11 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
             advice="Name the file itself.",
         )
     return tuple(own or like)
+
+
+def _filled(file: Path) -> bool:
+    """Whether there is something in it: a package's empty ``__init__.py`` is nobody's answer."""
+    return file.is_file() and file.stat().st_size > 0
 
 
 def _own(folder: Path, names: Sequence[str]) -> tuple[Path, ...]:

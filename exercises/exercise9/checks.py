@@ -88,8 +88,12 @@ def _alike(asked: Mapping[str, Asked]) -> bool:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the learner's log, where it is not there as it was made."""
-    variant = draw(student)
     folder = HERE / "data" / folder_name(student)
+    place = (folder / FILES_MADE[0]).relative_to(HERE.parents[1]).as_posix()
+    there = (folder / FILES_MADE[0]).exists()
+    if not there:
+        say(f"Making your own log for exercise 9: {place}")
+    variant = draw(student)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         news = [_put(variant.log, folder / name) for name in FILES_MADE]
@@ -99,9 +103,8 @@ def prepare(student: str, *, say: Callable[[str], None]) -> None:
             where=str(folder),
             advice="Make room there, or allow writing.",
         ) from error
-    if any(news):
-        place = (folder / FILES_MADE[0]).relative_to(HERE.parents[1]).as_posix()
-        say(f"Your log of a {variant.mechanism.name} has been made: {place}")
+    if there and any(news):
+        say(f"Your log was no longer as it was made, and has been made anew: {place}")
 
 
 def _put(log: "Log", path: Path) -> bool:
