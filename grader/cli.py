@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from grader.terminal import any_encoding, complain, show
+from sim.command import COULD_NOT, INTERRUPTED
 from sim.errors import BadRequest, Refusal
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from grader.exercise import Exercise
 
 TRACEBACK = "GRADE_TRACEBACK"  # set to 1 to see where an error of ours comes from
-INTERRUPTED = 130
 
 
 class ExerciseOrCommand(click.Group):
@@ -156,6 +156,7 @@ def run(arguments: list[str] | None = None) -> int:
     any_encoding()
     try:
         code = grade.main(arguments, prog_name="grade", standalone_mode=False)
+        sys.stdout.flush()
     except Refusal as refusal:
         complain(str(refusal))
     except click.ClickException as error:
@@ -164,7 +165,7 @@ def run(arguments: list[str] | None = None) -> int:
         return INTERRUPTED
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nobody reads any more
-        return 2
+        return COULD_NOT
     except Exception as error:
         if os.environ.get(TRACEBACK) == "1":
             raise
@@ -174,7 +175,7 @@ def run(arguments: list[str] | None = None) -> int:
         )
     else:
         return code if isinstance(code, int) else 0
-    return 2
+    return COULD_NOT
 
 
 def main() -> None:

@@ -8,11 +8,15 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from grader.cli import run
+from grader.exercise import Exercise
 
 ROOT = Path(__file__).resolve().parents[1]
 JAVA = "ExampleSubsystem.java"
+EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 
 
 @pytest.fixture
@@ -198,3 +202,26 @@ def test_the_python_solution_runs_on_wpilibs_own_routine(tmp_path):
 
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines()[:4] == ["0.5 3.5 10.0", "True", "True", "3.0 3.0"]
+
+
+SOLUTIONS = {
+    name: (ROOT / "solutions" / "exercise4" / name).read_text("utf-8")
+    for name in (JAVA, "example_subsystem.py")
+}
+
+
+@given(
+    name=st.sampled_from(sorted(SOLUTIONS)),
+    begin=st.integers(0, 2500),
+    length=st.integers(1, 200),
+    put=st.sampled_from(["", "null", "None", "(", "})", "m_left", "0", ".times(2)", "λ"]),
+)
+@settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_whatever_is_cut_out_of_code_our_checks_do_not_break(tmp_path, name, begin, length, put):
+    text = SOLUTIONS[name]
+    path = tmp_path / name
+    path.write_text(text[:begin] + put + text[begin + length :], "utf-8")
+    result = EXERCISE.grade(path, student="ann")
+
+    assert "error" not in {check.status for check in result.checks}
+    assert 0 <= result.score <= result.max_score == 15
