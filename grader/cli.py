@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from grader.terminal import any_encoding, complain, show
-from sim.command import COULD_NOT, INTERRUPTED
+from sim.command import COULD_NOT, DONE, INTERRUPTED, NOT_RIGHT
 from sim.errors import BadRequest, Refusal
 
 if TYPE_CHECKING:
@@ -121,17 +121,16 @@ def _grade(
 
     one.prepare(who, say=complain)
     result = one.grade(file, student=who)
+    gradable = result.status != "ungradable"
+    noted = progress.with_score(who, one.name, score=result.score, max_score=result.max_score)
+    if gradable and noted != progress:  # kept before anything is shown: a reader may stop reading
+        _tell(save(noted, folder))
     if as_json:
         click.echo(to_json(result))
     elif result.reached:
         show(to_lines(result, hints_shown=progress.of(who, one.name).hints))
-    if result.status == "ungradable":
-        complain(result.reason)
-        return 2
-    noted = progress.with_score(who, one.name, score=result.score, max_score=result.max_score)
-    if noted != progress:
-        _tell(save(noted, folder))
-    return 0 if result.status == "passed" else 1
+    _tell(result.reason)
+    return (DONE if result.status == "passed" else NOT_RIGHT) if gradable else COULD_NOT
 
 
 def _hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:

@@ -44,14 +44,16 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     sys.stdout.flush()
     for one in found:
         one.prepare(student, say=_say)
-    if not _on_path("grade"):
+    command = "grade"
+    if not _on_path(command):
+        command = "python -m grader"
         if sys.prefix != sys.base_prefix:
             _say(f"To type grade and sysid in this terminal:  {activation(Path(sys.prefix))}")
-        _say("Without that, type  python -m grader exercise4  for  grade exercise4")
+        _say(f"Without that, type  {command} exercise4  for  grade exercise4")
     lessons = sorted((course / "lessons").glob("*.ipynb"))
     if not lab:
         place = lessons[0].relative_to(course).as_posix() if lessons else "exercises"
-        _say(f"Ready. Begin with {place}; to open it in JupyterLab:  grade start")
+        _say(f"Ready. Begin with {place}; to open it in JupyterLab:  {command} start")
         return 0
     return _open_lab(course, lessons[0] if lessons else course)
 
