@@ -29,6 +29,7 @@ class Files:
         self.path = path
         self.main = _parsed(path)
         self._modules: dict[Path, Module | None] = {path: self.main}
+        self._found: dict[tuple[str, int, Path], Found | None] = {}
         self._java: dict[str, list[Path]] | None = None
 
     def find(self, name: str, *, level: int = 0, seen_from: Module) -> Found | None:
@@ -43,10 +44,14 @@ class Files:
             The file, and the part of the name that is left; None where there is no such file, or
             more than one that it could be.
         """
-        parts = tuple(part for part in name.split(".") if part)
-        if seen_from.language == "java":
-            return self._find_java(parts, seen_from)
-        return self._find_python(parts, level, seen_from)
+        key = (name, level, seen_from.path)
+        if key not in self._found:
+            parts = tuple(part for part in name.split(".") if part)
+            if seen_from.language == "java":
+                self._found[key] = self._find_java(parts, seen_from)
+            else:
+                self._found[key] = self._find_python(parts, level, seen_from)
+        return self._found[key]
 
     def _find_java(self, parts: tuple[str, ...], seen_from: Module) -> Found | None:
         start = next((i for i, part in enumerate(parts) if part[:1].isupper()), None)

@@ -1,9 +1,8 @@
 """Names followed to what they stand for: a value, a type, a method."""
 
 import re
-from collections.abc import Iterator
 
-from grader.robotcode.names import DEEPEST, Names
+from grader.robotcode.names import Names
 from grader.robotcode.scope import Definitions, Scope
 from grader.robotcode.syntax import (
     Call,
@@ -11,6 +10,7 @@ from grader.robotcode.syntax import (
     Class,
     Function,
     Items,
+    Loop,
     Member,
     Name,
     Node,
@@ -23,6 +23,7 @@ from grader.robotcode.syntax import (
 )
 
 MOST_STEPS = 20  # names followed, one to the next
+MOST_PIECES = 5  # strings joined one into the other
 
 Placed = tuple[Node, Scope]  # a node, and the scope it stands in
 Method = tuple[Function, Scope]  # a function, and the scope inside it
@@ -75,6 +76,7 @@ def type_of(node: Node, scope: Scope, names: Names) -> str:
     """The type of a variable, declared or seen from what it is made with; empty if unknown."""
     if isinstance(node, Parameter):
         return node.type
+    node = _without_settings(node)
     made = _made(node)
     return made if made is not None else type_from(names.definitions(node, scope), names)
 
@@ -87,9 +89,16 @@ def type_from(definitions: Definitions, names: Names) -> str:
         if declared or first is None or first.value is None:
             return declared
         value = first.value
-        while isinstance(value, Items) and value.items:
-            value = value.items[0]
+        for _ in range(MOST_STEPS):  # of several, the first tells
+            several = value.items if isinstance(value, Items) else ()
+            several = value.body if isinstance(value, Loop) else several
+            if not several:
+                break
+            value = several[0]
         made = _made(value)
+        if made == "":  # not a constructor; a method of these files may be one in disguise
+            value, where = resolve(value, first.scope, names)
+            return constructed(value, where, names) if isinstance(value, Call) else ""
         if made is not None:
             return made
         definitions = names.definitions(_without_settings(value), first.scope)
@@ -141,7 +150,7 @@ def text_of(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> str:
     node, scope = resolve(node, scope, names)
     if isinstance(node, Text):
         return node.value
-    if isinstance(node, Operation) and node.sign == "+" and node.left and depth < DEEPEST:
+    if isinstance(node, Operation) and node.sign == "+" and node.left and depth < MOST_PIECES:
         both = [text_of(n, scope, names, depth=depth + 1) for n in (node.left, node.right)]
         return "".join(both) if all(both) else ""
     return ""
@@ -176,19 +185,16 @@ def called(call: Call, scope: Scope, names: Names, *, owner: Placed | None = Non
 
 def methods(name: str, home: Scope, names: Names) -> list[Method]:
     """The methods of a name in a class, or in the classes above it if it has none."""
-    return next((found for found in _methods(name, home, names, depth=0) if found), [])
+    places = names.lineage(home) if home.classes else [home]
+    return next(filter(None, (_methods_in(place, name, names) for place in places)), [])
 
 
-def _methods(name: str, home: Scope, names: Names, *, depth: int) -> Iterator[list[Method]]:
-    body = home.classes[-1].body if home.classes else home.module.body
-    yield [
+def _methods_in(home: Scope, name: str, names: Names) -> list[Method]:
+    return [
         (node, home.within(node))
-        for node in inside(*body, but=(Function, Class))
+        for node in names.members(home)
         if isinstance(node, Function) and node.name == name
     ]
-    if home.classes and depth < DEEPEST:
-        for base in names.bases(home):
-            yield from _methods(name, base, names, depth=depth + 1)
 
 
 def _fitting(name: str, home: Scope, names: Names, count: int) -> list[Method]:

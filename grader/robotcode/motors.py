@@ -1,9 +1,10 @@
 """The motors of a class: which it owns, which follow another, and which a name stands for."""
 
 from collections.abc import Iterator
+from itertools import islice
 
 from grader.robotcode.meaning import Placed, last_name, resolve, simple, type_from, type_of
-from grader.robotcode.names import DEEPEST, Names
+from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.syntax import (
     Assign,
@@ -29,6 +30,10 @@ from grader.robotcode.vocabulary import (
     plain,
 )
 
+DEEPEST = 3  # a list of groups of motors
+MOST = 16  # motors in one list
+MOST_NODES = 200  # of an expression that may make settings
+
 
 def label(node: Node) -> str:
     """What a motor is called in messages: ``m_left``, ``io.motor``."""
@@ -51,8 +56,8 @@ def elements(node: Node, scope: Scope, names: Names) -> tuple[Placed, ...]:
         if maker in GROUPS | DRIVES or owner in COLLECTIONS:
             several = value.args
     found = tuple(item.owner if isinstance(item, Reference) else item for item in several)
-    named = all(isinstance(item, Name | Member | Element) for item in found)
-    return tuple((item, where) for item in found) if named else ()
+    named = all(isinstance(item, Name | Member | Element | Items) for item in found)
+    return tuple((item, where) for item in found[:MOST]) if named else ()
 
 
 def motor_names(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tuple[str, ...]:
@@ -60,7 +65,7 @@ def motor_names(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tu
     if isinstance(node, Element):
         node = node.owner
     if depth < DEEPEST:
-        members = elements(node, scope, names)
+        members = elements(node, scope, names) or _motor_behind(node, scope, names)
         if not members and isinstance(node, Name):
             members = tuple(
                 (d.value.collection if isinstance(d.value, Loop) else d.value, d.scope)
@@ -68,31 +73,34 @@ def motor_names(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tu
                 if isinstance(d.value, Loop | Name | Member | Element)
             )
         if members:
-            several = (motor_names(n, s, names, depth=depth + 1) for n, s in members)
+            several = (motor_names(n, s, names, depth=depth + 1) for n, s in members[:MOST])
             return tuple(dict.fromkeys(name for some in several for name in some))
     return (label(node),)
 
 
+def _motor_behind(node: Node, scope: Scope, names: Names) -> tuple[Placed, ...]:
+    """The motor whose part this is: ``m_motor`` of ``m_motor.getClosedLoopController()``."""
+    value, where = resolve(node, scope, names)
+    if isinstance(value, Call) and isinstance(value.target, Member):
+        owner = value.target.owner
+        if is_motor(type_of(owner, where, names)):
+            return ((owner, where),)
+    return ()
+
+
 def owned(home: Scope, names: Names) -> tuple[str, ...]:
     """The motor controllers a class has, without those set to follow another."""
-    classes = with_bases(home, names)
+    classes = names.lineage(home)
     found: dict[str, None] = {}
     for place in classes:
         for name, definitions in names.fields(place).items():
             first = next((d for d in definitions if d.value is not None), None)
             named = bool(first and first.value and elements(first.value, first.scope, names))
-            if is_motor(type_from(definitions, names)) and not named:
+            type_ = type_from(definitions, names)
+            if (is_motor(type_) or simple(type_) in GROUPS) and not named:
                 found[name] = None
     following = {name for place in classes for name in _Followers(names).of(place)}
     return tuple(name for name in found if name not in following)
-
-
-def with_bases(home: Scope, names: Names) -> list[Scope]:
-    """A class and those above it, as far as these files hold them."""
-    found = [home]
-    for place in found:
-        found += [base for base in names.bases(place) if base not in found]
-    return found
 
 
 class _Followers:
@@ -105,6 +113,8 @@ class _Followers:
     def of(self, home: Scope) -> set[str]:
         """The names of the motors that follow."""
         found: set[str] = set()
+        if b"ollow" not in home.module.source:  # follow, Follower, addFollower
+            return found
         for node, scope in walk(home.classes[-1].body, home):
             if isinstance(node, Assign) and node.value and _follow_calls(node.value):
                 self._configs.add(self._key(node.target, scope))
@@ -164,7 +174,8 @@ class _Followers:
 
 
 def _follow_calls(node: Node) -> list[Call]:
-    return [n for n in inside(node) if isinstance(n, Call) and last_name(n.target) == "follow"]
+    nodes = islice(inside(node), MOST_NODES)
+    return [n for n in nodes if isinstance(n, Call) and last_name(n.target) == "follow"]
 
 
 def _root(node: Node) -> Node:

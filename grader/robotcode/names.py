@@ -4,7 +4,6 @@ By the languages' own rules where text can tell, and otherwise not at all.
 """
 
 from collections.abc import Iterator
-from itertools import chain
 
 from grader.robotcode.files import Files
 from grader.robotcode.scope import Definition, Definitions, Scope, bindings, walk
@@ -20,12 +19,15 @@ from grader.robotcode.syntax import (
     inside,
 )
 
-DEEPEST = 5  # classes above a class, files behind an import
+MOST_CLASSES = 12  # a class and those above it
 LONGEST = 12  # names in a row: org.wpilib.robot.Constants.Drive.kRamp has six
 
 
 class Names:
     """The names of one program.
+
+    What is looked up is kept, and counts as not found while it is being looked up: classes that
+    extend and files that import each other in a circle end there.
 
     Args:
         files: the file in hand and its neighbors.
@@ -34,9 +36,12 @@ class Names:
     def __init__(self, files: Files) -> None:
         self.main = files.main
         self._files = files
+        self._members: dict[Class | Module, tuple[Function | Class, ...]] = {}
         self._bound: dict[Function | Module, dict[str, Definitions]] = {}
         self._fields: dict[Class, dict[str, Definitions]] = {}
         self._bases: dict[Class, tuple[Scope, ...]] = {}
+        self._tops: dict[tuple[Module, str], Definitions] = {}
+        self._classes: dict[tuple[Class | Module, str], Scope | None] = {}
 
     def definitions(self, node: Node, scope: Scope) -> Definitions:
         """Every place where a variable gets its value; none if it is not in these files."""
@@ -44,7 +49,7 @@ class Names:
             return self._variable(node.name, scope)
         if isinstance(node, Member):
             home = self.home(node.owner, scope)
-            return () if home is None else self._in_home(node.name, home, depth=0)
+            return () if home is None else self._in_home(node.name, home)
         return ()
 
     def local(self, name: str, scope: Scope) -> Definitions:
@@ -74,17 +79,25 @@ class Names:
             self._fields[owner] = {name: tuple(several) for name, several in found.items()}
         return self._fields[owner]
 
-    def bases(self, home: Scope) -> tuple[Scope, ...]:
-        """The classes that a class extends, as far as these files hold them."""
-        owner = home.classes[-1]
-        if owner not in self._bases:
-            self._bases[owner] = ()  # a class that extends itself in a circle extends nothing
-            around = Scope(home.module, home.classes[:-1])
-            found = (self.named(base, around) for base in owner.bases)
-            self._bases[owner] = tuple(
-                base for base in found if base and base.classes and base.classes[-1] is not owner
+    def lineage(self, home: Scope) -> list[Scope]:
+        """A class and those above it, as far as these files hold them."""
+        found = [home]
+        for place in found:
+            found += [base for base in self._above(place) if base not in found]
+            if len(found) >= MOST_CLASSES:
+                break
+        return found[:MOST_CLASSES]
+
+    def members(self, home: Scope) -> tuple[Function | Class, ...]:
+        """The methods and classes directly in a class, or in a file."""
+        owner: Class | Module = home.classes[-1] if home.classes else home.module
+        if owner not in self._members:
+            self._members[owner] = tuple(
+                node
+                for node in inside(*owner.body, but=(Function, Class))
+                if isinstance(node, Function | Class)
             )
-        return self._bases[owner]
+        return self._members[owner]
 
     def home(self, node: Node, scope: Scope) -> Scope | None:
         """The class or file a node names: ``this``, ``Constants.Drive``, ``constants``."""
@@ -93,36 +106,41 @@ class Names:
             path.insert(0, node.name)
             node = node.owner
         if isinstance(node, Self):
-            return self._descend(path, scope.home if scope.classes else None, depth=0)
+            return self._descend(path, scope.home if scope.classes else None)
         if not isinstance(node, Name) or self.local(node.name, scope):
             return None
         start = self.named(node.name, scope)
         if start is None and scope.module.language == "java":  # a name with its package in front
-            return self._found(".".join((node.name, *path)), scope.module, level=0, depth=0)
-        return self._descend(path, start, depth=0)
+            return self._found(".".join((node.name, *path)), scope.module)
+        return self._descend(path, start)
 
     def named(self, name: str, scope: Scope) -> Scope | None:
         """The class or file of a bare name, as seen from a scope."""
         for count in range(len(scope.classes), 0, -1):
             around = Scope(scope.module, scope.classes[:count])
-            if around.classes[-1].name == name:
-                return around
-            found = self._nested(name, around, depth=0)
+            found = around if around.classes[-1].name == name else self._nested(name, around)
             if found is not None:
                 return found
-        found = self._nested(name, Scope(scope.module), depth=0)
+        found = self._nested(name, Scope(scope.module))
         if found is None and scope.module.language == "java":
-            return self._found(name, scope.module, level=0, depth=0)
+            return self._found(name, scope.module)
         return found
+
+    def _above(self, home: Scope) -> tuple[Scope, ...]:
+        owner = home.classes[-1]
+        if owner not in self._bases:
+            self._bases[owner] = ()
+            around = Scope(home.module, home.classes[:-1])
+            found = (self.named(base, around) for base in owner.bases[:MOST_CLASSES])
+            self._bases[owner] = tuple(base for base in found if base and base.classes)
+        return self._bases[owner]
 
     def _variable(self, name: str, scope: Scope) -> Definitions:
         found = self.local(name, scope)
-        homes = [Scope(scope.module)]
-        if scope.module.language == "java":  # a Python method sees no field without self
-            homes = [
-                Scope(scope.module, scope.classes[:n]) for n in range(len(scope.classes), -1, -1)
-            ]
-        return found or _first(self._in_home(name, home, depth=0) for home in homes)
+        least = 0 if scope.module.language == "java" else len(scope.classes)
+        for count in range(len(scope.classes), least, -1):  # Python sees no field without self
+            found = found or self._in_home(name, Scope(scope.module, scope.classes[:count]))
+        return found or self._in_home(name, Scope(scope.module))
 
     def _locals(self, scope: Scope) -> dict[str, Definitions]:
         """The variables of the innermost function, its parameters among them."""
@@ -135,64 +153,62 @@ class Names:
             self._bound[function] = found
         return self._bound[function]
 
-    def _in_home(self, name: str, home: Scope, *, depth: int) -> Definitions:
+    def _in_home(self, name: str, home: Scope) -> Definitions:
         """A field of a class or of those above it, or a name at the top of a file."""
-        if depth > DEEPEST:
-            return ()
         if home.classes:
-            above = (self._in_home(name, base, depth=depth + 1) for base in self.bases(home))
-            return _first(chain([self.fields(home).get(name, ())], above))
+            return _first(self.fields(place).get(name, ()) for place in self.lineage(home))
         module = home.module
         if module not in self._bound:
             self._bound[module] = bindings(module.body, home)
-        owners = (
-            (path, self._found(path.rpartition(".")[0], module, level=level, depth=depth + 1))
-            for path, level in _imports_of(name, module)
-        )
-        brought = (
-            self._in_home(path.rpartition(".")[2], owner, depth=depth + 1)
-            for path, owner in owners
-            if owner is not None and owner.module is not module
-        )
-        return _first(chain([self._bound[module].get(name, ())], brought))
+        if (module, name) not in self._tops:
+            self._tops[module, name] = ()
+            here = self._bound[module].get(name, ())
+            self._tops[module, name] = here or _first(self._brought(name, module))
+        return self._tops[module, name]
+
+    def _brought(self, name: str, module: Module) -> Iterator[Definitions]:
+        """A constant that an import brings into a file."""
+        for path, level in _imports_of(name, module):
+            owner = self._found(path.rpartition(".")[0], module, level=level)
+            if owner is not None and owner.module is not module:
+                yield self._in_home(path.rpartition(".")[2], owner)
 
     def _set_in_methods(self, home: Scope) -> Iterator[tuple[str, Definition]]:
-        members = inside(*home.classes[-1].body, but=(Function, Class))
-        methods = tuple(node for node in members if isinstance(node, Function))
+        methods = tuple(node for node in self.members(home) if isinstance(node, Function))
         for node, scope in walk(methods, home):
             if isinstance(node, Assign) and not node.declares and scope.classes == home.classes:
                 name = self.field_name(node.target, scope)
                 if name:
                     yield name, Definition(node.value, scope, node.type)
 
-    def _nested(self, name: str, home: Scope, *, depth: int) -> Scope | None:
+    def _nested(self, name: str, home: Scope) -> Scope | None:
         """A class in a class or file, in a class above it, or brought into the file."""
-        if depth > DEEPEST:
-            return None
-        body = home.classes[-1].body if home.classes else home.module.body
-        for node in inside(*body, but=(Function, Class)):
+        key = (home.classes[-1] if home.classes else home.module, name)
+        if key not in self._classes:
+            self._classes[key] = None
+            places = self.lineage(home) if home.classes else [home]
+            here = next(filter(None, (self._class_in(place, name) for place in places)), None)
+            paths = () if home.classes or here else _imports_of(name, home.module)
+            brought = (self._found(path, home.module, level=level) for path, level in paths)
+            self._classes[key] = here or next(filter(None, brought), None)
+        return self._classes[key]
+
+    def _class_in(self, home: Scope, name: str) -> Scope | None:
+        for node in self.members(home):
             if isinstance(node, Class) and node.name == name:
                 return Scope(home.module, (*home.classes, node))
-        if home.classes:
-            above = (self._nested(name, base, depth=depth + 1) for base in self.bases(home))
-            return next(filter(None, above), None)
-        brought = (
-            self._found(path, home.module, level=level, depth=depth + 1)
-            for path, level in _imports_of(name, home.module)
-        )
-        return next(filter(None, brought), None)
+        return None
 
-    def _found(self, path: str, module: Module, *, level: int, depth: int) -> Scope | None:
+    def _found(self, path: str, module: Module, *, level: int = 0) -> Scope | None:
         """The class or file of a dotted name in another file."""
         found = self._files.find(path, level=level, seen_from=module)
         if found is None or (found[0] is module and not found[1]):
             return None
-        rest = list(found[1])
-        return self._descend(rest, Scope(found[0]), depth=depth + 1)
+        return self._descend(list(found[1]), Scope(found[0]))
 
-    def _descend(self, path: list[str], home: Scope | None, *, depth: int) -> Scope | None:
+    def _descend(self, path: list[str], home: Scope | None) -> Scope | None:
         for name in path:
-            home = None if home is None else self._nested(name, home, depth=depth)
+            home = None if home is None else self._nested(name, home)
         return home
 
 

@@ -39,7 +39,8 @@ def parse(text: str, path: Path) -> syntax.Module:
             warnings.simplefilter("ignore")  # a doubtful escape is the learner's own affair
             tree = ast.parse(text)
     except SyntaxError as error:
-        problem = Problem(f"this is not Python: {error.msg}", max(error.lineno or 1, 1))
+        said = error.msg.partition(";")[0]
+        problem = Problem(f"this is not Python: {said}", max(error.lineno or 1, 1))
     except (RecursionError, MemoryError, ValueError):
         problem = Problem("the code is nested deeper than Python itself can read", 1)
     else:
@@ -204,21 +205,26 @@ def _return(lowering: _Lowering, tree: ast.Return) -> tuple[syntax.Node, ...]:
 
 
 def _for(lowering: _Lowering, tree: ast.For) -> tuple[syntax.Node, ...]:
-    variable = tree.target.id if isinstance(tree.target, ast.Name) else ""
     body = lowering.many([*tree.body, *tree.orelse])
-    return (syntax.Loop(lowering.place(tree), variable, lowering.one(tree.iter), body),)
+    variables = _variables(tree.target)
+    return (syntax.Loop(lowering.place(tree), variables, lowering.one(tree.iter), body),)
+
+
+def _variables(target: ast.expr) -> tuple[str, ...]:
+    several = target.elts if isinstance(target, ast.List | ast.Tuple) else [target]
+    return tuple(one.id if isinstance(one, ast.Name) else "" for one in several)
 
 
 def _comprehension(
     lowering: _Lowering, tree: ast.ListComp | ast.SetComp | ast.GeneratorExp
 ) -> tuple[syntax.Node, ...]:
     place, first = lowering.place(tree), tree.generators[0]
-    if len(tree.generators) > 1 or not isinstance(first.target, ast.Name):
+    if len(tree.generators) > 1:
         return (
             syntax.Opaque(place, lowering.many([tree.elt, *(g.iter for g in tree.generators)])),
         )
     body = (lowering.one(tree.elt),)
-    return (syntax.Loop(place, first.target.id, lowering.one(first.iter), body),)
+    return (syntax.Loop(place, _variables(first.target), lowering.one(first.iter), body),)
 
 
 def _function(

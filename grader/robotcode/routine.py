@@ -9,7 +9,7 @@ from grader.robotcode.files import Files
 from grader.robotcode.logged import LogTrace
 from grader.robotcode.meaning import Placed, constructed, methods, resolve, simple, type_of
 from grader.robotcode.measure import Measures
-from grader.robotcode.motors import owned, with_bases
+from grader.robotcode.motors import owned
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.syntax import Call, Function, Node, Null, Number, Self, Text
@@ -56,7 +56,7 @@ def facts_of(path: Path) -> RoutineFacts:
     measures = Measures(names)
     home = routine.scope.home
     if home.classes:
-        above = {base for place in with_bases(home, names) for base in place.classes[-1].bases}
+        above = {base for place in names.lineage(home) for base in place.classes[-1].bases}
         facts = replace(
             facts,
             class_name=home.classes[-1].name,

@@ -14,6 +14,8 @@ from grader.robotcode.syntax import (
     inside,
 )
 
+MOST_FUNCTIONS = 20  # functions one inside the other whose variables are still seen
+
 
 @dataclass(frozen=True)
 class Scope:
@@ -33,7 +35,7 @@ class Scope:
         if isinstance(node, Class):
             return Scope(self.module, (*self.classes, node))
         if isinstance(node, Function):
-            return replace(self, functions=(*self.functions, node))
+            return replace(self, functions=(*self.functions, node)[-MOST_FUNCTIONS:])
         return self
 
 
@@ -79,9 +81,10 @@ def bindings(nodes: tuple[Node, ...], scope: Scope) -> dict[str, Definitions]:
             found.setdefault(name, []).append(Definition(node.value, scope, node.type))
             if node.declares or scope.module.language == "python":
                 declared.add(name)
-        elif isinstance(node, Loop) and node.variable:
-            found.setdefault(node.variable, []).append(Definition(node, scope))
-            declared.add(node.variable)
+        elif isinstance(node, Loop):
+            for name in node.variables:
+                found.setdefault(name, []).append(Definition(node, scope))
+            declared.update(node.variables)
         elif isinstance(node, Function) and node.name and scope.module.language == "python":
             found.setdefault(node.name, []).append(Definition(node, scope))
             declared.add(node.name)

@@ -21,6 +21,7 @@ from grader.robotcode.syntax import (
     Choice,
     Element,
     Function,
+    Items,
     Loop,
     Member,
     Name,
@@ -32,7 +33,6 @@ from grader.robotcode.syntax import (
 )
 from grader.robotcode.value import Value, joined
 
-MOST_ELEMENTS = 16  # motors a loop is followed for
 MOST_STEPS = 20_000  # expressions looked at in all; a whole subsystem has some hundred
 DEEPEST = 60  # expressions and statements inside one another
 
@@ -126,7 +126,7 @@ class Statements(ABC):
 
     def too_deep(self, node: Node, frame: Frame) -> Value:
         """Stop where no person's code leads, and say so."""
-        said = "the code calls on and on, and was not followed further than this"
+        said = "the code goes deeper here than it was followed"
         self.unread.setdefault(said, Problem(said, self.line_of(node)))
         return replace(frame.value(node), carries=None)
 
@@ -207,9 +207,13 @@ class Statements(ABC):
 
     def _loop(self, node: Loop, frame: Frame) -> Value:
         result = []
-        for element in self.elements(self.evaluate(node.collection, frame), frame):
-            if node.variable:
-                frame.locals[node.variable] = element
+        collection = self.evaluate(node.collection, frame)
+        for element in self.elements(collection, frame):
+            parts = [element] * len(node.variables)
+            if len(parts) > 1 and isinstance(element.origin, Items):
+                inner = frame if element.scope == frame.scope else Frame(element.scope, element.me)
+                parts = [self.evaluate(item, inner) for item in element.origin.items]
+            frame.locals |= dict(zip(node.variables, parts, strict=False))
             result += [self.evaluate(statement, frame) for statement in node.body]
         return joined(result, at=frame.value(node))
 
@@ -219,7 +223,7 @@ class Statements(ABC):
 
     def elements(self, collection: Value, frame: Frame) -> list[Value]:
         """What a loop runs over, one by one; the whole if they have no names."""
-        found = elements(collection.origin, collection.scope, self.names)[:MOST_ELEMENTS]
+        found = elements(collection.origin, collection.scope, self.names)
         inner = Frame(collection.scope, collection.me, around=frame.around)
         values = [
             self.evaluate(n, frame if s == frame.scope else replace(inner, scope=s))

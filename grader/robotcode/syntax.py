@@ -5,6 +5,7 @@ assignments, classes. All other code is Opaque, or a Branch if it may not run: l
 calls, never interpreted.
 """
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,6 +35,7 @@ class Place:
         """The source text on one line."""
         stretch = self.source[self.start : min(self.end, self.start + 4 * LONGEST)]
         said = " ".join(stretch.decode("utf-8", errors="replace").split())
+        said = re.sub(r"(?<=\() | (?=[).,])", "", said)
         return said if len(said) <= LONGEST else said[: LONGEST - 1] + "…"
 
 
@@ -200,9 +202,9 @@ class Return(Node):
 
 @dataclass(frozen=True, eq=False)
 class Loop(Node):
-    """``for variable in collection: body``."""
+    """``for variables in collection: body``; several variables take an element apart."""
 
-    variable: str
+    variables: tuple[str, ...]
     collection: Node
     body: tuple[Node, ...]
 

@@ -67,6 +67,8 @@ def _problems(root: Tree, text: str) -> tuple[Problem, ...]:
     waiting = [root]
     while waiting and len(found) < MOST_PROBLEMS:
         tree = waiting.pop()
+        if tree.is_missing and bracket is not None and tree.type in "()[]{}":
+            continue  # the parser's repair of the same mistake, farther from its cause
         if tree.is_missing:
             found.append(Problem(f"a '{tree.type}' is missing", tree.start_point[0] + 1))
         elif tree.is_error:

@@ -23,6 +23,8 @@ _TOKEN = re.compile(
     re.DOTALL,
 )
 
+_LOOP = re.compile(r"\b(for|try)\s*$")  # their round brackets hold semicolons
+
 
 def refuse_deep_nesting(text: str, *, where: str) -> None:
     """Refuse a text that a parser could choke on.
@@ -46,27 +48,31 @@ def refuse_deep_nesting(text: str, *, where: str) -> None:
 
 def unmatched(text: str) -> Problem | None:
     """The first bracket that has no partner, said so that it can be found."""
-    opened: list[tuple[str, int]] = []
-    at = line = 1
+    opened: list[tuple[str, int, bool]] = []  # the sign, its line, whether it holds statements
+    line, at = 1, 0
     for match in _TOKEN.finditer(text):
         sign = match.group()
-        line += text.count("\n", at - 1, match.start())
-        at = match.start() + 1
+        line, at = line + text.count("\n", at, match.start()), match.start()
         if sign in CLOSES:
-            opened.append((sign, line))
-        elif sign in CLOSES.values():
-            if not opened:
-                return Problem(
-                    f"this '{sign}' closes nothing: one too many, or its opening is gone", line
-                )
-            bracket, since = opened.pop()
-            if CLOSES[bracket] != sign:
-                return Problem(
-                    f"a '{CLOSES[bracket]}' is missing before this '{sign}': "
-                    f"the '{bracket}' of line {since} is not closed",
-                    line,
-                )
+            loop = _LOOP.search(text, max(at - 12, 0), at)
+            opened.append((sign, line, sign == "{" or loop is not None))
+        elif sign in CLOSES.values() and not opened:
+            return Problem(f"this '{sign}' closes nothing; it is one too many", line)
+        elif sign in CLOSES.values() and CLOSES[opened[-1][0]] == sign:
+            opened.pop()
+        elif sign in CLOSES.values() and opened[-1][0] == "{":
+            return Problem(
+                f"this '{sign}' closes nothing: it is one too many, or a '}}' is missing before it",
+                line,
+            )
+        elif sign in CLOSES.values() or (sign == ";" and opened and not opened[-1][2]):
+            bracket, since, _ = opened[-1]
+            return Problem(
+                f"a '{CLOSES[bracket]}' is missing before this '{sign}': "
+                f"count the brackets from line {since} on",
+                line,
+            )
     if not opened:
         return None
-    bracket, since = opened[-1]
+    bracket, since, _ = opened[-1]
     return Problem(f"a '{CLOSES[bracket]}' is missing: the '{bracket}' here is never closed", since)

@@ -34,8 +34,10 @@ def _return(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
 def _loop(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     body = tree.child_by_field_name("body")
     statements = () if body is None else lowering.done[body.id]
-    variable = said(tree.child_by_field_name("name"))
-    return (syntax.Loop(lowering.place(tree), variable, lowering.field(tree, "value"), statements),)
+    variables = (said(tree.child_by_field_name("name")),)
+    return (
+        syntax.Loop(lowering.place(tree), variables, lowering.field(tree, "value"), statements),
+    )
 
 
 def _parameters(tree: Tree | None) -> tuple[tuple[str, str], ...]:

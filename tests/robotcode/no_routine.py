@@ -1,0 +1,7 @@
+"""A robot without a routine, with a class of that name's neighbors."""
+
+from wpilib import TimedRobot
+
+
+class SysId(TimedRobot):
+    pass

@@ -1,0 +1,209 @@
+"""Robot code in, facts out: a corpus of what learners hand in, refusals, and damaged files."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from grader.robotcode import read
+from grader.robotcode.facts import DriveCall, Known, LoggedSignal, Quantity, RoutineFacts
+from sim.errors import Refusal, UnreadableFile
+
+CORPUS = Path(__file__).with_name("robotcode")
+EXPECTED = tomllib.loads((CORPUS / "expected.toml").read_text(encoding="utf-8"))
+SOURCES = sorted(path for path in CORPUS.rglob("*") if path.suffix in {".java", ".py"})
+PASSED = {True: "self", False: "no", None: "other"}
+CONSTANT = {True: "parameter", False: "constant", None: "untold"}
+
+
+def number(quantity: Quantity) -> str:
+    if quantity.known is Known.STATED:
+        return f"{quantity.value:g} {quantity.dimension}"
+    return quantity.known.value
+
+
+def command(call: DriveCall) -> str:
+    scaled = {True: " scaled", False: "", None: " scaled?"}[call.scaled]
+    carries = CONSTANT[call.uses_parameter]
+    return f"{call.motor} {call.method} {call.output.value} {carries}{scaled}"
+
+
+def entry(signal: LoggedSignal) -> str:
+    words = (signal.family, signal.signal, signal.unit, signal.source.value)
+    return f"{signal.motor}: {' '.join(word for word in words if word)}"
+
+
+def table(facts: RoutineFacts) -> dict[str, object]:
+    """The facts as `expected.toml` writes them, without what is as it should be."""
+    problems = [f"line {one.line}: {one.message}" for one in facts.problems]
+    if facts == RoutineFacts(facts.language, problems=facts.problems):
+        return {"nothing": problems}
+    found = {
+        "class": facts.class_name,
+        "subsystem": facts.is_subsystem,
+        "config": [number(one) for one in (facts.ramp, facts.step, facts.timeout)],
+        "motors": list(facts.motors),
+        "drive": [command(call) for call in facts.drive],
+        "logged": [entry(signal) for signal in facts.logged],
+        "passed": PASSED[facts.subsystem_passed],
+        "arguments": [facts.config_argument, facts.mechanism_argument],
+        "callbacks": [
+            "drive" if facts.drive_found else "",
+            "null" if facts.log_is_null else "log" if facts.log_found else "",
+        ],
+        "problems": problems,
+        "unread": [f"line {one.line}: {one.message}" for one in facts.unread],
+    }
+    usual = {
+        "subsystem": True,
+        "passed": "self",
+        "arguments": [0, 1],
+        "callbacks": ["drive", "log"],
+        "problems": [],
+        "unread": [],
+    }
+    return {key: value for key, value in found.items() if value != usual.get(key)}
+
+
+def test_the_corpus_has_a_table_row_for_every_file() -> None:
+    files = [path.relative_to(CORPUS).as_posix() for path in SOURCES]
+
+    assert sorted(EXPECTED) == sorted(files)
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_a_file_gives_the_facts_a_reader_finds_in_it(name: str) -> None:
+    assert table(read(CORPUS / name)) == EXPECTED[name]
+
+
+REFUSED = {
+    "missing": ("Gone.java", None, "there is no such file", "Check the path"),
+    "empty": ("Arm.java", b"", "the file is empty", "Save your code"),
+    "only spaces": ("arm.py", b" \n\t\n", "the file is empty", "Save your code"),
+    "binary": ("Arm.java", b"\xca\xfe\xba\xbe\0\0\0\x41", "binary file", "source itself"),
+    "latin-1": ("arm.py", "# caf\u00e9\n".encode("latin-1"), "0xe9 is not UTF-8", "encoding UTF-8"),
+    "utf-16": ("Arm.java", "class A {}".encode("utf-16"), "UTF-16", "Save with encoding"),
+    "too large": ("Arm.java", b"// long\n" * 1_300_000, "larger than 1 MB", "one source file"),
+    "kotlin": ("Arm.kt", b"class Arm", "a .kt file", ".java or .py"),
+    "c++": ("Arm.cpp", b"class Arm;", "a .cpp file", ".java or .py"),
+    "text": ("arm.txt", b"arm", "a .txt file", ".java or .py"),
+    "no suffix": ("Makefile", b"all:", "a file without a suffix", ".java or .py"),
+    "bottomless": (
+        "Arm.java",
+        b"class A { int x = " + b"(" * 9999,
+        "more than 200 deep",
+        "subsystem",
+    ),
+    "generics": ("Arm.java", b"class A { " + b"a<" * 9999, "50 deep", "subsystem"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_is_no_robot_code_is_refused_with_advice(case: str, tmp_path: Path) -> None:
+    name, content, what, advice = REFUSED[case]
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+
+    with pytest.raises(UnreadableFile) as refusal:
+        read(tmp_path / name)
+
+    assert what in refusal.value.what
+    assert advice in refusal.value.advice
+    assert name in refusal.value.where
+    assert "\n" not in str(refusal.value)
+
+
+def test_a_folder_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "Arm.java").mkdir()
+
+    with pytest.raises(UnreadableFile, match="not a file"):
+        read(tmp_path / "Arm.java")
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"], ids=["unix", "windows", "old mac"])
+@pytest.mark.parametrize("mark", ["", "\ufeff"], ids=["plain", "byte order mark"])
+@pytest.mark.parametrize("name", ["DriveSubsystem.java", "pwm_drive.py"])
+def test_line_ends_and_a_byte_order_mark_change_nothing(
+    name: str, mark: str, end: str, tmp_path: Path
+) -> None:
+    text = (CORPUS / name).read_text(encoding="utf-8")
+    (tmp_path / name).write_bytes((mark + text.replace("\n", end)).encode())
+
+    assert read(tmp_path / name) == read(CORPUS / name)
+
+
+BROKEN = {
+    "a bracket too many": ("A.java", "class A { int x = (1)); }", 1, "')' closes nothing"),
+    "crossed": ("A.java", "class A {\n int x = f(a[1);\n}", 2, "a ']' is missing before this ')'"),
+    "never closed": ("A.java", "class A {\n void f() {\n }\n", 1, "the '{' here is never closed"),
+    "no semicolon": ("A.java", "class A {\n int x = 1\n int y = 2;\n}", 2, "a ';' is missing"),
+    "brackets in text": ("A.java", 'class A {\n String s = "((("\n}', 2, "a ';' is missing"),
+    "not Java": ("A.java", "def f():\n    pass\n", 1, "this is not Java: def f():"),
+    "Java as Python": ("a.py", "public class A {\n}\n", 1, "this is not Python: invalid syntax"),
+    "no colon": ("a.py", "class A\n    pass\n", 1, "this is not Python: expected ':'"),
+    "bottomless": ("a.py", "x = " + "-" * 50_000 + "1", 1, "nested deeper than Python itself"),
+}
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_a_syntax_error_is_named_with_its_line(case: str, tmp_path: Path) -> None:
+    name, text, line, said = BROKEN[case]
+    (tmp_path / name).write_text(text, encoding="utf-8")
+
+    problem = read(tmp_path / name).problems[0]
+
+    assert problem.line == line
+    assert said in problem.message
+
+
+edits = st.lists(
+    st.tuples(
+        st.sampled_from(["delete", "repeat", "move"]),
+        st.floats(0, 1),
+        st.integers(1, 300),
+        st.floats(0, 1),
+    ),
+    min_size=1,
+    max_size=6,
+)
+
+
+def damaged(text: str, changes: list[tuple[str, float, int, float]]) -> str:
+    """A text with pieces of it deleted, repeated or moved."""
+    for kind, start, length, goal in changes:
+        at, to = int(start * len(text)), int(goal * len(text))
+        piece = text[at : at + length]
+        if kind != "repeat":
+            text = text[:at] + text[at + length :]
+        if kind != "delete":
+            text = text[:to] + piece + text[to:]
+    return text
+
+
+@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(source=st.sampled_from(SOURCES), changes=edits)
+def test_a_damaged_file_gives_facts_or_a_refusal_and_never_a_crash(
+    source: Path, changes: list[tuple[str, float, int, float]], scratch: Path
+) -> None:
+    text = damaged(source.read_text(encoding="utf-8"), changes)
+    path = scratch / source.name
+    path.write_text(text, encoding="utf-8")
+
+    try:
+        facts = read(path)
+    except Refusal:
+        return
+
+    last = text.count("\n") + 1
+    lines = [facts.routine_line, *(one.line for one in (*facts.drive, *facts.logged))]
+    assert all(0 <= line <= last for line in lines)
+    assert all(1 <= problem.line <= last for problem in facts.problems)
+    for quantity in (facts.ramp, facts.step, facts.timeout):
+        assert (quantity.known is Known.UNKNOWN) == (quantity.value is None)
+
+
+@pytest.fixture(scope="session")
+def scratch(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("damaged")
