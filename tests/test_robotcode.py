@@ -93,7 +93,7 @@ REFUSED = {
     "bottomless": (
         "Arm.java",
         b"class A { int x = " + b"(" * 9999,
-        "more than 200 deep",
+        "more than 100 deep",
         "subsystem",
     ),
     "generics": ("Arm.java", b"class A { " + b"a<" * 9999, "50 deep", "subsystem"),

@@ -97,7 +97,8 @@ class DriveTrace(Trace):
         named = method in COMMANDS or method in BY_REQUEST
         if receiver is None:  # a method of a class above, which these files do not hold
             above = bool(at.scope.classes and at.scope.classes[-1].bases)
-            return at.scope.module.language == "java" and (named or above)
+            method_here = at.scope.module.language == "java" and method[:1].islower()
+            return method_here and (named or above)
         origin = receiver.origin
         if isinstance(origin, Self):
             return True

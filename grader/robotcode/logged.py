@@ -9,7 +9,7 @@ from grader.robotcode.measure import Measures
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.statements import Frame
-from grader.robotcode.syntax import Call, Function, Loop, Member, Name, Parameter
+from grader.robotcode.syntax import Call, Function, Member, Name, Parameter
 from grader.robotcode.trace import Trace
 from grader.robotcode.value import Mark, MotorLog, Value, joined
 from grader.robotcode.vocabulary import SIGNALS, UNITS, plain
@@ -69,7 +69,7 @@ class LogTrace(Trace):
         several = [
             self.evaluate(d.value, Frame(d.scope, frame.me, around=frame.around))
             for d in self.names.definitions(node, frame.scope)
-            if d.value is not None and not isinstance(d.value, Function | Loop | Parameter)
+            if d.value is not None and not isinstance(d.value, Function | Parameter)
         ]
         for call, scope in self._changes_of(key.removeprefix(frame.me), frame.scope.home):
             inner = Frame(scope, frame.me, around=frame.around)

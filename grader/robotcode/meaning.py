@@ -8,6 +8,7 @@ from grader.robotcode.syntax import (
     Call,
     Cast,
     Class,
+    Element,
     Function,
     Items,
     Loop,
@@ -88,21 +89,26 @@ def type_from(definitions: Definitions, names: Names) -> str:
         first = next((d for d in definitions if d.value is not None), None)
         if declared or first is None or first.value is None:
             return declared
-        value = first.value
-        for _ in range(MOST_STEPS):  # of several, the first tells
-            several = value.items if isinstance(value, Items) else ()
-            several = value.body if isinstance(value, Loop) else several
-            if not several:
-                break
-            value = several[0]
+        value = _one_of(first.value)
         made = _made(value)
-        if made == "":  # not a constructor; a method of these files may be one in disguise
-            value, where = resolve(value, first.scope, names)
-            return constructed(value, where, names) if isinstance(value, Call) else ""
+        if made == "" and isinstance(value, Call):
+            return _made_by_method(value, first.scope, names)
         if made is not None:
             return made
         definitions = names.definitions(_without_settings(value), first.scope)
     return ""
+
+
+def _one_of(node: Node) -> Node:
+    """Of a list, its first element; of an element, the list: their types are taken for one."""
+    for _ in range(MOST_STEPS):
+        if isinstance(node, Items) and node.items:
+            node = node.items[0]
+        elif isinstance(node, Loop) and node.body:  # a comprehension
+            node = node.body[0]
+        elif isinstance(node, Element):
+            node = node.owner
+    return node
 
 
 def constructed(call: Call, scope: Scope, names: Names) -> str:
@@ -125,6 +131,18 @@ def _made(node: Node) -> str | None:
         return None
     made = last_name(node.target)
     return made if made[:1].isupper() else ""
+
+
+def _made_by_method(call: Call, scope: Scope, names: Names) -> str:
+    """The class that a method of these files makes; a call counts as none while it is looked at."""
+    if call not in names.made:
+        names.made[call] = ""
+        with names.one_deeper() as allowed:
+            if allowed:
+                value, where = resolve(call, scope, names)
+                made = constructed(value, where, names) if isinstance(value, Call) else ""
+                names.made[call] = made
+    return names.made[call]
 
 
 def _without_settings(node: Node) -> Node:

@@ -11,7 +11,6 @@ from grader.robotcode.syntax import (
     Call,
     Element,
     Items,
-    Loop,
     Member,
     Name,
     Node,
@@ -68,9 +67,9 @@ def motor_names(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tu
         members = elements(node, scope, names) or _motor_behind(node, scope, names)
         if not members and isinstance(node, Name):
             members = tuple(
-                (d.value.collection if isinstance(d.value, Loop) else d.value, d.scope)
+                (d.value, d.scope)
                 for d in names.local(node.name, scope)
-                if isinstance(d.value, Loop | Name | Member | Element)
+                if isinstance(d.value, Name | Member | Element)
             )
         if members:
             several = (motor_names(n, s, names, depth=depth + 1) for n, s in members[:MOST])

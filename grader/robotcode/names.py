@@ -4,6 +4,7 @@ By the languages' own rules where text can tell, and otherwise not at all.
 """
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 
 from grader.robotcode.files import Files
 from grader.robotcode.scope import Definition, Definitions, Scope, bindings, walk
@@ -20,6 +21,7 @@ from grader.robotcode.syntax import (
 )
 
 MOST_CLASSES = 12  # a class and those above it
+DEEPEST = 12  # files behind files, methods behind methods, on the way to one name
 LONGEST = 12  # names in a row: org.wpilib.robot.Constants.Drive.kRamp has six
 
 
@@ -35,13 +37,24 @@ class Names:
 
     def __init__(self, files: Files) -> None:
         self.main = files.main
+        self.made: dict[Node, str] = {}  # by call: the class it makes
         self._files = files
+        self._deep = 0
         self._members: dict[Class | Module, tuple[Function | Class, ...]] = {}
         self._bound: dict[Function | Module, dict[str, Definitions]] = {}
         self._fields: dict[Class, dict[str, Definitions]] = {}
         self._bases: dict[Class, tuple[Scope, ...]] = {}
         self._tops: dict[tuple[Module, str], Definitions] = {}
         self._classes: dict[tuple[Class | Module, str], Scope | None] = {}
+
+    @contextmanager
+    def one_deeper(self) -> Iterator[bool]:
+        """Count how deep a search has led, and tell whether it may go on."""
+        self._deep += 1
+        try:
+            yield self._deep <= DEEPEST
+        finally:
+            self._deep -= 1
 
     def definitions(self, node: Node, scope: Scope) -> Definitions:
         """Every place where a variable gets its value; none if it is not in these files."""
@@ -170,8 +183,11 @@ class Names:
         """A constant that an import brings into a file."""
         for path, level in _imports_of(name, module):
             owner = self._found(path.rpartition(".")[0], module, level=level)
-            if owner is not None and owner.module is not module:
-                yield self._in_home(path.rpartition(".")[2], owner)
+            if owner is None or owner.module is module:
+                continue
+            with self.one_deeper() as allowed:
+                found = self._in_home(path.rpartition(".")[2], owner) if allowed else ()
+            yield found
 
     def _set_in_methods(self, home: Scope) -> Iterator[tuple[str, Definition]]:
         methods = tuple(node for node in self.members(home) if isinstance(node, Function))
@@ -204,7 +220,8 @@ class Names:
         found = self._files.find(path, level=level, seen_from=module)
         if found is None or (found[0] is module and not found[1]):
             return None
-        return self._descend(list(found[1]), Scope(found[0]))
+        with self.one_deeper() as allowed:
+            return self._descend(list(found[1]), Scope(found[0])) if allowed else None
 
     def _descend(self, path: list[str], home: Scope | None) -> Scope | None:
         for name in path:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from grader.robotcode.syntax import (
     Assign,
     Class,
+    Element,
     Function,
     Loop,
     Module,
@@ -44,8 +45,8 @@ class Definition:
     """One place where a variable gets its value.
 
     Args:
-        value: what it gets; the Parameter or the Loop itself where the value comes from outside;
-            None for a bare declaration.
+        value: what it gets; for a parameter the Parameter itself, for the variable of a loop an
+            Element of what it runs over; None for a bare declaration.
         scope: where the value stands.
         type: the declared type; empty if none.
     """
@@ -82,8 +83,9 @@ def bindings(nodes: tuple[Node, ...], scope: Scope) -> dict[str, Definitions]:
             if node.declares or scope.module.language == "python":
                 declared.add(name)
         elif isinstance(node, Loop):
+            element = Element(node.collection.place, node.collection, node.collection)
             for name in node.variables:
-                found.setdefault(name, []).append(Definition(node, scope))
+                found.setdefault(name, []).append(Definition(element, scope))
             declared.update(node.variables)
         elif isinstance(node, Function) and node.name and scope.module.language == "python":
             found.setdefault(node.name, []).append(Definition(node, scope))

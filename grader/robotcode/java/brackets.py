@@ -9,7 +9,7 @@ import re
 from grader.robotcode.facts import Problem
 from sim.errors import UnreadableFile
 
-DEEPEST = 200  # [brackets] Python's own limit; robot code stays below 20
+DEEPEST = 100  # [brackets] robot code stays below 20
 LONGEST_RUN = 50  # [signs] '<' in a row without a ';' or bracket: the parser's memory grows as n²
 CLOSES = {"(": ")", "[": "]", "{": "}"}
 
