@@ -4,6 +4,7 @@ Everything runs in a virtual environment made for this run, so nothing that happ
 on the machine can help.
 """
 
+import json
 import os
 import re
 import shlex
@@ -21,9 +22,9 @@ from urllib.request import urlopen
 ROOT = Path(__file__).resolve().parents[1]
 SCREEN = 10.0  # [s] from the end of the install to the first useful screen
 PATIENCE = 900.0  # [s] for one command
-SCREEN_SAYS = "Next step"  # what only the first useful screen says
-INSTALLED_SAYS = "Installed"  # what ends the install
-JUPYTER_SAYS = re.compile(r"http://(?:127\.0\.0\.1|localhost):\d+/\S*")
+SCREEN_SAYS = "Next:"  # how the line begins that says what to do
+INSTALLED_SAYS = "Installed"  # how the line begins that ends the install
+OK = 200  # HTTP's word for it
 
 
 def main() -> None:
@@ -89,52 +90,63 @@ def watch(command: str, environment: dict[str, str]) -> None:
     """Run the command that ends in JupyterLab until the lab answers, then close it."""
     words = shlex.split(command)
     program = shutil.which(words[0], path=environment["PATH"]) or fail(f"no {words[0]} on PATH")
+    runtime = Path(environment["VIRTUAL_ENV"]) / "runtime"
     running = subprocess.Popen(
         [program, *words[1:]],
         cwd=ROOT,
-        env=environment | {"BROWSER": "true", "PYTHONUNBUFFERED": "1"},
+        env=environment | {"BROWSER": "true", "JUPYTER_RUNTIME_DIR": str(runtime)},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         encoding="utf-8",
         errors="replace",
     )
-    installed, screen, address = time.monotonic(), None, None
     try:
-        assert running.stdout is not None  # noqa: S101 - a pipe was asked for
-        for line in running.stdout:
-            print(line, end="", flush=True)
-            if INSTALLED_SAYS in line:
-                installed = time.monotonic()
-            if SCREEN_SAYS in line and screen is None:
-                screen = time.monotonic() - installed
-            found = JUPYTER_SAYS.search(line)
-            if found:
-                address = found.group()
-                break
-        if screen is None or address is None:
-            fail(f"{command}: the first screen or JupyterLab never came")
-        answers(address)
+        waited = first_screen(running)
+        address = lab(runtime)
     finally:
         running.terminate()
         try:
             running.wait(30)
         except subprocess.TimeoutExpired:
             running.kill()
-    print(f"first useful screen {screen:.1f} s after the install; JupyterLab answers")
-    if screen > SCREEN:
-        fail(f"the first useful screen took {screen:.1f} s, more than {SCREEN:g}")
+    print(f"first useful screen {waited:.1f} s after the install; JupyterLab answers at {address}")
+    if waited > SCREEN:
+        fail(f"the first useful screen took {waited:.1f} s, more than {SCREEN:g}")
 
 
-def answers(address: str) -> None:
-    """Wait until a page is served there."""
-    for _ in range(60):
-        try:
-            with urlopen(address, timeout=5) as page:  # noqa: S310 - our own server's address
-                if page.status == 200:  # noqa: PLR2004 - HTTP's "OK"
-                    return
-        except (URLError, ConnectionError, TimeoutError):
-            time.sleep(0.5)
-    fail(f"JupyterLab said {address}, and nothing answers there")
+def first_screen(running: "subprocess.Popen[str]") -> float:
+    """Seconds from the end of the install to the line that says what to do next."""
+    installed = time.monotonic()
+    for line in running.stdout or ():
+        print(line, end="", flush=True)
+        if line.startswith(INSTALLED_SAYS):
+            installed = time.monotonic()
+        if line.startswith(SCREEN_SAYS):
+            break
+    else:
+        fail("the first screen never came")
+    return time.monotonic() - installed
+
+
+def lab(runtime: Path) -> str:
+    """Wait until the server that leaves its address in ``runtime`` serves a page."""
+    last = time.monotonic() + 60.0
+    while time.monotonic() < last:
+        for file in runtime.glob("jpserver-*.json"):
+            server = json.loads(file.read_text(encoding="utf-8"))
+            if serves(f"{server['url']}lab?token={server['token']}"):
+                return str(server["url"])
+        time.sleep(0.5)
+    return fail("JupyterLab never answered")
+
+
+def serves(address: str) -> bool:
+    """Whether a page is served there."""
+    try:
+        with urlopen(address, timeout=5) as page:  # noqa: S310 - our own server's address
+            return bool(page.status == OK)
+    except (URLError, ConnectionError, TimeoutError):
+        return False
 
 
 def browser() -> None:

@@ -140,6 +140,7 @@ def _install_and_go(arguments: list[str]) -> int:
     problem = _install(testing=arguments[:1] == ["test"])
     if problem:
         return _give_up(*problem)
+    _say("Installed.")
     environment = dict(os.environ, **{INSTALLED: "1"})
     return _run([sys.executable, "-m", "grader", *arguments], env=environment)
 

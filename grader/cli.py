@@ -3,7 +3,6 @@
 Exit codes: 0 full marks, 1 not all right yet, 2 could not do it (one line says why, and what next).
 """
 
-import os
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -11,15 +10,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from grader.terminal import any_encoding, complain, show
-from sim.command import COULD_NOT, DONE, INTERRUPTED, NOT_RIGHT
-from sim.errors import BadRequest, Refusal
+from grader.terminal import complain, show
+from sim import command
+from sim.command import COULD_NOT, DONE, NOT_RIGHT
+from sim.errors import BadRequest
 
 if TYPE_CHECKING:
     from grader.course import Progress
     from grader.exercise import Exercise
-
-TRACEBACK = "GRADE_TRACEBACK"  # set to 1 to see where an error of ours comes from
 
 
 class ExerciseOrCommand(click.Group):
@@ -152,29 +150,7 @@ def _tell(said: str) -> None:
 
 def run(arguments: list[str] | None = None) -> int:
     """Run the command and return its exit code; nothing gets out as a traceback."""
-    any_encoding()
-    try:
-        code = grade.main(arguments, prog_name="grade", standalone_mode=False)
-        sys.stdout.flush()
-    except Refusal as refusal:
-        complain(str(refusal))
-    except click.ClickException as error:
-        complain(f"{error.format_message().rstrip('.')}. What there is: grade --help")
-    except (KeyboardInterrupt, click.Abort):
-        return INTERRUPTED
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nobody reads any more
-        return COULD_NOT
-    except Exception as error:
-        if os.environ.get(TRACEBACK) == "1":
-            raise
-        complain(
-            f"{type(error).__name__}: {error}. That is a fault of the course, not yours: please "
-            f"report it, with what {TRACEBACK}=1 in the environment makes it show."
-        )
-    else:
-        return code if isinstance(code, int) else 0
-    return COULD_NOT
+    return command.run(grade, name="grade", arguments=arguments)
 
 
 def main() -> None:

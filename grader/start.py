@@ -68,6 +68,11 @@ def _on_path(command: str) -> bool:
     return shutil.which(command) is not None
 
 
+def _as_root() -> tuple[str, ...]:
+    """Jupyter refuses the administrator unless told; in a container there is nobody else."""
+    return ("--allow-root",) if hasattr(os, "geteuid") and os.geteuid() == 0 else ()
+
+
 def _open_lab(course: Path, what: Path) -> int:
     if importlib.util.find_spec("jupyterlab") is None:
         raise BadRequest(
@@ -80,7 +85,7 @@ def _open_lab(course: Path, what: Path) -> int:
     scripts = sysconfig.get_path("scripts")
     paths = os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part)
     root = f"--ServerApp.root_dir={course}"  # else it shows the lessons' folder alone
-    command = [sys.executable, "-m", "jupyterlab", *QUIET, root, place]
+    command = [sys.executable, "-m", "jupyterlab", *QUIET, *_as_root(), root, place]
     lab = subprocess.Popen(command, cwd=course, env={**os.environ, "PATH": paths})  # noqa: S603 - our own arguments, no shell
     while True:
         try:

@@ -1,10 +1,5 @@
-"""Lines of text for a terminal: colored where one looks at it, plain where a program reads it.
+"""Lines of text for a terminal: colored where one looks at it, plain where a program reads it."""
 
-A terminal or a file whose encoding lacks a sign gets one that says the same in plain letters.
-"""
-
-import codecs
-import io
 import os
 import shutil
 import sys
@@ -12,16 +7,10 @@ import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from sim import command
+
 WIDEST = 80  # [columns] longer lines are harder to read
 NARROWEST = 40  # [columns] below this, words would stand alone
-
-PLAIN = str.maketrans(
-    {
-        "✓": "+", "✗": "x", "→": ">", "–": "-", "—": "-", "…": "...", "×": "x", "·": "*",
-        "²": "^2", "³": "^3", "±": "+-", "≈": "~", "≥": ">=", "≤": "<=", "π": "pi", "τ": "tau",
-        "−": "-", "“": '"', "”": '"', "’": "'", "°": "deg", "α": "alpha", "θ": "theta",
-    }
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -80,19 +69,4 @@ def show(lines: Iterable[Line]) -> None:
 
 def complain(said: str) -> None:
     """One line to standard error."""
-    print(f"grade: {' '.join(said.split())}", file=sys.stderr)  # noqa: T201 - a command prints
-
-
-def any_encoding() -> None:
-    """Let both streams print anything: a sign their encoding lacks becomes plain letters."""
-    codecs.register_error("plain", _plainly)
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="plain")
-
-
-def _plainly(error: UnicodeError) -> tuple[str, int]:
-    if not isinstance(error, UnicodeEncodeError):
-        raise error
-    lacking = error.object[error.start : error.end].translate(PLAIN)
-    return lacking.encode("ascii", "replace").decode("ascii"), error.end
+    command.complain(said, name="grade")

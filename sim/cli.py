@@ -1,6 +1,7 @@
 """The command ``sysid``: make, read and fit logs."""
 
 import json
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,7 +21,7 @@ FILE = click.Path(path_type=Path)
 
 def main() -> None:
     """Start ``sysid``."""
-    run(sysid, name="sysid")
+    sys.exit(run(sysid, name="sysid"))
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

@@ -1,9 +1,10 @@
-"""What every command of the project shares: exit codes, one-line errors, consoles of all kinds."""
+"""What both commands share: exit codes, one-line errors, consoles of every encoding."""
 
+import codecs
+import io
 import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
 
 import click
 
@@ -13,9 +14,17 @@ DONE, NOT_RIGHT, COULD_NOT = 0, 1, 2
 INTERRUPTED = 130  # what a shell reports for Ctrl+C
 TRACEBACK = "SYSID_TRACEBACK"  # set in the environment, it shows a traceback for our own mistakes
 
+PLAIN = str.maketrans(
+    {
+        "✓": "+", "✗": "x", "→": ">", "–": "-", "—": "-", "…": "...", "×": "x", "·": "*",
+        "²": "^2", "³": "^3", "±": "+-", "≈": "~", "≥": ">=", "≤": "<=", "π": "pi", "τ": "tau",
+        "−": "-", "“": '"', "”": '"', "’": "'", "°": "deg", "α": "alpha", "θ": "theta",
+    }
+)  # fmt: skip
 
-def run(command: click.Command, *, name: str, arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run a command and leave the process with its exit code.
+
+def run(command: click.Command, *, name: str, arguments: Sequence[str] | None = None) -> int:
+    """Run a command and return its exit code; nothing gets out as a traceback.
 
     A refusal, a wrong option or a mistake of ours becomes one line on standard error and code 2.
 
@@ -24,13 +33,7 @@ def run(command: click.Command, *, name: str, arguments: Sequence[str] | None = 
         name: as typed, for messages.
         arguments: None takes the process's own.
     """
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):  # a Windows console may not speak UTF-8 by itself
-            stream.reconfigure(encoding="utf-8", errors="replace")
-    sys.exit(_outcome(command, name=name, arguments=arguments))
-
-
-def _outcome(command: click.Command, *, name: str, arguments: Sequence[str] | None) -> int:
+    _any_encoding()
     try:
         code = command.main(arguments, prog_name=name, standalone_mode=False)
         sys.stdout.flush()
@@ -38,13 +41,23 @@ def _outcome(command: click.Command, *, name: str, arguments: Sequence[str] | No
         return INTERRUPTED
     except BrokenPipeError:  # the reader of our output has gone, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return DONE
+        return COULD_NOT
     except Exception as error:
         if os.environ.get(TRACEBACK):
             raise
-        click.echo(" ".join(f"{name}: {_sentence(error, name=name)}".split()), err=True)
+        complain(_sentence(error, name=name), name=name)
         return COULD_NOT
-    return DONE if code is None else int(code)
+    return code if isinstance(code, int) else DONE
+
+
+def complain(said: str, *, name: str) -> None:
+    """One line to standard error.
+
+    Args:
+        said: the line; line breaks in it become spaces.
+        name: the command that says it.
+    """
+    click.echo(f"{name}: {' '.join(said.split())}", err=True)
 
 
 def _sentence(error: Exception, *, name: str) -> str:
@@ -53,8 +66,11 @@ def _sentence(error: Exception, *, name: str) -> str:
         case Refusal():
             return str(error)
         case click.UsageError():
-            asked = error.ctx.command_path if error.ctx else name
-            return f"{error.format_message()} See '{asked} --help'."
+            asked = error.ctx
+            while asked and asked.command.hidden:
+                asked = asked.parent
+            see = asked.command_path if asked else name
+            return f"{error.format_message().rstrip('.')}. See '{see} --help'."
         case click.ClickException():
             return error.format_message()
         case MemoryError():
@@ -64,3 +80,18 @@ def _sentence(error: Exception, *, name: str) -> str:
                 f"our mistake, not yours ({type(error).__name__}: {error}). Set {TRACEBACK}=1, run "
                 "it again and report what it prints."
             )
+
+
+def _any_encoding() -> None:
+    """Let both streams print anything: a sign their encoding lacks becomes plain letters."""
+    codecs.register_error("plain", _plainly)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="plain")
+
+
+def _plainly(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    lacking = error.object[error.start : error.end].translate(PLAIN)
+    return lacking.encode("ascii", "replace").decode("ascii"), error.end

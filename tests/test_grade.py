@@ -101,11 +101,11 @@ def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(course, c
 
     assert run(["exercise1"]) == 2
     err = capsys.readouterr().err
-    assert err.startswith("grade: ZeroDivisionError: division by zero.")
-    assert "GRADE_TRACEBACK=1" in err
+    assert err.startswith("grade: our mistake, not yours (ZeroDivisionError: division by zero).")
+    assert "SYSID_TRACEBACK=1" in err
     assert err.count("\n") == 1
 
-    monkeypatch.setenv("GRADE_TRACEBACK", "1")
+    monkeypatch.setenv("SYSID_TRACEBACK", "1")
     with pytest.raises(ZeroDivisionError):
         run(["exercise1"])
 
@@ -119,8 +119,8 @@ def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(course, c
         (["exercise1", "lessons"], "lessons: no .toml file in this folder. Name the file itself."),
         (["--json"], "no exercise was named. Say which: grade exercise4 --json"),
         (["--hint"], "no exercise was named. Say which: grade exercise4 --hint"),
-        (["exercise1", "--color"], "No such option '--color'. What there is: grade --help"),
-        (["exercise1", "a", "b"], "What there is: grade --help"),
+        (["exercise1", "--color"], "No such option '--color'. See 'grade --help'."),
+        (["exercise1", "a", "b"], "(b). See 'grade --help'."),
         (["exercise1", "--student", "a/b"], "has a path separator"),
         (["exercise1", "--student", "a\\b"], "has a path separator"),
         (["exercise1", "--student", " "], "is empty"),
