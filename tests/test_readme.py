@@ -1,0 +1,61 @@
+"""The README shows what the commands really print, names commands that exist, and stays short."""
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+README = Path(__file__).parents[1] / "README.md"
+BLOCK = re.compile(r"```console\n\$ (?P<command>.*)\n(?P<shown>(?:.*\n)*?)```")
+ENTRY = {"sysid": "sim.cli", "grade": "grader.cli"}
+
+
+def printed(command, *, folder):
+    """What a command of the tour prints, errors included."""
+    name, *arguments = shlex.split(command)
+    run = subprocess.run(
+        [sys.executable, "-c", f"from {ENTRY[name]} import main; main()", *arguments],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        check=False,
+        env={key: value for key, value in os.environ.items() if key != "COLUMNS"},
+    )
+    return "\n".join(line.rstrip() for line in run.stdout.rstrip().splitlines())
+
+
+def test_the_tour_prints_what_the_readme_shows(root, tmp_path):
+    for part in ("exercises", "lessons"):
+        shutil.copytree(root / part, tmp_path / part, ignore=shutil.ignore_patterns("data"))
+    blocks = list(BLOCK.finditer(README.read_text(encoding="utf-8")))
+    assert len(blocks) >= 4
+
+    for block in blocks:
+        assert printed(block["command"], folder=tmp_path) == block["shown"].rstrip(), (
+            f"README.md shows something else for: {block['command']}"
+        )
+
+
+def test_the_set_up_is_two_commands_of_one_line():
+    section = README.read_text(encoding="utf-8").partition("\n## Set up\n")[2].partition("\n## ")[0]
+
+    commands = re.findall(r"```shell\n(.*?)\n```", section, flags=re.DOTALL)
+
+    assert commands == ["python -m grader start", "python -m grader test"]
+
+
+@pytest.mark.parametrize("folder", ["lessons", "exercises"])
+def test_what_is_said_to_be_there_is_there(root, folder):
+    row = next(
+        line for line in README.read_text(encoding="utf-8").splitlines()
+        if line.startswith(f"| {folder} |")
+    )  # fmt: skip
+    there = {int(re.search(r"\d+", path.name)[0]) for path in (root / folder).glob("*[0-9]*")}
+
+    assert {int(number) for number in re.findall(r"(?:\| |· )(\d+) ", row)} == there
