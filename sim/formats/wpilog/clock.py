@@ -15,6 +15,7 @@ from sim.log import Array
 
 FEWER = 2.0  # a signal with so many times fewer samples than another was not logged every loop
 SILENT = 5.0  # [typical gaps] a longer silence is no jitter: the value did not change
+BEYOND = 0.75  # [typical gaps] so far a line through two samples is believed outside of them
 SAME_LOOP = 500  # [µs] values logged closer together belong to one loop; the fastest take 1 ms
 
 
@@ -104,6 +105,18 @@ def loops(signals: Sequence[Series], begin: int, end: int) -> Numbers:
 def hold(signal: Series, time: Numbers) -> Array:
     """(n,) the last value of a signal at each time, none of which comes before its first."""
     return signal.values[np.searchsorted(signal.time, time, side="right") - 1]
+
+
+def covered(parts: Sequence[Series], time: Numbers) -> Numbers:
+    """Those times of a run at which every signal is known, or all but.
+
+    A line may be drawn a little beyond a signal's ends, as its times differ from the voltage's; a
+    whole loop beyond, there is nothing it rests on.
+    """
+    for part in parts:
+        reach = BEYOND * float(np.median(np.diff(part.time)))
+        time = time[(time >= part.time[0] - reach) & (time <= part.time[-1] + reach)]
+    return time
 
 
 def line(part: Series, time: Numbers) -> Array:

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from sim.formats.wpilog.control import Finish, Start, parse
+from sim.formats.wpilog.control import Metadata, Start, parse
 from sim.formats.wpilog.entry import SIZES, Entry
 from sim.formats.wpilog.records import Fields, Numbers, Records, fields
 
@@ -110,10 +110,10 @@ def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Sto
             return lives, _Stop(index, "a control record that makes no sense")
         known = lives.setdefault(said.id, [])
         current = known[-1] if known and known[-1].last == before else None
-        if current and isinstance(said, Start | Finish):
-            current.last = index
-        elif current and not isinstance(said, Start | Finish):
+        if current and isinstance(said, Metadata):
             current.metadata = said.metadata
+        elif current:
+            current.last = index
         if isinstance(said, Start):
             known.append(_Life(said, said.metadata, index, before))
     return lives, None

@@ -102,8 +102,11 @@ def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
             if placed and entry.type in NUMBERS and len(entry):
                 path, motor = placed
                 same.setdefault((motor, signal), {}).setdefault(path, []).append(entry)
+    beside = {motor for (motor, _), paths in same.items() if search.state.path in paths}
     motors: dict[str, dict[str, Entry]] = {}
     for (motor, signal), paths in same.items():
+        if beside and motor not in beside:
+            continue  # what lies elsewhere, where motors are logged beside the state, is no motor
         path = search.state.path if search.state.path in paths else next(iter(paths))
         if len(paths) > 1 and path != search.state.path:
             names = [entry.name for several in paths.values() for entry in several]

@@ -158,7 +158,7 @@ def fields(buffer: Bytes, start: Numbers) -> Fields:
     for first in range(0, start.size, BLOCK):
         block = slice(first, first + BLOCK)
         at = start[block]
-        bits = buffer[at].astype(np.intp)  # an index of any other type is converted at every use
+        bits = _shape(buffer[at])
         at = at + 1
         table[0, block] = view(buffer, np.uint32)[at] & ID_MASK[bits]
         at += ID_LENGTH[bits]
@@ -219,7 +219,7 @@ def _follow(
     open_here = np.ones(width + 1, dtype=bool)  # the last stands for all that lies behind
     open_here[:width] = _any_of(buffer[at:stop], shapes)
     begin = np.flatnonzero(open_here[:width])
-    after = begin + _lengths(buffer, begin + at)
+    after = begin + _lengths(buffer, begin + at, shapes)
     leads_on = open_here[np.minimum(after, width)] & (after <= size - at)
     leads_on[0] = after[0] <= size - at  # the first is a record, whatever follows it
     if not leads_on[0]:
@@ -245,12 +245,19 @@ def _any_of(window: Bytes, shapes: Sequence[int]) -> Flags:
     return found
 
 
-def _lengths(buffer: Bytes, start: Numbers) -> Numbers:
+def _lengths(buffer: Bytes, start: Numbers, shapes: Sequence[int]) -> Numbers:
     """Length of the records that would begin at ``start``, header and payload."""
-    bits = buffer[start].astype(np.intp)
+    bits = shapes[0] if len(shapes) == 1 else buffer[start].astype(np.intp)
     size = view(buffer, np.uint32)[start + (1 + ID_LENGTH)[bits]] & SIZE_MASK[bits]
     lengths: Numbers = HEADER_LENGTH[bits] + size
     return lengths
+
+
+def _shape(bits: Bytes) -> int | NDArray[np.intp]:
+    """The first bytes of some records as an index: one for all of them if they are the same."""
+    if bits.size and bool((bits == bits[0]).all()):
+        return int(bits[0])
+    return bits.astype(np.intp)  # of any other type it would be converted at every use
 
 
 def _walk(begin: Numbers, after: Numbers) -> tuple[Flags | slice, int]:

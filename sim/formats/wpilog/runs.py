@@ -10,7 +10,7 @@ import numpy as np
 from sim.doubt import Doubt
 from sim.errors import BadRequest
 from sim.format import Reading, sound_run
-from sim.formats.wpilog.clock import Series, changes_only, hold, line, loops, sparse
+from sim.formats.wpilog.clock import Series, changes_only, covered, hold, line, loops, sparse
 from sim.formats.wpilog.motors import NEEDED, OPTIONAL, Motor
 from sim.formats.wpilog.records import Numbers
 from sim.formats.wpilog.state import Stretch
@@ -20,6 +20,7 @@ from sim.units import UNITS
 
 SECOND = 1e6  # [µs]
 ENOUGH = 2  # samples of a run; one alone shows no motion
+ENDS = 2  # samples that a run may lose, one at each end, without a word
 OPPOSED = -0.5  # [cosine] two motors that work against each other are near -1, noise is near 0
 
 Signals: TypeAlias = Mapping[str, Sequence[Series]]  # signal -> its series, motor by motor
@@ -42,11 +43,19 @@ class Cut:
 
 @dataclass(frozen=True, eq=False)
 class _Sampled:
-    """One run: time (n,) [µs], and each signal (motors, n)."""
+    """One run on one time base.
+
+    Args:
+        test: which.
+        time: (n,) [µs].
+        signals: signal -> (motors, n).
+        lost: how many samples of the voltage are not in it, as another signal is not known there.
+    """
 
     test: str
     time: Numbers
     signals: Mapping[str, Array]
+    lost: int = 0
 
 
 def cut(
@@ -65,9 +74,9 @@ def cut(
     held = changes_only(needed, spans)
     doubts = [doubt for scale in scales for doubt in scale.doubts]
     doubts += _rhythm(signals, spans, held=held, where=where)
-    sampled = [_sampled(signals, stretch, held=held) for stretch in stretches]
+    sampled = [(_held if held else _drawn)(signals, stretch) for stretch in stretches]
     whole = [run for run in sampled if run.time.size >= ENOUGH]
-    doubts += _too_short([run for run in sampled if run.time.size < ENOUGH], where)
+    doubts += _too_short(sampled, where)
     doubts += _combined(motors, whole, where)
     runs = []
     for run in whole:
@@ -112,27 +121,37 @@ def _signals(motors: Sequence[Motor], scales: Sequence[Scale]) -> dict[str, list
     return signals
 
 
-def _sampled(signals: Signals, stretch: Stretch, *, held: bool) -> _Sampled:
-    """The signals of one run on one time base; no times if there are too few samples for one."""
+def _held(signals: Signals, stretch: Stretch) -> _Sampled:
+    """One run of a log that only holds changes."""
     needed = [series for name in NEEDED for series in signals[name]]
-    if held:
-        time = loops(needed, stretch.begin, stretch.end)
-        usable = {
-            name: [hold(one, time) for one in several]
-            for name, several in signals.items()
-            if all(len(one) and (not time.size or one.time[0] <= time[0]) for one in several)
-        }
-    else:
-        parts = {
-            name: [one.within(stretch.begin, stretch.end) for one in several]
-            for name, several in signals.items()
-        }
-        enough = {
-            name for name, several in parts.items() if all(p.moments >= ENOUGH for p in several)
-        }
-        time = parts["voltage"][0].time if enough.issuperset(NEEDED) else np.zeros(0, np.int64)
-        usable = {name: [line(part, time) for part in parts[name]] for name in enough if time.size}
-    return _Sampled(stretch.test, time, {name: np.array(rows) for name, rows in usable.items()})
+    time = loops(needed, stretch.begin, stretch.end)
+    known = {
+        name: np.array([hold(one, time) for one in several])
+        for name, several in signals.items()
+        if time.size and all(one.time[0] <= time[0] for one in several)
+    }
+    return _Sampled(stretch.test, time, known)
+
+
+def _drawn(signals: Signals, stretch: Stretch) -> _Sampled:
+    """One run at the times of the (first motor's) voltage, as SysId takes them."""
+    parts = {
+        name: [one.within(stretch.begin, stretch.end) for one in several]
+        for name, several in signals.items()
+    }
+    usable = {
+        name: several
+        for name, several in parts.items()
+        if all(part.moments >= ENOUGH for part in several)
+    }
+    every = parts["voltage"][0].time
+    if not usable.keys() >= set(NEEDED):
+        return _Sampled(stretch.test, every[:0], {})
+    time = covered([part for name in NEEDED for part in usable[name]], every)
+    columns = {
+        name: np.array([line(part, time) for part in several]) for name, several in usable.items()
+    }
+    return _Sampled(stretch.test, time, columns, every.size - time.size)
 
 
 def _columns(run: _Sampled) -> dict[str, Array]:
@@ -145,11 +164,18 @@ def _columns(run: _Sampled) -> dict[str, Array]:
 
 def _too_short(runs: Sequence[_Sampled], where: str) -> Iterator[Doubt]:
     for run in runs:
-        yield Doubt(
-            "short-run",
-            f"{where}: a run of {run.test} holds fewer than {ENOUGH} samples of voltage, position "
-            "and velocity and was left out. Run that test again.",
-        )
+        if run.time.size < ENOUGH:
+            yield Doubt(
+                "short-run",
+                f"{where}: a run of {run.test} holds fewer than {ENOUGH} samples of voltage, "
+                "position and velocity and was left out. Run that test again.",
+            )
+        elif run.lost > ENDS:
+            yield Doubt(
+                "short-signal",
+                f"{where}, {run.test}: {run.lost} of {run.lost + run.time.size} samples were left "
+                "out, as position or velocity was not logged then. Look at how they are logged.",
+            )
 
 
 def _rhythm(

@@ -1,0 +1,271 @@
+"""WPILOG logs: which runs, motors and mechanisms are found in them.
+
+The logs come from the little robot in ``wpilog_file``.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wpilog_file import FOUR, LOOP, Logger, Motor, motion, routine, voltage
+
+import sim
+from sim.errors import BadRequest
+from sim.log import Array, Log
+
+TURN = 2 * np.pi
+JAVA = ("Volt", "Rotation", "Rotation per Second")
+
+
+def saved(tmp_path: Path, *motors: Motor, **how: object) -> Path:
+    """The log of one routine of the little robot."""
+    logger = Logger()
+    routine(logger, *(motors or (Motor("main"),)), **how)
+    return logger.save(tmp_path / "log.wpilog")
+
+
+def expected(test: str, loops: range, *, si: float = TURN) -> tuple[Array, Array, Array]:
+    """Voltage, position and velocity of the little robot, worked out anew."""
+    seen = np.array([motion(test, loop) for loop in loops])
+    return np.array([voltage(test, loop) for loop in loops]), seen[:, 0] * si, seen[:, 1] * si
+
+
+def codes(log: Log) -> list[str]:
+    return [doubt.code for doubt in log.doubts]
+
+
+def test_a_routine_comes_back_as_its_four_runs(tmp_path: Path) -> None:
+    path = saved(tmp_path)
+
+    log = sim.read(path)
+
+    assert (log.units, log.mechanism, log.type, log.source) == ("rotations", "Arm", "", str(path))
+    assert log.doubts == ()
+    assert [run.test for run in log.runs] == list(FOUR)
+    assert log.runs[0].time[0] == 1.0
+    for run in log.runs:
+        u, x, v = expected(run.test, range(39))  # the last loop has the time of "none"
+        assert np.array_equal(run.voltage, u)
+        assert np.array_equal(run.position, x)
+        assert np.array_equal(run.velocity, v)
+        assert np.allclose(np.diff(run.time), 0.02, rtol=0, atol=1e-9)
+
+
+def test_the_first_loop_is_left_out_where_the_state_is_stamped_later(tmp_path: Path) -> None:
+    """On a robot every value has its own time; SysId draws lines to the times of the voltage."""
+    log = sim.read(saved(tmp_path, Motor("main", late=(0, 30, 60)), state_late=100))
+
+    run = log.of("quasistatic-forward")[0]
+    u, x, v = expected("quasistatic-forward", range(1, 40))
+    assert log.doubts == ()
+    assert np.array_equal(run.voltage, u)
+    assert run.time[0] == pytest.approx(1.02)
+    steps_x, steps_v = np.diff(x), np.diff(v)
+    back_x = np.concatenate((steps_x[:1], steps_x)) * 30 / LOOP
+    back_v = np.concatenate((steps_v[:1], steps_v)) * 60 / LOOP
+    np.testing.assert_allclose(run.position, x - back_x, rtol=1e-12)
+    np.testing.assert_allclose(run.velocity, v - back_v, rtol=1e-12)
+
+
+def test_the_same_test_twice_is_two_runs(tmp_path: Path) -> None:
+    log = sim.read(saved(tmp_path, tests=("dynamic-forward", "coast-forward", "dynamic-forward")))
+
+    assert [run.test for run in log.runs] == ["dynamic-forward", "coast-forward", "dynamic-forward"]
+
+
+def states(tmp_path: Path, *said: str) -> Path:
+    """A log in which each word holds for ten loops."""
+    logger = Logger()
+    for name in ("voltage", "position", "velocity"):
+        logger.start(f"{name}-m-Arm")
+    logger.start("sysid-test-state-Arm", "string")
+    for index in range(10 * len(said)):
+        for name in ("voltage", "position", "velocity"):
+            logger.put(f"{name}-m-Arm", index * LOOP, float(index))
+        logger.put("sysid-test-state-Arm", index * LOOP, said[index // 10])
+    return logger.save(tmp_path / "log.wpilog")
+
+
+@pytest.mark.parametrize(
+    ("said", "runs", "doubts"),
+    [
+        pytest.param(
+            ("dynamic-forward", "dynamic-forward", "none"),
+            [("dynamic-forward", 20)],
+            [],
+            id="a state that repeats is one run",
+        ),
+        pytest.param(
+            ("Dynamic-Forward", " QUASISTATIC-REVERSE ", "None"),
+            [("dynamic-forward", 10), ("quasistatic-reverse", 10)],
+            [],
+            id="any case",
+        ),
+        pytest.param(
+            ("chirp-forward", "", "triangle-reverse", "none"),
+            [("chirp-forward", 10), ("triangle-reverse", 10)],
+            [],
+            id="tests beyond the four, and an empty state between them",
+        ),
+        pytest.param(
+            ("dynamic-forward", "dynamic-sideways", "quasistatic_forward", "none"),
+            [("dynamic-forward", 10)],
+            ["unknown-test"],
+            id="states of no test",
+        ),
+        pytest.param(
+            ("none", "dynamic-forward"),
+            [("dynamic-forward", 10)],
+            ["unfinished-run"],
+            id="a run that the file does not see end",
+        ),
+    ],
+)
+def test_states_make_runs(
+    tmp_path: Path, said: tuple[str, ...], runs: list[tuple[str, int]], doubts: list[str]
+) -> None:
+    log = sim.read(states(tmp_path, *said), units="meters")
+
+    assert [(run.test, len(run)) for run in log.runs] == runs
+    assert codes(log) == doubts
+
+
+def test_unknown_states_are_named(tmp_path: Path) -> None:
+    log = sim.read(states(tmp_path, "dynamic-forward", "sprint-forward", "none"), units="meters")
+
+    assert "'sprint-forward'" in log.doubts[0].message
+    assert "quasistatic-forward" in log.doubts[0].message
+
+
+def test_a_run_of_one_sample_is_left_out_with_a_word(tmp_path: Path) -> None:
+    logger = Logger()
+    after = routine(logger, Motor("main"), tests=("quasistatic-forward",))
+    logger.put("voltage-main-Arm", after, 7.0)
+    logger.put("position-main-Arm", after, 0.0)
+    logger.put("velocity-main-Arm", after, 0.0)
+    logger.put("sysid-test-state-Arm", after, "dynamic-forward")
+    logger.put("sysid-test-state-Arm", after + LOOP, "none")
+
+    log = sim.read(logger.save(tmp_path / "log.wpilog"))
+
+    assert [run.test for run in log.runs] == ["quasistatic-forward"]
+    assert codes(log) == ["short-run"]
+    assert "dynamic-forward" in log.doubts[0].message
+
+
+@pytest.mark.parametrize("path", ["NT:/", "/Robot/", "NT:/SmartDashboard/Log/"])
+def test_loggers_may_put_a_path_before_every_name(tmp_path: Path, path: str) -> None:
+    log = sim.read(saved(tmp_path, path=path))
+
+    assert (log.mechanism, len(log.runs)) == ("Arm", 4)
+
+
+def test_a_copy_under_a_path_stands_back(tmp_path: Path) -> None:
+    logger = Logger()
+    routine(logger, Motor("main", sign=-1), path="NT:/")
+    routine(logger, Motor("main"))
+
+    log = sim.read(logger.save(tmp_path / "log.wpilog"))
+
+    assert log.runs[2].voltage[0] == 7.0
+
+
+@pytest.mark.parametrize("signal", ["state", "voltage"])
+def test_two_copies_under_paths_must_be_told_apart(tmp_path: Path, signal: str) -> None:
+    logger = Logger()
+    plain = signal == "voltage"
+    routine(
+        logger, Motor("main", leave_out=("voltage",) if plain else ()), path="" if plain else "a/"
+    )
+    for path in ("b/", "c/") if plain else ("b/",):
+        leave_out = ("position", "velocity") if plain else ()
+        routine(logger, Motor("main", leave_out=leave_out), path=path, tests=())
+        logger.put(f"{path}voltage-main-Arm", 5, 1.0)
+        logger.put(f"{path}sysid-test-state-Arm", 5, "none" if plain else "dynamic-forward")
+
+    with pytest.raises(BadRequest, match=f"--{signal} ENTRY"):
+        sim.read(logger.save(tmp_path / "log.wpilog"))
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "sign"), [pytest.param("drive-train", 1.0), pytest.param("train", -1.0)]
+)
+def test_dashes_in_names_are_split_by_the_mechanism(
+    tmp_path: Path, mechanism: str, sign: float
+) -> None:
+    """``voltage-front-left-drive-train`` belongs to drive-train alone, though it ends in -train."""
+    logger = Logger()
+    routine(logger, Motor("front-left"), mechanism="drive-train")
+    routine(logger, Motor("x", sign=-1), mechanism="train", begin=10**9)
+
+    log = sim.read(
+        logger.save(tmp_path / "log.wpilog"), entries={"state": f"sysid-test-state-{mechanism}"}
+    )
+
+    assert log.mechanism == mechanism
+    assert log.doubts == ()
+    assert log.of("dynamic-forward")[0].voltage[0] == 7.0 * sign
+
+
+def test_of_two_mechanisms_one_is_asked_for(tmp_path: Path) -> None:
+    logger = Logger()
+    routine(logger, Motor("a"), mechanism="Arm")
+    routine(logger, Motor("b"), mechanism="Wrist", begin=10**9)
+    path = logger.save(tmp_path / "log.wpilog")
+
+    with pytest.raises(BadRequest, match=r"'Arm', 'Wrist'.*--state .*one routine per log"):
+        sim.read(path)
+    assert sim.read(path, motor="b").mechanism == "Wrist"
+    assert sim.read(path, entries={"state": "sysid-test-state-Arm"}).mechanism == "Arm"
+
+
+LEFT, RIGHT = Motor("drive-left"), Motor("drive-right", sign=0.5)
+
+
+def test_two_motors_count_as_their_mean(tmp_path: Path) -> None:
+    log = sim.read(saved(tmp_path, LEFT, RIGHT))
+
+    u, x, v = expected("dynamic-forward", range(39))
+    run = log.of("dynamic-forward")[0]
+    np.testing.assert_allclose(run.voltage, 0.75 * u)
+    np.testing.assert_allclose(run.position, 0.75 * x)
+    np.testing.assert_allclose(run.velocity, 0.75 * v)
+    assert codes(log) == ["several-motors"]
+    assert "'drive-left', 'drive-right'" in log.doubts[0].message
+    assert "--motor NAME" in log.doubts[0].message
+
+
+@pytest.mark.parametrize("name", ["drive-right", "RIGHT", "right", "-right"])
+def test_a_motor_is_chosen_by_its_name_or_its_end(tmp_path: Path, name: str) -> None:
+    log = sim.read(saved(tmp_path, LEFT, RIGHT), motor=name)
+
+    assert log.of("dynamic-forward")[0].voltage[0] == 3.5
+    assert log.doubts == ()
+
+
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [
+        pytest.param("middle", "is not a motor here of 'Arm'", id="no such motor"),
+        pytest.param("t", "fits several motors", id="an end that two have"),
+    ],
+)
+def test_a_motor_that_cannot_be_told_is_refused(tmp_path: Path, name: str, what: str) -> None:
+    with pytest.raises(BadRequest, match=f"{what}.*drive-left, drive-right"):
+        sim.read(saved(tmp_path, LEFT, RIGHT), motor=name)
+
+
+def test_motors_against_each_other_are_not_averaged(tmp_path: Path) -> None:
+    path = saved(tmp_path, LEFT, Motor("drive-right", sign=-1))
+
+    with pytest.raises(BadRequest, match=r"'drive-left' and 'drive-right'.*--motor drive-left"):
+        sim.read(path)
+    assert sim.read(path, motor="right").of("dynamic-forward")[0].voltage[0] == -7.0
+
+
+def test_a_motor_that_lacks_a_signal_is_left_out_with_a_word(tmp_path: Path) -> None:
+    log = sim.read(saved(tmp_path, LEFT, Motor("follower", leave_out=("velocity",))))
+
+    assert codes(log) == ["incomplete-motor"]
+    assert "'follower' has no velocity" in log.doubts[0].message
+    assert log.of("dynamic-forward")[0].voltage[0] == 7.0

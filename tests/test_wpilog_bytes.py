@@ -1,0 +1,387 @@
+"""WPILOG files byte by byte: records, entries, and what is said of files that are not sound."""
+
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from wpilog_file import (
+    FOUR,
+    HEADER,
+    Logger,
+    Motor,
+    finish,
+    metadata,
+    record,
+    records,
+    routine,
+    start,
+)
+
+import sim
+from sim.errors import Refusal, UnreadableFile
+from sim.formats.wpilog.contents import Contents, contents_of
+from sim.formats.wpilog.entry import KINDS, Entry
+from sim.formats.wpilog.records import fields, load
+from sim.log import Log
+
+TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+
+
+def contents_in(tmp_path: Path, *parts: bytes) -> Contents:
+    path = tmp_path / "log.wpilog"
+    path.write_bytes(HEADER + b"".join(parts))
+    return contents_of(load(path))
+
+
+def values(entry: Entry) -> list[object]:
+    return entry.values().tolist() if entry.type in KINDS else list(entry.texts())
+
+
+ANY_RECORD = st.tuples(
+    st.one_of(st.integers(0, 3), st.integers(0, 2**32 - 1)),
+    st.one_of(st.integers(0, 300), st.integers(0, 2**64 - 1)),
+    st.one_of(st.binary(max_size=40), st.sampled_from((b"\x30\x01\x08" * 9, b"\0" * 300))),
+    st.tuples(st.integers(1, 4), st.integers(1, 4), st.integers(1, 8)),
+)
+
+
+@TMP
+@given(several=st.lists(ANY_RECORD, max_size=60), extra=st.binary(max_size=20))
+def test_any_records_with_any_headers_are_found_where_they_are(
+    tmp_path: Path, several: list[tuple[int, int, bytes, tuple[int, int, int]]], extra: bytes
+) -> None:
+    path = tmp_path / "log.wpilog"
+    body = b"".join(record(*one) for one in several)
+    path.write_bytes(HEADER[:8] + struct.pack("<I", len(extra)) + extra + body)
+
+    found = load(path)
+    head = fields(found.file.buffer, found.start)
+
+    assert found.end == found.file.size
+    assert [
+        (number, time % 2**64, found.file.content[at : at + size])
+        for number, time, at, size in zip(
+            head.id.tolist(),
+            head.time.tolist(),
+            head.payload.tolist(),
+            head.size.tolist(),
+            strict=True,
+        )
+    ] == list(records(path.read_bytes()))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_long_file_is_followed_through_all_its_windows(tmp_path: Path, seed: int) -> None:
+    """Payloads here look like records themselves, and header shapes come and go."""
+    rng = np.random.default_rng(seed)
+    path = tmp_path / "log.wpilog"
+    body = []
+    for index in range(40_000):
+        kind = index // 4000 % 4
+        payload = (
+            rng.bytes(8),
+            record(1, index, b"12345678"),
+            b"\0" * int(rng.integers(0, 40)),
+            b"0101 10 0 110 0" * int(rng.integers(0, 30)),
+        )[kind]
+        body.append(record(1 + index % 300, index * 5_000, payload, (1, 1 + kind, 1)))
+    path.write_bytes(HEADER + b"".join(body))
+
+    found = load(path)
+
+    lengths = np.array([len(one) for one in body])
+    assert np.array_equal(found.start, 12 + np.concatenate(([0], np.cumsum(lengths)[:-1])))
+
+
+@pytest.mark.parametrize(
+    ("kind", "packed", "expected"),
+    [
+        pytest.param("double", struct.pack("<d", 0.1), 0.1, id="double"),
+        pytest.param("float", struct.pack("<f", 0.1), float(np.float32(0.1)), id="float"),
+        pytest.param("int64", struct.pack("<q", -(2**62) - 1), -(2**62) - 1, id="int64"),
+        pytest.param("boolean", b"\x01", True, id="true"),
+        pytest.param("boolean", b"\x00", False, id="false"),
+        pytest.param("string", "Grüße".encode(), "Grüße", id="string"),
+        pytest.param("string", b"", "", id="empty string"),
+        pytest.param("string", b"a\xff", "a\ufffd", id="string that is not UTF-8"),
+    ],
+)
+@pytest.mark.parametrize("widths", [(1, 1, 1), (2, 1, 4), (4, 4, 8), (3, 2, 5)], ids=str)
+def test_each_type_is_decoded(
+    tmp_path: Path, kind: str, packed: bytes, expected: object, widths: tuple[int, int, int]
+) -> None:
+    found = contents_in(
+        tmp_path, record(0, 5, start(7, "it", kind, "unit")), record(7, 123_456, packed, widths)
+    )
+
+    (entry,) = found.entries
+    assert (entry.name, entry.type, entry.metadata) == ("it", kind, "unit")
+    assert entry.time.tolist() == [123_456]
+    assert values(entry) == [expected]
+
+
+@pytest.mark.parametrize("count", [3, 5_000], ids=["few among many records", "many"])
+def test_strings_are_the_same_however_many_there_are(tmp_path: Path, count: int) -> None:
+    """Few strings are cut out one by one, many from the whole file as text."""
+    parts = [record(0, 0, start(1, "text", "string")), record(0, 0, start(2, "blob", "raw"))]
+    said = [f"état {index}" if index % 2 else "none" for index in range(count)]
+    parts += [record(1, index, text.encode()) for index, text in enumerate(said)]
+    parts.append(record(2, count, bytes(40_000)))
+
+    entry = contents_in(tmp_path, *parts).entries[0]
+
+    assert entry.texts() == said
+
+
+def double(number: int, time: int, value: float) -> bytes:
+    return record(number, time, struct.pack("<d", value))
+
+
+def test_an_id_is_free_again_after_a_finish(tmp_path: Path) -> None:
+    found = contents_in(
+        tmp_path,
+        record(0, 0, start(1, "first", "double")),
+        double(1, 1, 1.0),
+        record(0, 2, finish(1)),
+        double(1, 3, 99.0),  # belongs to nobody
+        record(0, 4, start(1, "second", "string", "m")),
+        record(1, 5, b"two"),
+    )
+
+    assert [(entry.name, values(entry)) for entry in found.entries] == [
+        ("first", [1.0]),
+        ("second", ["two"]),
+    ]
+    assert found.damage is None
+
+
+def test_an_entry_that_comes_back_under_another_id_is_joined_in_time_order(tmp_path: Path) -> None:
+    found = contents_in(
+        tmp_path,
+        record(0, 0, start(1, "it", "double", "Meter")),
+        double(1, 10, 1.0),
+        double(1, 30, 3.0),
+        record(0, 0, finish(1)),
+        record(0, 0, start(9, "it", "double")),
+        double(9, 20, 2.0),
+        double(9, 40, 4.0),
+        record(0, 0, start(3, "it", "float")),
+        record(3, 50, struct.pack("<f", 5.0)),
+    )
+
+    first, other = found.entries
+    assert (first.metadata, first.time.tolist(), values(first)) == (
+        "Meter",
+        [10, 20, 30, 40],
+        [1.0, 2.0, 3.0, 4.0],
+    )
+    assert (other.type, values(other)) == ("float", [5.0])
+
+
+def test_metadata_may_come_later(tmp_path: Path) -> None:
+    found = contents_in(
+        tmp_path, record(0, 0, start(1, "it", "double", "Meter")), record(0, 1, metadata(1, "Foot"))
+    )
+
+    assert found.entries[0].metadata == "Foot"
+
+
+SOUND = Logger()
+routine(SOUND, Motor("a"), loops=8)
+CONTENT = b"".join(SOUND.parts)
+
+
+def refusal(path: Path) -> UnreadableFile:
+    with pytest.raises(UnreadableFile) as caught:
+        sim.read(path)
+    return caught.value
+
+
+@pytest.mark.parametrize(
+    ("content", "what", "at", "advice"),
+    [
+        pytest.param(HEADER, "no records", 12, "Run the tests", id="a header and nothing else"),
+        pytest.param(b"WPILOG\0\1\0", "ends after 9 bytes", 9, "Copy it", id="half a header"),
+        pytest.param(b"WPI", "ends after 3 bytes", 3, "Copy it", id="half a magic"),
+        pytest.param(
+            HEADER[:8] + struct.pack("<I", 999),
+            "ends after 12",
+            12,
+            "Copy it",
+            id="cut in the extra",
+        ),
+        pytest.param(b"\0\1" * 40, "does not begin with WPILOG", 0, "Give the", id="foreign"),
+        pytest.param(
+            b"WPILOG\x05\x02" + bytes(9), "version 2.5", 6, "WPILOG 1.0", id="of a later version"
+        ),
+        pytest.param(HEADER + bytes(64), "zero bytes", 12, "Copy it", id="zeros after the header"),
+        pytest.param(
+            HEADER + b"\x0c\x00\xff\xff\xff\x7f\x00" + bytes([3] * 99),
+            "claims 2147483647 bytes",
+            12,
+            "Copy it",
+            id="a size no file has",
+        ),
+        pytest.param(
+            HEADER + record(0, 0, b"\x07\x01\0\0\0") + bytes([9] * 9),
+            "makes no sense",
+            12,
+            "Copy it",
+            id="an unknown control record",
+        ),
+        pytest.param(
+            HEADER + double(5, 1, 1.0) + double(5, 2, 1.0),
+            "entry 5, which was never started",
+            12,
+            "Copy it",
+            id="values of no entry",
+        ),
+        pytest.param(
+            CONTENT[:60], "within its header|claims", 12, "Copy it", id="cut before the first value"
+        ),
+    ],
+)
+def test_a_file_that_tells_nothing_says_what_is_wrong_and_where(
+    tmp_path: Path, content: bytes, what: str, at: int, advice: str
+) -> None:
+    path = tmp_path / "log.wpilog"
+    path.write_bytes(content)
+
+    said = refusal(path)
+
+    assert any(part in said.what for part in what.split("|"))
+    assert said.advice.startswith(advice) or advice in said.advice
+    assert said.where.startswith(str(path))
+    if content != CONTENT[:60]:
+        assert said.where == f"{path}, byte {at}"
+
+
+def whole_until(index: int) -> int:
+    """The offset behind so many records of the sound file."""
+    return sum(len(part) for part in SOUND.parts[: index + 1])
+
+
+@pytest.mark.parametrize("cut", [1, 5, 12, 19])
+def test_a_file_cut_off_at_its_end_is_read_up_to_there(tmp_path: Path, cut: int) -> None:
+    path = tmp_path / "log.wpilog"
+    path.write_bytes(CONTENT[:-cut])
+    offset = whole_until(len(SOUND.parts) - 2)
+    left = len(CONTENT) - cut - offset
+    if left < 0:
+        offset = whole_until(len(SOUND.parts) - 3)
+        left = len(CONTENT) - cut - offset
+
+    log = sim.read(path)
+
+    assert [run.test for run in log.runs] == list(FOUR)
+    (doubt,) = [one for one in log.doubts if one.code == "truncated"]
+    assert f"at byte {offset}" in doubt.message
+    assert f"{left} bytes" in doubt.message
+    assert "Copy the file" in doubt.message
+
+
+def test_zeros_that_a_lost_power_supply_leaves_count_as_cut_off(tmp_path: Path) -> None:
+    path = tmp_path / "log.wpilog"
+    path.write_bytes(CONTENT + bytes(4096))
+
+    log = sim.read(path)
+
+    assert len(log.runs) == 4
+    assert [doubt.code for doubt in log.doubts] == ["truncated"]
+
+
+def test_damage_behind_a_whole_run_is_doubted_loudly(tmp_path: Path) -> None:
+    path = tmp_path / "log.wpilog"
+    middle = whole_until(len(SOUND.parts) * 2 // 3)
+    path.write_bytes(CONTENT[:middle] + record(77, 5, b"?") + CONTENT[middle:])
+
+    log = sim.read(path)
+
+    assert [run.test for run in log.runs] == list(FOUR[:3])
+    assert [doubt.code for doubt in log.doubts] == ["damaged"]
+    assert (
+        f"THE FILE IS DAMAGED: a record of entry 77, which was never started at byte {middle}"
+        in (log.doubts[0].message)
+    )
+
+
+def test_damage_before_the_first_whole_run_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "log.wpilog"
+    early = whole_until(20)
+    path.write_bytes(CONTENT[:early] + b"\x0c\x01\xff\xff\xff\x7f\x00" + CONTENT[early:])
+
+    said = refusal(path)
+
+    assert said.where == f"{path}, byte {early}"
+    assert said.what.startswith("the file is damaged")
+    assert "record the tests again" in said.advice
+
+
+def test_a_double_of_nine_bytes_is_damage(tmp_path: Path) -> None:
+    found = contents_in(
+        tmp_path, record(0, 0, start(1, "it", "double")), double(1, 1, 1.0), record(1, 2, bytes(9))
+    )
+
+    assert found.damage is not None
+    assert (found.damage.what, found.damage.torn) == ("a double of 9 bytes", False)
+    assert len(found.entries[0]) == 1
+
+
+def read_or_refuse(path: Path) -> Log | Refusal:
+    try:
+        return sim.read(path)
+    except Refusal as refused:
+        return refused
+
+
+@TMP
+@given(noise=st.binary(max_size=400))
+def test_any_bytes_behind_a_header_are_refused_in_a_sentence(tmp_path: Path, noise: bytes) -> None:
+    path = tmp_path / "log.wpilog"
+    path.write_bytes(HEADER + noise)
+
+    said = read_or_refuse(path)
+
+    assert isinstance(said, Refusal)
+    assert said.where.startswith(str(path))
+    assert said.advice
+
+
+@TMP
+@given(length=st.integers(0, len(CONTENT) - 1))
+def test_a_part_of_a_file_is_read_as_far_as_it_goes(tmp_path: Path, length: int) -> None:
+    path = tmp_path / "log.wpilog"
+    path.write_bytes(CONTENT)
+    whole = sim.read(path)
+    path.write_bytes(CONTENT[:length])
+
+    part = read_or_refuse(path)
+
+    if isinstance(part, Refusal):
+        assert not whole.runs or length < whole_until(len(SOUND.parts) // 4)
+        return
+    for ours, theirs in zip(part.runs, whole.runs, strict=False):
+        assert ours.test == theirs.test
+        both = min(len(ours), len(theirs))  # the last sample of a run may count if no end is seen
+        assert both >= len(ours) - 1
+        assert np.array_equal(ours.velocity[:both], theirs.velocity[:both])
+    lost = sum(map(len, part.runs)) < sum(map(len, whole.runs))
+    ended = [run.test for run in part.runs] == [run.test for run in whole.runs[: len(part.runs)]]
+    assert part.doubts or (ended and lost)
+
+
+@TMP
+@given(flips=st.dictionaries(st.integers(0, len(CONTENT) - 1), st.integers(1, 255), min_size=1))
+def test_a_file_with_flipped_bits_is_read_or_refused(tmp_path: Path, flips: dict[int, int]) -> None:
+    content = bytearray(CONTENT)
+    for at, flip in flips.items():
+        content[at] ^= flip
+    path = tmp_path / "log.wpilog"
+    path.write_bytes(content)
+
+    said = read_or_refuse(path)
+
+    assert isinstance(said, Log) or said.advice

@@ -1,0 +1,412 @@
+"""Signals in WPILOG logs: their units, their time base, and what is said when one is missing.
+
+The logs come from the little robot in ``wpilog_file``.
+"""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from wpilog_file import FOUR, Logger, Motor, motion, routine
+
+import sim
+from sim.errors import BadRequest, BadSample, MissingSignal
+from sim.log import Log
+
+METERS = ("volt", "meter", "meters_per_second")
+
+
+def saved(tmp_path: Path, *motors: Motor, changes_only: bool = False, **how: object) -> Path:
+    logger = Logger(changes_only)
+    routine(logger, *(motors or (Motor("main"),)), **how)
+    return logger.save(tmp_path / "log.wpilog")
+
+
+def codes(log: Log) -> list[str]:
+    return [doubt.code for doubt in log.doubts]
+
+
+def scales(log: Log) -> tuple[float, float, float]:
+    """What the little robot's numbers were multiplied by: voltage, position, velocity."""
+    run = log.of("dynamic-forward")[0]
+    x, v = motion("dynamic-forward", 3)
+    return run.voltage[3] / 7.0, run.position[3] / x, run.velocity[3] / v
+
+
+@pytest.mark.parametrize(
+    ("units", "name", "position", "velocity"),
+    [
+        (("Volt", "Meter", "Meter per Second"), "meters", 1.0, 1.0),
+        (("Volt", "Foot", "Foot per Second"), "feet", 0.3048, 0.3048),
+        (("Volt", "Inch", "Inch per Second"), "inches", 0.0254, 0.0254),
+        (("Volt", "Radian", "Radian per Second"), "radians", 1.0, 1.0),
+        (("Volt", "Rotation", "Rotation per Second"), "rotations", math.tau, math.tau),
+        (("Volt", "Revolution", "Revolution per Second"), "rotations", math.tau, math.tau),
+        (("Volt", "Degree", "Degree per Second"), "degrees", math.tau / 360, math.tau / 360),
+        (("volt", "meter", "meters_per_second"), "meters", 1.0, 1.0),
+        (("volt", "foot", "feet_per_second"), "feet", 0.3048, 0.3048),
+        (("volt", "turn", "turns_per_second"), "rotations", math.tau, math.tau),
+        (("volt", "radian", "radians_per_second"), "radians", 1.0, 1.0),
+        (("VOLTS", "Radians", "RADIANS PER SECOND"), "radians", 1.0, 1.0),
+        (("V", "m", "m/s"), "meters", 1.0, 1.0),
+        (("V", "rot", "rps"), "rotations", math.tau, math.tau),
+        (("V", "rad", " rad/s "), "radians", 1.0, 1.0),
+        (('{"unit": "V"}', '{"unit":"deg"}', '{"unit":"deg/s"}'), "degrees", *[math.tau / 360] * 2),
+    ],
+    ids=lambda value: "/".join(value) if isinstance(value, tuple) else "",
+)
+def test_units_are_read_in_either_language(
+    tmp_path: Path, units: tuple[str, str, str], name: str, position: float, velocity: float
+) -> None:
+    log = sim.read(saved(tmp_path, Motor("main", units=units)))
+
+    assert log.units == name
+    assert log.doubts == ()
+    assert scales(log) == pytest.approx((1.0, position, velocity), rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("units", "asked", "name_and_factors", "doubts"),
+    [
+        pytest.param(
+            ("volt", "turn", "revolutions_per_minute"),
+            {},
+            ("rotations", 1, math.tau, math.tau / 60),
+            ["converted-units"],
+            id="a velocity per minute",
+        ),
+        pytest.param(
+            ("volt", "turn", "rpm"),
+            {"units": "rotations"},
+            ("rotations", 1, math.tau, math.tau / 60),
+            ["converted-units"],
+            id="a velocity per minute, and the unit that the file states too",
+        ),
+        pytest.param(
+            ("volt", "Degree", "Radian per Second"),
+            {},
+            ("degrees", 1, math.tau / 360, 1),
+            ["converted-units"],
+            id="two units of the same kind",
+        ),
+        pytest.param(
+            ("millivolt", "meter", "meters_per_second"),
+            {},
+            ("meters", 0.001, 1, 1),
+            ["converted-units"],
+            id="millivolts",
+        ),
+        pytest.param(
+            ("volt", "millimeter", "meters_per_second"),
+            {},
+            ("meters", 1, 0.001, 1),
+            ["converted-units"],
+            id="millimeters",
+        ),
+        pytest.param(
+            METERS,
+            {"units": "inches"},
+            ("inches", 1, 0.0254, 0.0254),
+            ["contradicting-units"] * 2,
+            id="a person says otherwise",
+        ),
+        pytest.param(
+            ("", "", ""), {}, ("meters", 1, 1, 1), ["units-assumed"] * 2, id="none stated"
+        ),
+        pytest.param(
+            ("", "", ""),
+            {"type": "arm"},
+            ("radians", 1, 1, 1),
+            ["units-assumed"] * 2,
+            id="none stated, of an arm",
+        ),
+        pytest.param(
+            ("", "", ""), {"units": "feet"}, ("feet", 1, 0.3048, 0.3048), [], id="a person says it"
+        ),
+        pytest.param(
+            ("", "turn", ""),
+            {},
+            ("rotations", 1, math.tau, math.tau),
+            ["units-assumed"],
+            id="only the position's is stated",
+        ),
+        pytest.param(
+            ("", "", "turns_per_second"),
+            {},
+            ("rotations", 1, math.tau, math.tau),
+            ["units-assumed"],
+            id="only the velocity's is stated",
+        ),
+        pytest.param(
+            ("percent", "furlong", "{broken"),
+            {"units": "feet"},
+            ("feet", 1, 0.3048, 0.3048),
+            ["unknown-unit"] * 2,
+            id="units nobody knows",
+        ),
+    ],
+)
+def test_odd_units_are_taken_with_a_word(
+    tmp_path: Path,
+    units: tuple[str, str, str],
+    asked: dict[str, str],
+    name_and_factors: tuple[str, float, float, float],
+    doubts: list[str],
+) -> None:
+    log = sim.read(saved(tmp_path, Motor("main", units=units)), **asked)
+
+    name, *factors = name_and_factors
+    assert log.units == name
+    assert scales(log) == pytest.approx(tuple(factors), rel=1e-14)
+    assert codes(log) == doubts
+    assert all("main-Arm" in doubt.message for doubt in log.doubts)
+
+
+def test_an_angle_and_a_length_do_not_go_together(tmp_path: Path) -> None:
+    path = saved(tmp_path, Motor("main", units=("volt", "turn", "meters_per_second")))
+
+    with pytest.raises(BadRequest, match=r"'turn'.*'meters_per_second'.*--units"):
+        sim.read(path)
+    assert codes(sim.read(path, units="meters")) == ["contradicting-units"]
+
+
+def test_motors_in_an_angle_and_in_a_length_do_not_go_together(tmp_path: Path) -> None:
+    path = saved(tmp_path, Motor("left"), Motor("right", units=METERS))
+
+    with pytest.raises(BadRequest, match=r"rotations, 'right' in meters.*--motor left"):
+        sim.read(path)
+
+
+def test_motors_in_two_units_of_a_kind_are_converted(tmp_path: Path) -> None:
+    inches = ("Volt", "Inch", "Inch per Second")
+    log = sim.read(saved(tmp_path, Motor("a", units=METERS), Motor("b", units=inches)))
+
+    assert log.units == "meters"
+    assert scales(log) == pytest.approx((1.0, (1 + 0.0254) / 2, (1 + 0.0254) / 2))
+
+
+@pytest.mark.parametrize(
+    ("late", "state_late"),
+    [((0, 0, 0), 0), ((0, 30, 60), 90)],
+    ids=["all at one time", "each value at a time of its own"],
+)
+def test_a_log_of_changes_only_reads_as_the_whole_one(
+    tmp_path: Path, late: tuple[int, int, int], state_late: int
+) -> None:
+    """A step's voltage is logged once there, so SysId's own rule would leave one sample."""
+    motor = Motor("main", late=late)
+    whole = sim.read(saved(tmp_path, Motor("main"), state_late=state_late))
+    changes = sim.read(saved(tmp_path, motor, changes_only=True, state_late=state_late))
+
+    assert codes(changes) == ["change-only"]
+    assert "a step has a single voltage" in changes.doubts[0].message
+    assert [run.test for run in changes.runs] == list(FOUR)
+    for ours, theirs in zip(changes.runs, whole.runs, strict=True):
+        np.testing.assert_allclose(ours.time, theirs.time + late[2] / 1e6, atol=1e-9)
+        assert np.array_equal(ours.voltage, theirs.voltage)
+        assert np.array_equal(ours.velocity, theirs.velocity)
+
+
+def test_a_slow_sensor_is_no_log_of_changes_only(tmp_path: Path) -> None:
+    slow = Motor("main", units=METERS, every=(1, 1, 5))
+    log = sim.read(saved(tmp_path, slow, tests=("quasistatic-forward",)))
+
+    (run,) = log.runs
+    assert codes(log) == ["uneven-rates"]
+    assert "39 of voltage, 39 of position, 8 of velocity" in log.doubts[0].message
+    v = [motion("quasistatic-forward", loop)[1] for loop in (0, 5)]
+    assert run.velocity[2] == pytest.approx(v[0] + (v[1] - v[0]) * 2 / 5)
+    assert run.time[-1] == pytest.approx(1.0 + 0.02 * 38)  # the line reaches a little further
+
+
+def test_what_lies_beyond_a_signal_is_not_made_up(tmp_path: Path) -> None:
+    """Lines are drawn between samples, not for seconds past the last of them."""
+    logger = Logger()
+    for name in ("voltage", "position", "velocity"):
+        logger.start(f"{name}-m-Arm", "double", {"voltage": "volt"}.get(name, "meter"))
+    logger.start("sysid-test-state-Arm", "string")
+    for loop in range(100):
+        logger.put("voltage-m-Arm", loop * 20_000, 1.0)
+        logger.put("position-m-Arm", loop * 20_000, float(loop))
+        if loop < 60:
+            logger.put("velocity-m-Arm", loop * 20_000, float(loop))
+        logger.put("sysid-test-state-Arm", loop * 20_000, "dynamic-forward")
+
+    log = sim.read(logger.save(tmp_path / "log.wpilog"), units="meters")
+
+    assert len(log.runs[0]) == 60
+    assert "short-signal" in codes(log)
+    assert any("40 of 100 samples" in doubt.message for doubt in log.doubts)
+
+
+@pytest.mark.parametrize(
+    ("leave_out", "expected", "missing"),
+    [
+        pytest.param(("voltage",), "voltage-main-Arm", "", id="voltage"),
+        pytest.param(("position",), "position-main-Arm", "", id="position"),
+        pytest.param(("velocity",), "velocity-main-Arm", "", id="velocity"),
+        pytest.param(
+            ("voltage", "position", "velocity"),
+            "voltage-<motor>-Arm",
+            "position and velocity missing too",
+            id="all three",
+        ),
+    ],
+)
+def test_a_missing_entry_is_named(
+    tmp_path: Path, leave_out: tuple[str, ...], expected: str, missing: str
+) -> None:
+    logger = Logger()
+    logger.start("/Arm/AppliedVolts")
+    logger.start("/Wrist/encoder/velocity")
+    for time in range(3):
+        logger.put("/Arm/AppliedVolts", time, 1.0)
+        logger.put("/Wrist/encoder/velocity", time, 1.0)
+    routine(logger, Motor("main", leave_out=leave_out))
+
+    with pytest.raises(MissingSignal) as caught:
+        sim.read(logger.save(tmp_path / "log.wpilog"))
+
+    signal = expected.split("-", maxsplit=1)[0]
+    assert caught.value.what.startswith(f"no {signal} entry: expected '{expected}' (double)")
+    assert missing in caught.value.what
+    assert "'/Arm/AppliedVolts'" in caught.value.what
+    assert f"Log the {'applied ' * (signal == 'voltage')}{signal}" in caught.value.advice
+    assert "--voltage ENTRY --position ENTRY --velocity ENTRY" in caught.value.advice
+
+
+def test_an_entry_of_a_type_that_is_no_number_is_named(tmp_path: Path) -> None:
+    logger = Logger()
+    routine(logger, Motor("main", leave_out=("voltage",)))
+    logger.start("voltage-main-Arm", "struct:Voltage")
+
+    with pytest.raises(MissingSignal, match="'voltage-main-Arm' is of type struct:Voltage"):
+        sim.read(logger.save(tmp_path / "log.wpilog"))
+
+
+def test_a_log_without_tests_says_how_to_get_some(tmp_path: Path) -> None:
+    logger = Logger()
+    logger.start("voltage-main-Arm")
+    logger.put("voltage-main-Arm", 1, 1.0)
+    path = logger.save(tmp_path / "log.wpilog")
+
+    with pytest.raises(MissingSignal, match=r"'sysid-test-state-<mechanism>'.*robot enabled"):
+        sim.read(path)
+
+
+def test_a_state_that_names_no_test_is_quoted(tmp_path: Path) -> None:
+    with pytest.raises(MissingSignal, match=r"'sysid-test-state-Arm' says only 'warming up'"):
+        sim.read(saved(tmp_path, tests=("warming up",)))
+
+
+def foreign(tmp_path: Path) -> Path:
+    """The log of a logger with names of its own."""
+    logger = Logger()
+    routine(logger, Motor("main"))
+    content = b"".join(logger.parts)
+    for ours, theirs in (
+        (b"sysid-test-state-Arm", b"/RealOutputs/Arm/Sys"),
+        (b"voltage-main-Arm", b"/Arm/AppliedVolt"),
+        (b"position-main-Arm", b"/Arm/Encoder/Angle"[:17]),
+        (b"velocity-main-Arm", b"/Arm/Encoder/Speed"[:17]),
+    ):
+        content = content.replace(ours, theirs)
+    path = tmp_path / "log.wpilog"
+    path.write_bytes(content)
+    return path
+
+
+ENTRIES = {
+    "state": "/RealOutputs/Arm/Sys",
+    "voltage": "/Arm/AppliedVolt",
+    "position": "/Arm/Encoder/Angl",
+    "velocity": "/Arm/Encoder/Spee",
+}
+
+
+def test_entries_of_any_name_can_be_given(tmp_path: Path) -> None:
+    log = sim.read(foreign(tmp_path), entries=ENTRIES)
+
+    assert [run.test for run in log.runs] == list(FOUR)
+    assert (log.mechanism, log.units) == ("", "rotations")
+    assert log.doubts == ()
+
+
+def test_an_entry_that_names_tests_is_offered(tmp_path: Path) -> None:
+    with pytest.raises(MissingSignal, match="give --state /RealOutputs/Arm/Sys --voltage ENTRY"):
+        sim.read(foreign(tmp_path))
+
+
+def test_an_entry_given_wins_over_one_found(tmp_path: Path) -> None:
+    logger = Logger()
+    routine(logger, Motor("main"))
+    routine(logger, Motor("main", sign=-1), mechanism="Other", begin=1_000_000, tests=FOUR[:1])
+    path = logger.save(tmp_path / "log.wpilog")
+
+    log = sim.read(
+        path, entries={"voltage": "voltage-main-Other", "state": "sysid-test-state-Other"}
+    )
+
+    assert log.runs[0].voltage[-1] < 0
+    log = sim.read(path, entries={"voltage": "voltage-main-Arm", "state": "sysid-test-state-Other"})
+    assert log.runs[0].voltage[-1] > 0
+
+
+@pytest.mark.parametrize(
+    ("signal", "name", "what"),
+    [
+        pytest.param("voltage", "/Arm/Applied", "Did you mean '/Arm/AppliedVolt'", id="nearly"),
+        pytest.param("velocity", "??", "as AdvantageScope shows it", id="not at all"),
+        pytest.param("position", "/RealOutputs/Arm/Sys", "of type string", id="of another type"),
+        pytest.param("state", "/Arm/AppliedVolt", "of type string with --state", id="no string"),
+    ],
+)
+def test_an_entry_that_cannot_be_used_is_refused(
+    tmp_path: Path, signal: str, name: str, what: str
+) -> None:
+    with pytest.raises(MissingSignal) as caught:
+        sim.read(foreign(tmp_path), entries=ENTRIES | {signal: name})
+
+    assert what in str(caught.value)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 1e300], ids=str)
+@pytest.mark.parametrize("signal", ["voltage", "position", "velocity"])
+def test_a_value_that_is_no_measurement_is_refused(
+    tmp_path: Path, signal: str, value: float
+) -> None:
+    logger = Logger()
+    for name in ("voltage", "position", "velocity"):
+        logger.start(f"{name}-m-Arm")
+    logger.start("sysid-test-state-Arm", "string")
+    for loop in range(20):
+        for name in ("voltage", "position", "velocity"):
+            bad = name == signal and loop == 7
+            logger.put(f"{name}-m-Arm", loop * 20_000, value if bad else float(loop))
+        logger.put("sysid-test-state-Arm", loop * 20_000, "dynamic-forward")
+
+    with pytest.raises(BadSample, match=f"dynamic-forward: {signal} is .* at sample 7"):
+        sim.read(logger.save(tmp_path / "log.wpilog"), units="meters")
+
+
+def test_metadata_that_is_json_of_something_else_states_no_unit(tmp_path: Path) -> None:
+    said = json.dumps({"properties": {}, "source": "NT"})
+    log = sim.read(saved(tmp_path, Motor("main", units=(said, said, said))))
+
+    assert codes(log) == ["units-assumed"] * 2
+
+
+@pytest.mark.shared
+def test_the_pivot_without_a_voltage_is_refused_by_name(shared: Path) -> None:
+    path = shared / "data" / "real" / "sciborgs-2024-pivot-no-voltage.wpilog"
+
+    with pytest.raises(MissingSignal) as caught:
+        sim.read(path)
+
+    assert caught.value.where == str(path)
+    expected = "no voltage entry: expected 'voltage-<motor>-Pivot' (double)"
+    assert caught.value.what.startswith(expected)
+    assert "'/Robot/pivot/hardware/getPosition'" in caught.value.what
+    assert "Log the applied voltage" in caught.value.advice
