@@ -135,7 +135,8 @@ def test_inside_an_environment_it_installs_into_that(world, monkeypatch, capsys,
     assert environment[bootstrap.INSTALLED]
     said = capsys.readouterr().err
     assert said.startswith("Installing what the course needs")
-    assert said.count("\n") == 1
+    assert said.endswith("\nInstalled.\n")
+    assert said.count("\n") == 2
 
 
 def test_the_second_process_installs_where_the_first_sent_it(world, monkeypatch):
