@@ -7,31 +7,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from wpilog_file import FOUR, LOOP, Logger, Motor, motion, routine, voltage
+from wpilog_file import FOUR, LOOP, Logger, Motor, codes, motion, routine, saved, voltage
 
 import sim
 from sim.errors import BadRequest
-from sim.log import Array, Log
+from sim.log import Array
 
 TURN = 2 * np.pi
 JAVA = ("Volt", "Rotation", "Rotation per Second")
-
-
-def saved(tmp_path: Path, *motors: Motor, **how: object) -> Path:
-    """The log of one routine of the little robot."""
-    logger = Logger()
-    routine(logger, *(motors or (Motor("main"),)), **how)
-    return logger.save(tmp_path / "log.wpilog")
 
 
 def expected(test: str, loops: range, *, si: float = TURN) -> tuple[Array, Array, Array]:
     """Voltage, position and velocity of the little robot, worked out anew."""
     seen = np.array([motion(test, loop) for loop in loops])
     return np.array([voltage(test, loop) for loop in loops]), seen[:, 0] * si, seen[:, 1] * si
-
-
-def codes(log: Log) -> list[str]:
-    return [doubt.code for doubt in log.doubts]
 
 
 def test_a_routine_comes_back_as_its_four_runs(tmp_path: Path) -> None:

@@ -1,190 +1,19 @@
-"""Signals in WPILOG logs: their units, their time base, and what is said when one is missing.
+"""Signals in WPILOG logs: their time base, and what is said when one is missing.
 
 The logs come from the little robot in ``wpilog_file``.
 """
 
-import json
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
-from wpilog_file import FOUR, Logger, Motor, motion, routine
+from wpilog_file import FOUR, Logger, Motor, codes, motion, routine, saved
 
 import sim
-from sim.errors import BadRequest, BadSample, MissingSignal
-from sim.log import Log
+from sim.errors import BadSample, MissingSignal
 
 METERS = ("volt", "meter", "meters_per_second")
-
-
-def saved(tmp_path: Path, *motors: Motor, changes_only: bool = False, **how: object) -> Path:
-    logger = Logger(changes_only)
-    routine(logger, *(motors or (Motor("main"),)), **how)
-    return logger.save(tmp_path / "log.wpilog")
-
-
-def codes(log: Log) -> list[str]:
-    return [doubt.code for doubt in log.doubts]
-
-
-def scales(log: Log) -> tuple[float, float, float]:
-    """What the little robot's numbers were multiplied by: voltage, position, velocity."""
-    run = log.of("dynamic-forward")[0]
-    x, v = motion("dynamic-forward", 3)
-    return run.voltage[3] / 7.0, run.position[3] / x, run.velocity[3] / v
-
-
-@pytest.mark.parametrize(
-    ("units", "name", "position", "velocity"),
-    [
-        (("Volt", "Meter", "Meter per Second"), "meters", 1.0, 1.0),
-        (("Volt", "Foot", "Foot per Second"), "feet", 0.3048, 0.3048),
-        (("Volt", "Inch", "Inch per Second"), "inches", 0.0254, 0.0254),
-        (("Volt", "Radian", "Radian per Second"), "radians", 1.0, 1.0),
-        (("Volt", "Rotation", "Rotation per Second"), "rotations", math.tau, math.tau),
-        (("Volt", "Revolution", "Revolution per Second"), "rotations", math.tau, math.tau),
-        (("Volt", "Degree", "Degree per Second"), "degrees", math.tau / 360, math.tau / 360),
-        (("volt", "meter", "meters_per_second"), "meters", 1.0, 1.0),
-        (("volt", "foot", "feet_per_second"), "feet", 0.3048, 0.3048),
-        (("volt", "turn", "turns_per_second"), "rotations", math.tau, math.tau),
-        (("volt", "radian", "radians_per_second"), "radians", 1.0, 1.0),
-        (("VOLTS", "Radians", "RADIANS PER SECOND"), "radians", 1.0, 1.0),
-        (("V", "m", "m/s"), "meters", 1.0, 1.0),
-        (("V", "rot", "rps"), "rotations", math.tau, math.tau),
-        (("V", "rad", " rad/s "), "radians", 1.0, 1.0),
-        (('{"unit": "V"}', '{"unit":"deg"}', '{"unit":"deg/s"}'), "degrees", *[math.tau / 360] * 2),
-    ],
-    ids=lambda value: "/".join(value) if isinstance(value, tuple) else "",
-)
-def test_units_are_read_in_either_language(
-    tmp_path: Path, units: tuple[str, str, str], name: str, position: float, velocity: float
-) -> None:
-    log = sim.read(saved(tmp_path, Motor("main", units=units)))
-
-    assert log.units == name
-    assert log.doubts == ()
-    assert scales(log) == pytest.approx((1.0, position, velocity), rel=1e-15)
-
-
-@pytest.mark.parametrize(
-    ("units", "asked", "name_and_factors", "doubts"),
-    [
-        pytest.param(
-            ("volt", "turn", "revolutions_per_minute"),
-            {},
-            ("rotations", 1, math.tau, math.tau / 60),
-            ["converted-units"],
-            id="a velocity per minute",
-        ),
-        pytest.param(
-            ("volt", "turn", "rpm"),
-            {"units": "rotations"},
-            ("rotations", 1, math.tau, math.tau / 60),
-            ["converted-units"],
-            id="a velocity per minute, and the unit that the file states too",
-        ),
-        pytest.param(
-            ("volt", "Degree", "Radian per Second"),
-            {},
-            ("degrees", 1, math.tau / 360, 1),
-            ["converted-units"],
-            id="two units of the same kind",
-        ),
-        pytest.param(
-            ("millivolt", "meter", "meters_per_second"),
-            {},
-            ("meters", 0.001, 1, 1),
-            ["converted-units"],
-            id="millivolts",
-        ),
-        pytest.param(
-            ("volt", "millimeter", "meters_per_second"),
-            {},
-            ("meters", 1, 0.001, 1),
-            ["converted-units"],
-            id="millimeters",
-        ),
-        pytest.param(
-            METERS,
-            {"units": "inches"},
-            ("inches", 1, 0.0254, 0.0254),
-            ["contradicting-units"] * 2,
-            id="a person says otherwise",
-        ),
-        pytest.param(
-            ("", "", ""), {}, ("meters", 1, 1, 1), ["units-assumed"] * 2, id="none stated"
-        ),
-        pytest.param(
-            ("", "", ""),
-            {"type": "arm"},
-            ("radians", 1, 1, 1),
-            ["units-assumed"] * 2,
-            id="none stated, of an arm",
-        ),
-        pytest.param(
-            ("", "", ""), {"units": "feet"}, ("feet", 1, 0.3048, 0.3048), [], id="a person says it"
-        ),
-        pytest.param(
-            ("", "turn", ""),
-            {},
-            ("rotations", 1, math.tau, math.tau),
-            ["units-assumed"],
-            id="only the position's is stated",
-        ),
-        pytest.param(
-            ("", "", "turns_per_second"),
-            {},
-            ("rotations", 1, math.tau, math.tau),
-            ["units-assumed"],
-            id="only the velocity's is stated",
-        ),
-        pytest.param(
-            ("percent", "furlong", "{broken"),
-            {"units": "feet"},
-            ("feet", 1, 0.3048, 0.3048),
-            ["unknown-unit"] * 2,
-            id="units nobody knows",
-        ),
-    ],
-)
-def test_odd_units_are_taken_with_a_word(
-    tmp_path: Path,
-    units: tuple[str, str, str],
-    asked: dict[str, str],
-    name_and_factors: tuple[str, float, float, float],
-    doubts: list[str],
-) -> None:
-    log = sim.read(saved(tmp_path, Motor("main", units=units)), **asked)
-
-    name, *factors = name_and_factors
-    assert log.units == name
-    assert scales(log) == pytest.approx(tuple(factors), rel=1e-14)
-    assert codes(log) == doubts
-    assert all("main-Arm" in doubt.message for doubt in log.doubts)
-
-
-def test_an_angle_and_a_length_do_not_go_together(tmp_path: Path) -> None:
-    path = saved(tmp_path, Motor("main", units=("volt", "turn", "meters_per_second")))
-
-    with pytest.raises(BadRequest, match=r"'turn'.*'meters_per_second'.*--units"):
-        sim.read(path)
-    assert codes(sim.read(path, units="meters")) == ["contradicting-units"]
-
-
-def test_motors_in_an_angle_and_in_a_length_do_not_go_together(tmp_path: Path) -> None:
-    path = saved(tmp_path, Motor("left"), Motor("right", units=METERS))
-
-    with pytest.raises(BadRequest, match=r"rotations, 'right' in meters.*--motor left"):
-        sim.read(path)
-
-
-def test_motors_in_two_units_of_a_kind_are_converted(tmp_path: Path) -> None:
-    inches = ("Volt", "Inch", "Inch per Second")
-    log = sim.read(saved(tmp_path, Motor("a", units=METERS), Motor("b", units=inches)))
-
-    assert log.units == "meters"
-    assert scales(log) == pytest.approx((1.0, (1 + 0.0254) / 2, (1 + 0.0254) / 2))
 
 
 @pytest.mark.parametrize(
@@ -389,13 +218,6 @@ def test_a_value_that_is_no_measurement_is_refused(
 
     with pytest.raises(BadSample, match=f"dynamic-forward: {signal} is .* at sample 7"):
         sim.read(logger.save(tmp_path / "log.wpilog"), units="meters")
-
-
-def test_metadata_that_is_json_of_something_else_states_no_unit(tmp_path: Path) -> None:
-    said = json.dumps({"properties": {}, "source": "NT"})
-    log = sim.read(saved(tmp_path, Motor("main", units=(said, said, said))))
-
-    assert codes(log) == ["units-assumed"] * 2
 
 
 @pytest.mark.shared

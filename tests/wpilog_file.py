@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from sim.log import Log
+
 HEADER = b"WPILOG\x00\x01" + struct.pack("<I", 0)
 LOOP = 20_000  # [µs]
 FOUR = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
@@ -199,3 +201,15 @@ def logged(motor: Motor, test: str, loop: int) -> Iterator[tuple[str, int, float
     for signal, value, late, every in zip(SIGNALS, values, motor.late, motor.every, strict=True):
         if signal not in motor.leave_out and loop % every == 0:
             yield signal, late, motor.sign * value
+
+
+def saved(folder: Path, *motors: Motor, changes_only: bool = False, **how: object) -> Path:
+    """The log of one routine, of one motor if none is given."""
+    logger = Logger(changes_only)
+    routine(logger, *(motors or (Motor("main"),)), **how)
+    return logger.save(folder / "log.wpilog")
+
+
+def codes(log: Log) -> list[str]:
+    """What is doubted about a log."""
+    return [doubt.code for doubt in log.doubts]
