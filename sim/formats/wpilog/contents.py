@@ -13,7 +13,7 @@ import numpy as np
 
 from sim.formats.wpilog.control import Metadata, Start, parse
 from sim.formats.wpilog.entry import SIZES, Entry
-from sim.formats.wpilog.records import Fields, Numbers, Records, fields
+from sim.formats.wpilog.records import Fields, File, Numbers, Records, fields
 
 SMALL_IDS = 1 << 16  # ids below fit 16 bits, which NumPy sorts by radix
 LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is hardly larger
@@ -61,10 +61,26 @@ class _Life:
     first: int
     last: int
 
-    def own(self, members: Numbers) -> Numbers:
-        """Those of the records with this id that fall into this life."""
-        first, last = np.searchsorted(members, (self.first, self.last))
-        return members[first:last]
+
+@dataclass(frozen=True, eq=False)
+class _Group:
+    """The records that carry one id, in order: their indices, and what their headers say."""
+
+    index: Numbers
+    size: Numbers
+    time: Numbers
+    payload: Numbers
+
+    def during(self, life: _Life) -> "_Group":
+        """Those of them that fall into one life."""
+        if life.first < self.index[0] and self.index[-1] < life.last:
+            return self
+        first, last = self.index.searchsorted((life.first, life.last))
+        return self.of(slice(first, last))
+
+    def of(self, which: slice | Numbers) -> "_Group":
+        """Some of them."""
+        return _Group(self.index[which], self.size[which], self.time[which], self.payload[which])
 
 
 _Lives: TypeAlias = dict[int, list[_Life]]
@@ -73,31 +89,28 @@ _Lives: TypeAlias = dict[int, list[_Life]]
 def contents_of(records: Records) -> Contents:
     """Sort the records of a file into entries, up to the first record that cannot be."""
     head = fields(records.file.buffer, records.start)
-    members = _members(head.id)
+    groups = _groups(head)
     lives, stop = _lives(records, head, before=head.id.size)
     stops = [stop] if stop else []
-    for number, own in members.items():
-        stops += _misfits(number, own, lives.get(number, ()), head)
+    for number, group in groups.items():
+        stops += _misfits(number, group, lives.get(number, ()))
     if stops:
         stop = min(stops)
         lives, _ = _lives(records, head, before=stop.index)
-    return Contents(tuple(_joined(lives, members, records, head)), _damage(records, lives, stop))
+    return Contents(tuple(_joined(lives, groups, records.file)), _damage(records, lives, stop))
 
 
-def _members(ids: Numbers) -> dict[int, Numbers]:
-    """For each entry id the records that carry it, in order; control records left out."""
-    if not ids.size:
+def _groups(head: Fields) -> dict[int, _Group]:
+    """The records of each entry id, control records left out."""
+    if not head.id.size:
         return {}
-    keys = ids.astype(np.uint16) if int(ids.max()) < SMALL_IDS else ids
+    keys = head.id.astype(np.uint16) if int(head.id.max()) < SMALL_IDS else head.id
     order = np.argsort(keys, kind="stable")
-    sorted_ids = ids[order]
-    first = np.flatnonzero(np.concatenate(([True], np.diff(sorted_ids) != 0)))
-    numbers = sorted_ids[first].tolist()
-    return {
-        number: own
-        for number, own in zip(numbers, np.split(order, first[1:]), strict=True)
-        if number
-    }
+    whole = _Group(order, head.size[order], head.time[order], head.payload[order])
+    ids = head.id[order]
+    first = np.flatnonzero(np.diff(ids, prepend=-1)).tolist()
+    bounds = zip(first, [*first[1:], ids.size], strict=True)
+    return {int(ids[a]): whole.of(slice(a, b)) for a, b in bounds if ids[a]}
 
 
 def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Stop | None]:
@@ -119,41 +132,44 @@ def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Sto
     return lives, None
 
 
-def _misfits(number: int, own: Numbers, lives: Sequence[_Life], head: Fields) -> Iterator[_Stop]:
+def _misfits(number: int, group: _Group, lives: Sequence[_Life]) -> Iterator[_Stop]:
     """The first record of an id that belongs to no entry, and any of a size its type cannot have.
 
     Records between a finish and the next start are passed over, as WPILib's own tools do.
     """
-    if not lives or own[0] < lives[0].first:
-        yield _Stop(int(own[0]), f"a record of entry {number}, which was never started")
+    if not lives or group.index[0] < lives[0].first:
+        yield _Stop(int(group.index[0]), f"a record of entry {number}, which was never started")
     for life in lives:
-        size = SIZES.get(life.start.type)
-        if size is None:
-            continue
-        part = life.own(own)
-        wrong = part[head.size[part] != size]
-        if wrong.size:
-            bytes_found = int(head.size[wrong[0]])
-            yield _Stop(int(wrong[0]), f"a {life.start.type} of {bytes_found} bytes")
+        if life.start.type in SIZES:
+            part = group.during(life)
+            wrong = part.size != SIZES[life.start.type]
+            if wrong.any():
+                at = int(wrong.argmax())
+                what = f"a {life.start.type} of {part.size[at]} bytes"
+                yield _Stop(int(part.index[at]), what)
 
 
-def _joined(
-    lives: _Lives, members: Mapping[int, Numbers], records: Records, head: Fields
-) -> Iterator[Entry]:
+def _joined(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[Entry]:
     """One entry for all lives of the same name and type, in the order they first appear."""
     named: dict[tuple[str, str], list[_Life]] = {}
     for life in sorted(chain.from_iterable(lives.values()), key=lambda life: life.first):
         named.setdefault((life.start.name, life.start.type), []).append(life)
     none = np.zeros(0, dtype=np.int64)
     for (name, kind), several in named.items():
-        own = [life.own(members.get(life.start.id, none)) for life in several]
-        at = np.concatenate(own) if len(own) > 1 else own[0]
-        time = head.time[at]
-        if np.any(time[1:] < time[:-1]):
-            order = np.argsort(time, kind="stable")
-            at, time = at[order], time[order]
+        parts = [
+            groups[life.start.id].during(life) for life in several if life.start.id in groups
+        ] or [_Group(none, none, none, none)]
+        whole = parts[0] if len(parts) == 1 else _one_after_another(parts)
+        if (whole.time[1:] < whole.time[:-1]).any():
+            whole = whole.of(np.argsort(whole.time, kind="stable"))
         metadata = next((life.metadata for life in reversed(several) if life.metadata), "")
-        yield Entry(name, kind, metadata, time, head.payload[at], head.size[at], records.file)
+        yield Entry(name, kind, metadata, whole.time, whole.payload, whole.size, file)
+
+
+def _one_after_another(parts: Sequence[_Group]) -> _Group:
+    """Several groups as one."""
+    columns = ("index", "size", "time", "payload")
+    return _Group(*(np.concatenate([getattr(part, one) for part in parts]) for one in columns))
 
 
 def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> Damage | None:
