@@ -212,9 +212,14 @@ def _missed(answers: Answers) -> str:
         float(np.sqrt(np.mean((voltage - columns @ np.array(g)) ** 2))) for g in (gains, good)
     )
     return (
-        f". Your three gains miss the voltage in the log by {mine:.2g} V (RMS); a good fit "
-        f"misses it by {best:.2g} V"
+        f". Your three gains miss the voltage in the log by {_volts(mine)} (RMS); a good fit "
+        f"misses it by {_volts(best)}"
     )
+
+
+def _volts(value: float) -> str:
+    """Two digits, and no powers of ten: a learner reads this."""
+    return f"{value:.2g} V" if value < 10.0 else f"{value:.0f} V"
 
 
 def _scene(variant: Variant) -> Scene:
