@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from sim.doubt import Doubt
 from sim.errors import BadRequest
 from sim.log import Array, Log, Run
 from sim.mechanism import Mechanism
@@ -22,6 +23,7 @@ from sim.simulate import motion, read, simulate
 
 FLATTEST, FULLEST = 9.0, 14.0  # [V] at rest: outside of this a robot does not start a test
 WORST = 0.1  # [Ω] of a battery that still turns a motor
+BROWNOUT = 6.75  # [V] below which a roboRIO 2 stops the motors unless told otherwise
 SETTLED = 1e-6  # [V] change of the battery's voltage below which speed and current agree
 ROUNDS = 300  # the worst battery at full voltage needs about 170
 
@@ -45,8 +47,8 @@ class Battery:
         if not (FLATTEST <= self.rest <= FULLEST and 0.0 <= self.resistance <= WORST):
             raise BadRequest(
                 f"a battery of {self.rest:g} V with {self.resistance:g} Ω",
-                advice=f"Choose {FLATTEST:g} to {FULLEST:g} V, and 0 to {WORST:g} Ω; a good one has 12.6 V "
-                "and 0.02 Ω.",
+                advice=f"Choose {FLATTEST:g} to {FULLEST:g} V, and 0 to {WORST:g} Ω; a good one has "
+                "12.6 V and 0.02 Ω.",
             )
 
 
@@ -69,7 +71,8 @@ def by_duty_cycle(
 
     Returns:
         The log with the voltage that really reached the motors, and the battery's as
-        ``bus_voltage``. What was asked for is 12 V times the first over the second.
+        ``bus_voltage``. What was asked for is 12 V times the first over the second. A battery
+        that falls below ``BROWNOUT`` is a doubt: here it goes on.
 
     Raises:
         BadRequest: as for ``simulate``.
@@ -89,7 +92,17 @@ def by_duty_cycle(
             Run(run.test, run.time[:end], duty * bus[:end], position, seen, bus_voltage=bus[:end])
         )
         start += float(moved[end - 1])
-    return replace(asked, runs=tuple(runs))
+    log = replace(asked, runs=tuple(runs))
+    lowest = min(float(np.min(bus)) for bus in (run.bus_voltage for run in runs) if bus is not None)
+    return log.with_doubts(_brownout(lowest)) if lowest < BROWNOUT else log
+
+
+def _brownout(lowest: float) -> Doubt:
+    return Doubt(
+        "brownout",
+        f"The battery falls to {lowest:.1f} V. Below {BROWNOUT} V a real robot stops its motors, "
+        "and here it does not. Use a smaller step or a better battery.",
+    )
 
 
 def _sag(run: Run, mechanism: Mechanism, battery: Battery) -> tuple[Array, Array, Array]:

@@ -1,0 +1,63 @@
+"""Derive the lessons' notebooks from their text: lessons/*.py -> lessons/*.ipynb.
+
+    python .ci/derive_notebooks.py            all of them
+    python .ci/derive_notebooks.py --check    only say which are out of date; exit code 1 if any is
+
+The text is what people edit. A notebook holds no outputs, and deriving it again changes nothing.
+"""
+
+import hashlib
+import sys
+from collections import Counter
+from pathlib import Path
+
+import jupytext
+import nbformat
+
+LESSONS = Path(__file__).resolve().parents[1] / "lessons"
+KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
+
+
+def derive(text: Path) -> nbformat.NotebookNode:
+    """The notebook of a lesson's text, without outputs and with cell names that stay."""
+    notebook = jupytext.read(text, fmt="py:percent")
+    notebook.metadata = nbformat.from_dict(
+        {"kernelspec": KERNEL, "language_info": {"name": "python"}}
+    )
+    notebook.nbformat, notebook.nbformat_minor = 4, 5
+    seen: Counter[str] = Counter()
+    for cell in notebook.cells:
+        name = hashlib.sha256(cell.source.encode("utf-8")).hexdigest()[:12]
+        seen[name] += 1
+        cell.id = name if seen[name] == 1 else f"{name}-{seen[name]}"
+        cell.metadata = nbformat.from_dict({})
+    nbformat.validate(notebook)
+    return notebook
+
+
+def stale(text: Path) -> bool:
+    """Whether the notebook beside a lesson's text is missing or says something else."""
+    path = text.with_suffix(".ipynb")
+    return not path.exists() or path.read_text(encoding="utf-8") != _as_text(derive(text))
+
+
+def main(arguments: list[str]) -> int:
+    """Derive, or check."""
+    late = [text for text in sorted(LESSONS.glob("*.py")) if stale(text)]
+    for text in late:
+        if "--check" in arguments:
+            print(f"{text.name} was edited: run  python .ci/derive_notebooks.py")
+        else:
+            text.with_suffix(".ipynb").write_text(
+                _as_text(derive(text)), encoding="utf-8", newline="\n"
+            )
+            print(f"derived {text.with_suffix('.ipynb').name}")
+    return 1 if late and "--check" in arguments else 0
+
+
+def _as_text(notebook: nbformat.NotebookNode) -> str:
+    return str(nbformat.writes(notebook)) + "\n"
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

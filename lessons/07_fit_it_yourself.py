@@ -1,0 +1,970 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Lesson 7: Fit it yourself
+#
+# *About 50 minutes. You need lessons 1 and 3. You do not need to know what a regression is: that is
+# what this lesson is about.*
+#
+# **At the end you can**
+#
+# - turn a log into gains with five lines of NumPy;
+# - say why SysId puts the *acceleration* on the left side, and what happens if you do not;
+# - tell SysId's two R² apart, compute both, and say what neither of them can see;
+# - explain how kS can come out negative, and why a filter is not free;
+# - read a suggested kP as what it is: a first guess that follows from three settings.
+
+# %% [markdown]
+# ## 1 Why: the analyzer is not magic
+#
+# SysId reads a log and prints gains. Often they are good. Sometimes they are nonsense that
+# looks just as good. If you have built the fit once yourself, you know where it can go wrong.
+#
+# It is also short. By section 4 you have done most of it.
+#
+# Our robot today is the bench's drivetrain with a bit of play in the gears, so that its velocity
+# reading shakes. We know its true gains, because we built it. A real robot does not tell.
+
+# %%
+from dataclasses import replace
+from pathlib import Path
+
+import ipywidgets as widgets
+import numpy as np
+from IPython.display import display
+
+import sim
+from sim.feedback import allowed_velocity_error, velocity_loop
+from sim.fit import fit
+from sim.guess import Guess
+from sim.mechanism import Mechanism
+from sim.mechanisms import MECHANISMS
+from sim.plot import (
+    Line,
+    Picture,
+    Table,
+    choices,
+    curves,
+    live,
+    misses,
+    time_series,
+    voltage_velocity,
+)
+from sim.prepare import median_filter, prepare
+from sim.simulate import motion, simulate
+from sim.units import unit
+from sim.wiring import Battery, by_duty_cycle
+
+drivetrain = MECHANISMS["drivetrain"]
+
+
+def shaking(noise: float) -> Mechanism:
+    """The drivetrain with a velocity reading that shakes by so much [m/s] while it moves."""
+    return replace(drivetrain, sensor=replace(drivetrain.sensor, velocity_noise=noise))
+
+
+robot = shaking(0.02)
+truth = robot.gains
+routine = sim.Routine(ramp=1.0, step=3.5, timeout=10.0)
+log = simulate(robot, routine, rng=np.random.default_rng(7))
+
+time_series(log, dynamic_seconds=1.0)
+
+# %% [markdown]
+# ## 2 Look first: voltage over velocity
+#
+# The model says what a motion costs in volts:
+#
+# > **V = kS·sgn(v) + kV·v + kA·a**
+#
+# In the slow ramp (the *quasistatic* test) the acceleration is small. Forget it for a moment. Then
+#
+# > V ≈ kS + kV·v
+#
+# is a straight line: it meets standstill at kS and climbs with slope kV. The source lesson reads
+# the gains off this line. `np.polyfit` finds the straight line that misses the samples least.
+#
+# **Predict** before you run on. (No buttons? Type `guess_line.value = "above it"` in a cell.)
+
+# %%
+guess_line = Guess(
+    "Does the line meet standstill at the true kS, below it, or above it?",
+    "below it",
+    "right at it",
+    "above it",
+)
+guess_ramp = Guess(
+    "And with a ramp twice as fast, is the kS that you read off smaller, the same, or larger?",
+    "smaller",
+    "the same",
+    "larger",
+)
+display(guess_line, guess_ramp)
+
+
+# %%
+def line_through(run: sim.Run) -> Line:
+    """The straight line through the moving samples of a ramp."""
+    moving = np.abs(run.velocity) > 0.1
+    slope, intercept = np.polyfit(run.velocity[moving], run.voltage[moving], 1)
+    return Line(float(intercept), float(slope))
+
+
+def ramp_picture(ramp: float) -> Picture:
+    """The line that a ramp of so many volts per second gives, beside the true one."""
+    slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
+    lines = {
+        "straight line": line_through(slow.of("quasistatic-forward")[0]),
+        "truth": Line(truth["kS"], truth["kV"]),
+    }
+    return voltage_velocity(slow, lines=lines)
+
+
+RAMPS = [0.25, 0.5, 1.0, 2.0]
+live(
+    ramp_picture,
+    ramp=widgets.SelectionSlider(
+        options=RAMPS, value=1.0, description="V per s", continuous_update=False
+    ),
+)
+
+# %% [markdown]
+# No slider on your screen? Change the number here:
+
+# %%
+ramp_picture(1.0)
+
+# %% [markdown]
+# Measure all four ramps, and hold them against a rule that we explain right after:
+
+# %%
+timescale = truth["kA"] / truth["kV"]
+rows = []
+for ramp in RAMPS:
+    slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
+    read_off = line_through(slow.of("quasistatic-forward")[0]).intercept
+    rule = truth["kS"] + timescale * ramp
+    rows.append((ramp, read_off, rule, rule + 0.010 * ramp))
+
+print(f"You said: {guess_line}; {guess_ramp}.")
+print(f"True kS: {truth['kS']:.3f} V. kA/kV = {1000 * timescale:.0f} ms.")
+Table(("ramp [V/s]", "kS read off [V]", "kS + (kA/kV)·ramp", "… + half a loop"), tuple(rows))
+
+# %% [markdown]
+# ### Explain
+#
+# A ramp never stops accelerating. When the voltage climbs by `ramp` volts each second, the speed
+# climbs by `ramp/kV` each second, so all the way along `kA·a = (kA/kV)·ramp` volts go into speeding
+# up. The line cannot know that. It books them under kS.
+#
+# (Most of the rest is half a loop, 10 ms: a row holds the speed of *now* and the voltage that is
+# applied *from now on*, so in each row the ramp is on average half a loop ahead of the speed. What
+# then remains is noise; section 4 shows how noise bends a line.)
+#
+# > **Lesson says:** the analyzer fits a line, "the intercept is kS" and "the slope is kV"; kA comes
+# > from the voltage that is left over in the dynamic test.
+# >
+# > **Source says:** SysId does not read lines off a plot. It fits all four tests in one go, and the
+# > thing it explains is the acceleration. Its window has no voltage–velocity plot either: it shows
+# > velocity over time, acceleration over velocity, and the time steps.
+# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
+# >
+# > **Try it:** the slope in the picture above is good. How far off is the intercept at 2 V/s?
+#
+# Keep the picture. It is a good *first look*. For kS and kA we need all three terms at once.
+
+# %% [markdown]
+# ## 3 Three unknowns, a thousand equations
+#
+# Every row of the log is one equation: V, v and a are numbers, the gains are the unknowns. Three
+# rows give three equations, and three equations have one solution. So let us take three rows: one
+# slow, one fast, one that accelerates.
+#
+# The acceleration is not in the log. `np.gradient` takes it from neighbors: the change of velocity
+# divided by the change of time.
+
+# %%
+slow, step = log.of("quasistatic-forward")[0], log.of("dynamic-forward")[0]
+slow_a, step_a = np.gradient(slow.velocity, slow.time), np.gradient(step.velocity, step.time)
+
+solutions = []
+for early, late, start in ((60, 300, 2), (61, 301, 3), (62, 302, 4), (63, 303, 5)):
+    three = [
+        (1.0, slow.velocity[early], slow_a[early]),
+        (1.0, slow.velocity[late], slow_a[late]),
+        (1.0, step.velocity[start], step_a[start]),
+    ]
+    volts = [slow.voltage[early], slow.voltage[late], step.voltage[start]]
+    solutions.append((f"rows {early}, {late} and {start}", *np.linalg.solve(three, volts).tolist()))
+
+Table(
+    ("three rows", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]"),
+    (*solutions, ("truth", truth["kS"], truth["kV"], truth["kA"])),
+)
+
+# %% [markdown]
+# Four times the same robot, four different answers. Each row is a little wrong, and three rows have
+# no way to tell. A thousand rows do: no gains can fit all of them, so we take the gains that **miss
+# them least**.
+#
+# "Least" needs a rule. Ours is the oldest: square each miss, add them up, make the sum small. It is
+# called **least squares**, or a *regression*. Squares, because a miss up and a miss down must not
+# cancel, and because there is a formula for the answer.
+#
+# **Try it by hand** on six samples of the ramp. Move both sliders until the sum at the bottom is as
+# small as you can make it.
+
+# %%
+some = slice(40, None, 60)
+six_v, six_volts = slow.velocity[some], slow.voltage[some]
+
+
+def by_hand(intercept: float, slope: float) -> Picture:
+    """How far a line of your choice misses six samples."""
+    labels = {"xlabel": "velocity [m/s]", "ylabel": "voltage [V]"}
+    return misses(six_v, six_volts, intercept=intercept, slope=slope, **labels)
+
+
+live(
+    by_hand,
+    intercept=widgets.FloatSlider(
+        min=0, max=1, step=0.01, value=0.8, description="V at v = 0", continuous_update=False
+    ),
+    slope=widgets.FloatSlider(
+        min=1.5, max=3.5, step=0.01, value=2.0, description="V per m/s", continuous_update=False
+    ),
+)
+
+# %% [markdown]
+# No sliders? Change the numbers here, a few times:
+
+# %%
+by_hand(intercept=0.8, slope=2.0)
+
+# %% [markdown]
+# And the formula's answer. `np.linalg.lstsq` ("least squares") wants the equations as a table, one
+# row per sample, one **column per unknown**: what stands next to it. For a line with intercept and
+# slope, the columns are 1 and v.
+
+# %%
+columns = np.column_stack([np.ones(six_v.size), six_v])
+(intercept, slope), *_ = np.linalg.lstsq(columns, six_volts, rcond=None)
+by_hand(float(intercept), float(slope))
+
+# %% [markdown]
+# Nobody beats that sum with a straight line. That is all a regression is.
+
+# %% [markdown]
+# ## 4 The whole fit in five lines
+#
+# Same thing, with three columns and every moving row of all four tests:
+
+
+# %%
+def signals(log: sim.Log) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Voltage, velocity and acceleration of every row that moves."""
+    volts = np.concatenate([run.voltage for run in log.runs])
+    v = np.concatenate([run.velocity for run in log.runs])
+    a = np.concatenate([np.gradient(run.velocity, run.time) for run in log.runs])
+    moving = np.abs(v) > 0.05
+    return volts[moving], v[moving], a[moving]
+
+
+def voltage_left(log: sim.Log) -> dict[str, float]:
+    """The model as it is written: V = kS·sgn(v) + kV·v + kA·a."""
+    volts, v, a = signals(log)
+    columns = np.column_stack([np.sign(v), v, a])
+    (ks, kv, ka), *_ = np.linalg.lstsq(columns, volts, rcond=None)
+    return {"kS": float(ks), "kV": float(kv), "kA": float(ka)}
+
+
+HEADER = ("fit", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]")
+first_try = voltage_left(log)
+Table(
+    HEADER, (("five lines, voltage on the left", *first_try.values()), ("truth", *truth.values()))
+)
+
+# %% [markdown]
+# kV is excellent. kA is not even close. There are no spikes in this log, no slip, no bad battery.
+# What happened?
+#
+# ### Which side is noisy?
+#
+# A small experiment. The truth is y = 2·x. First we add noise to **y**, then, in a second data set,
+# the same noise to **x**. Each time least squares looks for the slope.
+#
+# **Predict:**
+
+# %%
+guess_noise = Guess(
+    "Which slope is too small?", "with noise in y", "with noise in x", "both", "neither"
+)
+guess_noise
+
+# %%
+rng = np.random.default_rng(1)
+x = rng.uniform(-1, 1, 5000)
+noise = 0.5 * rng.standard_normal(x.size)
+in_y = np.linalg.lstsq(x[:, None], 2 * x + noise, rcond=None)[0][0]
+in_x = np.linalg.lstsq((x + noise)[:, None], 2 * x, rcond=None)[0][0]
+print(f"You said: {guess_noise}.")
+print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2")
+
+# %% [markdown]
+# Noise on the **left** side (the side that is explained) averages out. Noise in a **column** does
+# not: it makes the column look less useful than it is, and its number shrinks. More data does not
+# help. ("Noise averages out" is only true on the left.)
+#
+# Our noisiest signal is the acceleration, because taking differences makes noise larger. In the
+# five lines above it was a column. So move it to the left. Solve the model for a:
+#
+# > a = −(kV/kA)·v + (1/kA)·V − (kS/kA)·sgn(v)
+#
+# Call the three numbers α, β and γ. Then kA = 1/β, kV = −α/β and kS = −γ/β.
+
+
+# %%
+def acceleration_left(log: sim.Log) -> dict[str, float]:
+    """The model solved for the acceleration, as SysId does it."""
+    volts, v, a = signals(log)
+    columns = np.column_stack([v, volts, np.sign(v)])
+    (alpha, beta, gamma), *_ = np.linalg.lstsq(columns, a, rcond=None)
+    return {"kS": float(-gamma / beta), "kV": float(-alpha / beta), "kA": float(1 / beta)}
+
+
+second_try = acceleration_left(log)
+Table(
+    HEADER,
+    (
+        ("voltage on the left", *first_try.values()),
+        ("acceleration on the left", *second_try.values()),
+        ("truth", *truth.values()),
+    ),
+)
+
+# %% [markdown]
+# How much noise does each of them bear? For each level we make five logs and average:
+
+# %%
+NOISE = [0.0, 0.005, 0.01, 0.015, 0.02, 0.03, 0.04]
+sides = {"voltage on the left": voltage_left, "acceleration on the left": acceleration_left}
+found = {name: [] for name in sides}
+for level in NOISE:
+    logs = [simulate(shaking(level), routine, rng=np.random.default_rng(seed)) for seed in range(5)]
+    for name, method in sides.items():
+        found[name].append(float(np.mean([method(one)["kA"] for one in logs])))
+
+curves(
+    NOISE,
+    found,
+    xlabel="noise of the velocity [m/s]",
+    ylabel="kA [V·s²/m]",
+    levels={"the truth": truth["kA"]},
+)
+
+# %% [markdown]
+# Acceleration on the left is the better choice, and it is SysId's. It is not immune: the velocity
+# is still a column, and it is noisy too, so in the end kA drifts the other way. Bear that in mind
+# when somebody shows you gains from a rattling gearbox.
+
+# %% [markdown]
+# ## 5 What SysId does before it fits
+#
+# SysId's fit is the five lines above. Before it come four steps:
+#
+# 1. **Threshold.** Quasistatic rows slower than a threshold are dropped: at standstill, friction is
+#    whatever the voltage is, and says nothing about kS.
+# 2. **Median filter** on the velocity, if you ask for it (*Window Size*). It replaces each value by
+#    the middle one of its neighbors. Off by default.
+# 3. **Acceleration** from the two neighbors, divided by the **mean** time step of the test.
+# 4. **Trim the dynamic tests:** only from the peak of acceleration to 90 % of the top speed.
+#
+# Here they are. Each is a line or two, and each can be switched.
+
+
+# %%
+def rows_of(
+    run: sim.Run, *, threshold: float, median: int, mean_dt: bool, trim: bool
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Voltage, velocity and acceleration of one test, prepared."""
+    keep = np.ones(len(run), dtype=bool)
+    if run.kind == "quasistatic":
+        keep = np.abs(run.velocity) >= threshold
+    time, volts, v = run.time[keep], run.voltage[keep], run.velocity[keep]
+    if median > 1:
+        v = median_filter(v, window=median)
+    a = np.gradient(v) / np.mean(np.diff(time)) if mean_dt else np.gradient(v, time)
+    if trim and run.kind == "dynamic":
+        peak = int(np.argmax(np.sign(v) * a))
+        fast = peak + int(np.argmax(np.abs(v[peak:]) > 0.9 * np.abs(v).max()))
+        volts, v, a = (signal[peak : fast + 1] for signal in (volts, v, a))
+    return volts, v, a
+
+
+def my_fit(
+    log: sim.Log,
+    *,
+    left: str = "acceleration",
+    threshold: float = 0.05,
+    median: int = 1,
+    mean_dt: bool = True,
+    trim: bool = True,
+) -> dict[str, float]:
+    """Gains from the prepared rows of all tests, by least squares."""
+    settings = {"threshold": threshold, "median": median, "mean_dt": mean_dt, "trim": trim}
+    prepared = zip(*(rows_of(run, **settings) for run in log.runs), strict=True)
+    volts, v, a = (np.concatenate(parts) for parts in prepared)
+    if left == "voltage":
+        (ks, kv, ka), *_ = np.linalg.lstsq(np.column_stack([np.sign(v), v, a]), volts, rcond=None)
+        return {"kS": float(ks), "kV": float(kv), "kA": float(ka)}
+    (alpha, beta, gamma), *_ = np.linalg.lstsq(
+        np.column_stack([v, volts, np.sign(v)]), a, rcond=None
+    )
+    return {"kS": float(-gamma / beta), "kV": float(-alpha / beta), "kA": float(1 / beta)}
+
+
+recipe = fit(log, method="sysid")
+Table(
+    HEADER,
+    (
+        ("five lines, nothing prepared", *second_try.values()),
+        ("my fit, four steps", *my_fit(log).values()),
+        ("SysId's recipe", *recipe.gains.values()),
+        ("truth", *truth.values()),
+    ),
+)
+
+# %% [markdown]
+# Yours and SysId's are close. What is left are details: SysId finds its threshold from the noise,
+# and drops a row here and there. Hand the five lines the very rows that SysId's recipe keeps, and
+# nothing is left:
+
+# %%
+kept = list(prepare(log).rows.values())
+v, volts, a = (
+    np.concatenate([getattr(rows, name) for rows in kept])
+    for name in ("velocity", "voltage", "acceleration")
+)
+(alpha, beta, gamma), *_ = np.linalg.lstsq(np.column_stack([v, volts, np.sign(v)]), a, rcond=None)
+print(f"five lines: kS = {-gamma / beta:.9f}   kV = {-alpha / beta:.9f}   kA = {1 / beta:.9f}")
+print("SysId's:    " + "   ".join(f"{name} = {value:.9f}" for name, value in recipe.gains.items()))
+used = recipe.samples_used
+print(
+    f"rows used: {used['quasistatic-forward']} of the ramp, {used['dynamic-forward']} of the step"
+)
+
+# %% [markdown]
+# Look at the last line. Of the whole dynamic test only a handful of rows is used, because this
+# robot is up to speed so fast. Much of kA hangs on them.
+#
+# > **Lesson says:** run the dynamic test too long, and "kA becomes unobservable".
+# >
+# > **Source says:** SysId cuts the dynamic test at 90 % of the top speed by itself (*Test
+# > Duration*). The danger of a long test is to the hardware. It *is* a danger to home-made fits
+# > that do not trim.
+# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# >
+# > **Try it:** `trim=False` in the next section.
+
+# %% [markdown]
+# ## 6 Same data, five choices, five kA's
+#
+# A real robot program misses a loop now and then. Our log shall too: one row in twenty is missing.
+# Then we fit the **same data** with five choices made differently, one at a time:
+# which side is noisy, the threshold, the filter, the time step, the trim.
+#
+# **Predict:**
+
+# %%
+guess_choice = Guess(
+    "Which choice hurts kA the most?", "side", "threshold", "filter", "time step", "trim"
+)
+guess_choice
+
+
+# %%
+def with_missed_loops(log: sim.Log, *, share: float, rng: np.random.Generator) -> sim.Log:
+    """The same log without some of its rows."""
+    runs = []
+    for run in log.runs:
+        keep = rng.random(len(run)) >= share
+        signals = ("time", "voltage", "position", "velocity")
+        runs.append(replace(run, **{name: getattr(run, name)[keep] for name in signals}))
+    return replace(log, runs=tuple(runs))
+
+
+WAYS = {
+    "as SysId does it": {},
+    "side: voltage on the left": {"left": "voltage"},
+    "threshold: none": {"threshold": 0.0},
+    "threshold: 1 m/s": {"threshold": 1.0},
+    "filter: median of 5": {"median": 5},
+    "filter: median of 15": {"median": 15},
+    "time step: each row's own": {"mean_dt": False},
+    "trim: none": {"trim": False},
+}
+gappy = []
+for seed in range(8):
+    rng = np.random.default_rng(seed)
+    gappy.append(with_missed_loops(simulate(robot, routine, rng=rng), share=0.05, rng=rng))
+
+results = {way: [my_fit(one, **s)["kA"] for one in gappy] for way, s in WAYS.items()}
+print(f"You said: {guess_choice}.")
+choices(
+    {way: float(np.mean(values)) for way, values in results.items()},
+    spreads={way: float(np.std(values)) for way, values in results.items()},
+    truth=truth["kA"],
+    name="kA",
+    unit="V·s²/m",
+)
+
+# %% [markdown]
+# Dots are the mean of eight logs, bars how much one log differs from the next. None of these is a
+# mistake in the arithmetic. They are decisions, and somebody made them for you.
+#
+# Try combinations yourself:
+
+
+# %%
+def try_choices(left: str, threshold: float, median: int, *, mean_dt: bool, trim: bool) -> Picture:
+    """The kA of one log, with choices of your own."""
+    settings = {"threshold": threshold, "median": median, "mean_dt": mean_dt, "trim": trim}
+    values = {
+        "as SysId does it": my_fit(gappy[0])["kA"],
+        "your choice": my_fit(gappy[0], left=left, **settings)["kA"],
+    }
+    return choices(values, truth=truth["kA"], name="kA", unit="V·s²/m")
+
+
+live(
+    try_choices,
+    left=widgets.Dropdown(options=["acceleration", "voltage"], description="left side"),
+    threshold=widgets.FloatSlider(
+        min=0, max=1.5, step=0.05, value=0.05, description="threshold", continuous_update=False
+    ),
+    median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median"),
+    mean_dt=widgets.Checkbox(value=True, description="mean time step"),
+    trim=widgets.Checkbox(value=True, description="trim the step"),
+)
+
+# %% [markdown]
+# No controls? Here:
+
+# %%
+try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
+
+# %% [markdown]
+# ### Explain
+#
+# - **Side** and **filter** matter most: noise in a column shrinks its gain, and so does a window
+#   that is longer than the motion it looks at (section 9).
+# - **Time step.** Where rows are missing, the mean step is wrong for the rows beside the gap. SysId
+#   uses the mean, so gaps in the log cost it accuracy in kA. kV does not care.
+# - **Trim.** Rows at full speed hold no acceleration, only noise. They dilute the few that do.
+# - **Threshold** hardly matters *here*, because our encoder is quiet at rest. With a noisy one,
+#   standstill rows have a random sgn(v). Try `replace(robot.sensor, noise_speed=1e-9)`.
+#
+# And beware of luck: with a filter that makes kA smaller and noise that makes it larger, two wrongs
+# can hit the truth. On another robot they will not.
+
+# %% [markdown]
+# ## 7 Two misses, two R²
+#
+# You now have gains. Are they good? There are two ways to ask, and SysId has a score for each.
+#
+# - **Equation error:** row by row, how far is the measured acceleration from the model's? The rows
+#   do not know of each other. SysId's score is the **acceleration R²**.
+# - **Simulation error:** give the model only the *voltage* of a whole test, let it run, and compare
+#   its velocity with the measured one. Mistakes add up on the way. SysId's score is the
+#   **simulated velocity R²**.
+#
+# First the picture. The thin black line is the simulation with the gains of SysId's recipe:
+
+
+# %%
+def simulated(log: sim.Log, gains: dict[str, float]) -> sim.Log:
+    """What the gains make of the log's voltages."""
+    runs = []
+    for run in log.runs:
+        moved, velocity = motion(gains, time=run.time, voltage=run.voltage)
+        runs.append(replace(run, position=run.position[0] + moved, velocity=velocity))
+    return replace(log, runs=tuple(runs))
+
+
+model = simulated(log, recipe.gains)
+time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds=1.0)
+
+# %% [markdown]
+# Now both numbers, by hand. The textbook defines
+#
+# > R² = 1 − (sum of squared misses) / (sum of squared distances from the mean)
+#
+# so 1 is perfect, and 0 is no better than always guessing the mean.
+
+# %%
+explained = np.column_stack([v, volts, np.sign(v)]) @ [alpha, beta, gamma]
+acceleration_r2 = 1 - np.sum((a - explained) ** 2) / np.sum((a - a.mean()) ** 2)
+
+forward = ("quasistatic-forward", "dynamic-forward")
+seen = np.concatenate([log.of(test)[0].velocity for test in forward])
+said = np.concatenate([model.of(test)[0].velocity for test in forward])
+rmse = np.sqrt(np.mean((seen - said) ** 2))
+textbook = 1 - np.sum((seen - said) ** 2) / np.sum((seen - seen.mean()) ** 2)
+sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
+
+print(f"acceleration R²         by hand {acceleration_r2:.3f}   SysId {recipe.acceleration_r2:.3f}")
+print(f"simulated velocity R²   by hand {sysids:.3f}   SysId {recipe.simulated_velocity_r2:.3f}")
+print(f"the same, textbook R²   by hand {textbook:.4f}")
+print(f"RMSE, the typical miss  by hand {rmse:.4f} m/s")
+print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} in the textbook's sense (means left in).")
+
+# %% [markdown]
+# > **Lesson says:** "R² value is above 0.9 in the analyzer."
+# >
+# > **Source says:** there are two. The *acceleration* R² "rarely goes above 0.5, even on very good
+# > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² should be above 0.9.
+# > ([Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). Nothing
+# > is squared, no mean is taken off, so its 0.9 asks for more than it seems to.
+# > ([SysId's source: AnalyzerPlot.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/view/AnalyzerPlot.cpp))
+# > (The docs page calls the acceleration the *independent* variable. In the code it is the one that
+# > is explained, on the left.)
+# >
+# > **Try it:** you just did. From now on, never write "R²" without saying which.
+#
+# ### What R² cannot see
+#
+# Five logs of the same drivetrain. Cover the two right columns and rank them by R². Then uncover.
+
+# %%
+quiet = simulate(drivetrain, routine, rng=np.random.default_rng(3))
+fast_log = simulate(drivetrain, routine, rng=np.random.default_rng(3), period=0.005)
+tired = Battery(rest=12.2, resistance=0.035)
+hard = sim.Routine(ramp=1.0, step=7.0)
+sag = by_duty_cycle(drivetrain, hard, battery=tired, rng=np.random.default_rng(3))
+
+
+def changed(log: sim.Log, *, speed: float = 1.0, asked: bool = False) -> sim.Log:
+    """A log with the encoder's numbers multiplied, or with the voltage that was asked for."""
+    runs = []
+    for run in log.runs:
+        volts = 12.0 * run.voltage / run.bus_voltage if asked else run.voltage
+        position, velocity = speed * run.position, speed * run.velocity
+        runs.append(replace(run, voltage=volts, position=position, velocity=velocity))
+    return replace(log, runs=tuple(runs))
+
+
+suspects = {
+    "clean": quiet,
+    "clean, logged at 200 Hz": fast_log,
+    "gear ratio typed in wrong (÷ 1.25)": changed(quiet, speed=1 / 1.25),
+    "encoder the wrong way": changed(quiet, speed=-1.0),
+    "asked-for voltage, tired battery, 7 V": changed(sag, asked=True),
+}
+rows = []
+for name, one in suspects.items():
+    got = fit(one, method="sysid")
+    ratios = [got.gains[gain] / truth[gain] for gain in ("kV", "kA")]
+    rows.append((name, got.acceleration_r2, got.simulated_velocity_r2, *ratios))
+Table(("log", "acceleration R²", "simulated velocity R²", "kV ÷ true", "kA ÷ true"), tuple(rows))
+
+# %% [markdown]
+# - **A low R² is not a failure.** Logging faster makes each difference of neighbors noisier, and
+#   the acceleration R² drops. The gains are as good as before.
+# - **A high R² is not a success.** A wrong ratio or a wrong sign gives the *same* R² to the last
+#   digit: it is a perfect log of another robot. And the asked-for voltage gives nearly the highest
+#   R² in the table, with the worst kA.
+#
+# What does catch them: signs, kV and kA against what motors and mass predict (lesson 1), forward
+# against reverse, and looking at the plots (lesson 6).
+
+# %% [markdown]
+# ## 8 How can kS be negative?
+#
+# Friction cannot push. Still, SysId prints a negative kS now and then. Here is how. We make the
+# velocity shake more and more, and watch kS, kA, and one more column: **kS + kA·(ramp/kV)**.
+
+# %%
+rows = []
+for level in (0.0, 0.02, 0.04, 0.06, 0.08, 0.10):
+    logs = [simulate(shaking(level), routine, rng=np.random.default_rng(seed)) for seed in range(5)]
+    gains = [fit(one, method="sysid").gains for one in logs]
+    ks, kv, ka = (float(np.mean([one[name] for one in gains])) for name in ("kS", "kV", "kA"))
+    rows.append((level, ks, ka, ks + ka * routine.ramp / kv))
+
+print(f"true kS {truth['kS']:.3f} V, true kA {truth['kA']:.3f} V·s²/m")
+Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tuple(rows))
+
+# %% [markdown]
+# The last column hardly moves while the noise is moderate. You know it from section 2: it is where
+# the straight line meets standstill. The ramp has many rows, and they pin down this **sum**. They
+# do not say how much of it is kS and how much is kA; only the few rows of the step do. So when
+# noise inflates kA, kS has to give way, down to zero and below.
+#
+# A negative kS is therefore rarely about friction. Ask first: **why is kA too large?** Noise, a
+# voltage that was asked for but never arrived, a slipping wheel, a lurch. (The other common cause
+# is gravity fitted with the type *Simple*: lesson 2.)
+
+# %% [markdown]
+# ## 9 A filter is not free
+#
+# Noise inflates kA, and a median filter takes noise away. So: turn it up?
+#
+# **Predict** for our quiet drivetrain:
+
+# %%
+guess_filter = Guess(
+    "With a window of 15 samples, kA is…", "still right", "a little too small", "less than half"
+)
+guess_filter
+
+# %%
+WINDOWS = [1, 3, 5, 7, 9, 11, 13, 15]
+levels = {"a quiet encoder": 0.0075, "an encoder that rattles": 0.06}
+by_window = {name: [] for name in levels}
+for name, level in levels.items():
+    logs = [simulate(shaking(level), routine, rng=np.random.default_rng(seed)) for seed in range(5)]
+    for window in WINDOWS:
+        fits = [fit(one, method="sysid", median=window).gains["kA"] for one in logs]
+        by_window[name].append(float(np.mean(fits)))
+
+print(f"You said: {guess_filter}.")
+print(f"kA/kV = {1000 * timescale:.0f} ms, which is {timescale / 0.02:.1f} samples of 20 ms.")
+curves(
+    WINDOWS,
+    by_window,
+    xlabel="window of the median filter [samples]",
+    ylabel="kA [V·s²/m]",
+    levels={"the truth": truth["kA"]},
+)
+
+# %% [markdown]
+# After a step the velocity rises with the timescale kA/kV. A window that is longer than that
+# flattens the rise itself: the filter removes what you came to measure. WPILib's docs call it
+# "eating" the acceleration data, and warn that kA then tends toward zero.
+#
+# A window of 3 to 5 helps a rattling encoder on a *slow* mechanism. On a fast one, log faster, or
+# fix the rattle.
+
+# %% [markdown]
+# ## 10 From gains to a first kP
+#
+# SysId also suggests a feedback gain, kP: how many volts to add per unit of velocity error. It
+# comes out of the gains and **three settings**, and the settings are yours:
+#
+# - **q**, the velocity error you are willing to see;
+# - **r**, the volts you are willing to spend on it;
+# - the **delay** of the measurement.
+#
+# A method called LQR (*linear-quadratic regulator*) finds the kP that balances the two. Small q and
+# large r mean a large kP. A delay makes it smaller, because late corrections shake.
+#
+# > **Lesson says:** "SysId suggests kP = 0.62" for kS 0.14, kV 2.68, kA 0.34.
+# >
+# > **Source says:** such gains are "educated guesses", a "starting point".
+# > ([WPILib docs: Analyzing Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/analyzing-gains.html))
+# >
+# > **Try it:** which q does 0.62 stand for?
+
+# %%
+lesson_kv, lesson_ka = 2.68, 0.34
+QS = np.round(np.arange(0.5, 4.01, 0.25), 2)
+
+
+def kp_picture(q: float, r: float, delay: int) -> Picture:
+    """The suggested kP over the allowed error, for the source lesson's gains."""
+
+    def suggested(error: float) -> float:
+        loop = velocity_loop(
+            kv=lesson_kv, ka=lesson_ka, velocity_error=error, volts=r, delay=delay / 1000
+        )
+        return loop.kp
+
+    return curves(
+        QS,
+        {f"{r:.0f} V, {delay} ms late": [suggested(float(error)) for error in QS]},
+        xlabel="q, the allowed velocity error [m/s]",
+        ylabel="kP [V·s/m]",
+        levels={"the source lesson's": 0.62},
+        marked=(q, suggested(q)),
+    )
+
+
+live(
+    kp_picture,
+    q=widgets.FloatSlider(
+        min=0.5, max=4, step=0.05, value=1.5, description="q [m/s]", continuous_update=False
+    ),
+    r=widgets.FloatSlider(
+        min=1, max=12, step=0.5, value=7, description="r [V]", continuous_update=False
+    ),
+    delay=widgets.IntSlider(
+        min=0, max=120, step=10, value=0, description="late [ms]", continuous_update=False
+    ),
+)
+
+# %% [markdown]
+# No sliders? Here:
+
+# %%
+kp_picture(q=1.5, r=7.0, delay=0)
+
+# %%
+at_load = allowed_velocity_error(ks=0.14, kv=lesson_kv)
+rows = []
+for name, q, delay in (
+    ("1.5 m/s, the default in SysId's code", 1.5, 0.0),
+    ("a quarter of the top speed, what its window sets", at_load, 0.0),
+    ("what the source lesson's kP stands for", 3.43, 0.0),
+    ("1.5 m/s, measured 112 ms late, as by a NEO itself", 1.5, 0.112),
+):
+    kp = velocity_loop(kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay).kp
+    rows.append((name, q, kp))
+Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
+
+# %% [markdown]
+# Same gains, same method, very different kP's. Start with one of them, and tune on the robot.
+#
+# And remember where kA enters here: a kA that is wrong by a factor of two gives a wrong kP, without
+# any warning.
+
+# %% [markdown]
+# ## 11 Your own log
+#
+# In exercise 9 you fit a log of a mechanism that only you have. `grade start` makes it, or
+# `grade exercise9` when you grade for the first time. If it is there, the next cell reads it.
+
+# %%
+mine = sorted(Path("..", "exercises", "exercise9", "data").glob("*/log.wpilog"))
+if mine:
+    own = sim.read(mine[0])
+    print(f"Read {mine[0]}: a log of {own.mechanism or 'a mechanism'}, in {own.units}.")
+else:
+    own = simulate(
+        MECHANISMS["shooter"].draw(np.random.default_rng(9)),
+        sim.Routine(ramp=0.5, step=3.5),
+        rng=np.random.default_rng(9),
+    )
+    print("No log of your own yet. Make it in a terminal, in the course's folder:  grade start")
+    print("Until then, here is a shooter from the bench.")
+
+time_series(own, dynamic_seconds=1.0)
+
+# %% [markdown]
+# Fit it with SysId's recipe, and with your own five lines. For a log in rotations, gains per radian
+# (which is what the bench computes in) become gains per rotation: times 2π.
+
+# %%
+best = fit(own, method="sysid").in_log_units()
+per = unit(own.units)
+scale = {"kS": 1.0, "kV": per.si, "kA": per.si}
+top_speed = max(float(np.abs(run.velocity).max()) for run in own.runs)
+hand = my_fit(own, threshold=0.02 * top_speed)
+Table(
+    ("gain", "SysId's recipe", "one standard error", "my fit", "unit"),
+    tuple(
+        (gain, best.gains[gain], best.errors[gain], hand[gain] * scale[gain], best.gain_unit(gain))
+        for gain in ("kS", "kV", "kA")
+    ),
+)
+
+# %%
+print(f"acceleration R²:       {best.acceleration_r2:.3f}")
+print(f"simulated velocity R²: {best.simulated_velocity_r2:.3f}")
+for doubt in best.doubts:
+    print(f"Doubt: {doubt.message}")
+
+# %% [markdown]
+# The same in a terminal:
+#
+# ```
+# sysid fit exercises/exercise9/data/me/log.wpilog --method sysid
+# ```
+
+# %% [markdown]
+# ## 12 System check
+#
+# Before you trust a fit, all five:
+#
+# - [ ] All four tests are in the log, and you **looked** at them.
+# - [ ] kV and kA are positive, kS is not negative.
+# - [ ] kV and kA are near what motors, gears and mass predict.
+# - [ ] You know the window of the median filter, and it is shorter than kA/kV.
+# - [ ] You can say which R² you quote.
+#
+# ## 13 Knowledge check
+#
+# **1.** Why is the acceleration on the left side of SysId's fit?
+#
+# <details><summary>Answer</summary>
+#
+# It is the noisiest signal. Noise on the left averages out; noise in a column shrinks that
+# column's number, however long the log is.
+# </details>
+#
+# **2.** Somebody's kS is −0.1 V, kA is three times what you expect, the simulated velocity R² is
+# 0.93. Where do you look?
+#
+# <details><summary>Answer</summary>
+#
+# At kA, not at friction. The ramp pins down kS + kA·(ramp/kV), so a kA that is too large pushes kS
+# down. Look for noise in the velocity, for a log of the asked-for voltage, for slip. The R² says
+# little: it does not see any of these well.
+# </details>
+#
+# **3.** Your acceleration R² is 0.35. Is the fit bad?
+#
+# <details><summary>Answer</summary>
+#
+# Not necessarily. WPILib's docs call values above 0.5 rare even for good data. Below about 0.2, kA
+# is dubious. Compare kA with its prediction, and forward with reverse.
+# </details>
+#
+# **4.** Your flywheel has kA/kV = 400 ms, your turret 15 ms. For which one is a median window of 5
+# (at 20 ms) harmless?
+#
+# <details><summary>Answer</summary>
+#
+# The flywheel: five samples are 100 ms, a quarter of its timescale. The turret is up to speed
+# within a few samples; the filter erases its kA, and even without one, 20 ms is too slow to see it.
+# </details>
+#
+# **5.** A teammate pastes SysId's kP and the drivetrain shakes. "So SysId is wrong." Is it?
+#
+# <details><summary>Answer</summary>
+#
+# kP follows from q, r and the delay. Was the preset of the right motor controller chosen, and with
+# it the delay? Are the gains per meter and the controller counting in rotations? Then start lower.
+# It is a starting point.
+# </details>
+
+# %% [markdown]
+# ## 14 Practice
+#
+# **Exercise 9.** Write your gains and both R² into `exercises/exercise9/answers.toml`, then
+#
+# ```
+# grade exercise9
+# ```
+#
+# If a number is off by a factor that has a name (2π, a swapped pair, a sign), it will tell you.
+# Hints cost nothing: `grade exercise9 --hint`.
+#
+# **More, if you like.**
+#
+# - Make `my_fit` print how far forward-only and reverse-only gains differ.
+# - Fit the shooter with a window of 15. Why does it survive?
+# - Give the robot a noisy standstill (section 6), and find the threshold that repairs the fit.
+#
+# Next: lesson 8, from the analyzer to the robot.

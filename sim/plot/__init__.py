@@ -1,0 +1,26 @@
+"""Pictures of logs and of gains: each with its words and its numbers. Only here is matplotlib used.
+
+    from sim.plot import time_series
+    time_series(log)                          # in a notebook: picture, words, table
+    time_series(log).save("log.svg")          # in a script
+
+Nothing here needs a screen, and nothing here keeps a state: a picture is made, and that is all.
+"""
+
+from sim.plot.charts import choices, curves, misses
+from sim.plot.live import live
+from sim.plot.logs import Line, time_series, voltage_velocity
+from sim.plot.picture import Picture
+from sim.plot.table import Table
+
+__all__ = [
+    "Line",
+    "Picture",
+    "Table",
+    "choices",
+    "curves",
+    "live",
+    "misses",
+    "time_series",
+    "voltage_velocity",
+]

@@ -1,0 +1,201 @@
+"""Numbers to compare: gains against the truth, one number against another, misses of a line."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from sim.errors import BadRequest
+from sim.log import Array
+from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture, panels
+from sim.plot.table import Cell, Table, shown
+
+WINDOW = 0.25  # [share of the truth] always shown around it, so that a small error looks small
+TABLE_ROWS = 8  # of a curve: a table is read, not scanned
+
+
+def choices(
+    values: Mapping[str, float],
+    *,
+    truth: float,
+    name: str,
+    unit: str = "",
+    spreads: Mapping[str, float] | None = None,
+) -> Picture:
+    """One number found in several ways, as dots beside the line of the truth.
+
+    Args:
+        values: way -> number, from top to bottom.
+        truth: what it should be.
+        name: of the number: ``kA``.
+        unit: of the number: ``V·s²/m``.
+        spreads: way -> standard deviation over repetitions, drawn as a bar; may lack ways.
+
+    Raises:
+        BadRequest: there are no values.
+    """
+    if not values:
+        raise BadRequest("there is nothing to compare", advice="Give at least one value.")
+    figure, ((axes,),) = panels(1, 1, height=0.9 + 0.36 * len(values))
+    axes.axvline(truth, color=REFERENCE, linestyle="--", linewidth=1.2)
+    rows = []
+    for place, (way, value) in enumerate(values.items()):
+        mark = place % len(MARKERS)
+        spread = (spreads or {}).get(way, 0.0)
+        axes.errorbar(
+            value,
+            place,
+            xerr=spread or None,
+            fmt=MARKERS[mark],
+            color=COLORS[mark],
+            markersize=8,
+            capsize=4,
+        )
+        axes.annotate(
+            shown(value),
+            (value, place),
+            xytext=(0, 7),
+            textcoords="offset points",
+            ha="center",
+            fontsize=8,
+            color=INK,
+            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},
+        )
+        rows.append((way, value, _percent(value, truth)))
+    label = f"{name} [{unit}]" if unit else name
+    axes.set_xlabel(f"{label} (dashed line: the truth, {shown(truth)})", color=INK)
+    axes.set_yticks(range(len(values)), list(values))
+    axes.set_ylim(len(values) - 0.4, -0.8)
+    axes.margins(x=0.1)
+    near = WINDOW * abs(truth) * np.array([-1.0, 1.0]) + truth
+    axes.update_datalim(np.column_stack([near, [0.0, 0.0]]), updatey=False)
+    axes.autoscale_view(scaley=False)
+    alt = (
+        f"Dots show {name}, {len(values)} of them; a dashed line marks the truth, "
+        f"{shown(truth)}{' ' + unit if unit else ''}. "
+        + " ".join(f"{way}: {shown(value)}, off by {off}." for way, value, off in rows)
+    )
+    return Picture(figure, alt, Table(("which", label, "off by"), tuple(rows)))
+
+
+def curves(
+    x: Sequence[float] | Array,
+    lines: Mapping[str, Sequence[float] | Array],
+    *,
+    xlabel: str,
+    ylabel: str,
+    levels: Mapping[str, float] | None = None,
+    marked: tuple[float, float] | None = None,
+) -> Picture:
+    """One or more curves over a common axis.
+
+    Args:
+        x: (n,) where the curves were computed.
+        lines: name -> (n,) values.
+        xlabel: with unit.
+        ylabel: with unit.
+        levels: name -> height of a horizontal line: the truth, a limit.
+        marked: a point to draw attention to.
+
+    Raises:
+        BadRequest: there are no curves, or one has another length than ``x``.
+    """
+    if not lines or any(len(y) != len(x) for y in lines.values()):
+        raise BadRequest(
+            "every curve needs one value for each x", advice="Give one or more, of equal length."
+        )
+    figure, ((axes,),) = panels(1, 1)
+    few = -(-len(x) // TABLE_ROWS)
+    for index, (name, y) in enumerate(lines.items()):
+        axes.plot(
+            x,
+            y,
+            color=COLORS[index % len(COLORS)],
+            linestyle=LINES[index % len(LINES)],
+            marker=MARKERS[index % len(MARKERS)],
+            markevery=few,
+            markersize=5,
+            label=name,
+        )
+    for name, level in (levels or {}).items():
+        axes.axhline(level, color=REFERENCE, linestyle="--", linewidth=1.0, label=name)
+    if marked is not None:
+        axes.plot(*marked, "*", color=REFERENCE, markersize=14, label="here")
+    axes.set_xlabel(xlabel, color=INK)
+    axes.set_ylabel(ylabel, color=INK)
+    axes.legend(fontsize=8)
+    said = [f"{ylabel} over {xlabel}."]
+    said += [
+        f"{name} goes from {shown(float(y[0]))} at {x[0]:g} to {shown(float(y[-1]))} at {x[-1]:g}."
+        for name, y in lines.items()
+    ]
+    said += [
+        f"A dashed line marks {name}, {shown(level)}." for name, level in (levels or {}).items()
+    ]
+    if marked is not None:
+        said.append(f"A star marks {shown(marked[1])} at {marked[0]:g}.")
+    rows = tuple(
+        _row(f"{x[i]:g}", [float(y[i]) for y in lines.values()]) for i in range(0, len(x), few)
+    )
+    return Picture(figure, " ".join(said), Table((xlabel, *lines), rows, caption=ylabel))
+
+
+def misses(
+    x: Sequence[float] | Array,
+    y: Sequence[float] | Array,
+    *,
+    intercept: float,
+    slope: float,
+    xlabel: str,
+    ylabel: str,
+) -> Picture:
+    """A few points, a straight line, and by how much the line misses each point.
+
+    Args:
+        x: (n,) of the points.
+        y: (n,) of the points.
+        intercept: of the line.
+        slope: of the line.
+        xlabel: with unit.
+        ylabel: with unit.
+    """
+    across, up = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    said = intercept + slope * across
+    figure, ((axes,),) = panels(1, 1)
+    ends = np.array([0.0, 1.05 * across.max()])
+    axes.plot(ends, intercept + slope * ends, color=COLORS[1], linestyle="--", label="the line")
+    axes.vlines(across, said, up, color=COLORS[3], linewidth=2.5, label="misses")
+    axes.plot(across, up, "o", color=COLORS[0], markersize=7, label="samples")
+    axes.set_xlabel(xlabel, color=INK)
+    axes.set_ylabel(ylabel, color=INK)
+    axes.legend(fontsize=8)
+    total = float(np.sum((up - said) ** 2))
+    _corner(axes, f"sum of squared misses: {shown(total)}")
+    alt = (
+        f"{across.size} samples of {ylabel} over {xlabel}, and the line {shown(intercept)} + "
+        f"{shown(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show the misses; the sum of "
+        f"their squares is {shown(total)}."
+    )
+    rows = tuple(
+        (shown(float(a)), float(b), float(c), float(b - c))
+        for a, b, c in zip(across, up, said, strict=True)
+    )
+    return Picture(figure, alt, Table((xlabel, ylabel, "the line says", "miss"), rows))
+
+
+def _row(name: str, numbers: Sequence[float]) -> tuple[Cell, ...]:
+    return (name, *numbers)
+
+
+def _corner(axes: Axes, text: str) -> None:
+    axes.text(0.98, 0.04, text, transform=axes.transAxes, ha="right", fontsize=9, color=INK)
+
+
+def _percent(value: float, truth: float) -> str:
+    """By how much a value is off, as a signed percentage; the difference where truth is zero."""
+    if not truth:
+        return shown(value - truth)
+    off = 100.0 * (value / truth - 1.0)
+    return (
+        f"{off:+.0f} %".replace("-", "−") if abs(off) >= 1.0 else f"{off:+.1f} %".replace("-", "−")
+    )

@@ -1,0 +1,137 @@
+"""A figure that can also be read: its picture, the same in words, and its numbers in a table."""
+
+import base64
+import io
+import os
+from contextlib import suppress
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import TypeAlias
+from uuid import uuid4
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from sim.errors import BadRequest
+from sim.plot.table import Table
+
+Dash: TypeAlias = str | tuple[float, tuple[float, ...]]  # a line style, as matplotlib takes it
+
+SUFFIXES = (".svg", ".png", ".pdf")
+PAPER = "white"  # an opaque ground: colors chosen for contrast on white stay legible on a dark page
+INK = "#222222"
+
+# Okabe and Ito's colors, which people who see few colors can tell apart, without the yellow that
+# is too pale on white. Each has a marker and a line style of its own: color never speaks alone.
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#000000")
+MARKERS = ("o", "s", "^", "D", "v", "x")
+LINES: tuple[Dash, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)))
+REFERENCE = "#000000"  # what is true, asked for, or really happened
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A figure with everything a reader without eyes, colors or JavaScript needs.
+
+    Args:
+        figure: the drawing.
+        alt: what it shows, in a few sentences with numbers.
+        table: its numbers; None where ``alt`` says them all.
+    """
+
+    figure: Figure
+    alt: str
+    table: Table | None = None
+
+    @property
+    def svg(self) -> str:
+        """The drawing as SVG; the same figure always gives the same text."""
+        buffer = io.StringIO()
+        with rc_context({"svg.hashsalt": "picture"}):
+            self.figure.savefig(buffer, format="svg", metadata={"Date": None, "Title": self.alt})
+        return buffer.getvalue()
+
+    @property
+    def html(self) -> str:
+        """Picture, words and table as a piece of HTML that needs nothing from elsewhere."""
+        source = base64.b64encode(self.svg.encode("utf-8")).decode("ascii")
+        width = round(self.figure.get_figwidth() * 96)
+        return (
+            f'<figure style="margin:0.5em 0;max-width:{width}px">'
+            f'<img alt="{escape(self.alt)}" src="data:image/svg+xml;base64,{source}" '
+            f'style="width:100%;height:auto;background:{PAPER};border-radius:4px">'
+            f"<details><summary>This figure in words</summary><p>{escape(self.alt)}</p></details>"
+            f"</figure>{self.table.html if self.table else ''}"
+        )
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the drawing into a file, whole or not at all; its title is the alternative text.
+
+        Raises:
+            BadRequest: the name ends in no kind of picture, or the file cannot be written.
+        """
+        target = Path(path)
+        kind = target.suffix.lower()
+        if kind not in SUFFIXES:
+            raise BadRequest(
+                f"no picture ends in {target.suffix or 'nothing'!r}",
+                where=str(target),
+                advice=f"End its name in one of: {', '.join(SUFFIXES)}.",
+            )
+        part = target.with_name(f".{uuid4().hex}.part")
+        try:
+            with rc_context({"svg.hashsalt": "picture"}), part.open("wb") as stream:
+                extra: dict[str, object] = {} if kind == ".png" else {_DATE[kind]: None}
+                self.figure.savefig(
+                    stream, format=kind[1:], dpi=200, metadata={"Title": self.alt, **extra}
+                )
+            part.replace(target)
+        except OSError as error:
+            raise BadRequest(
+                f"cannot be written ({error.strerror or error})",
+                where=str(target),
+                advice="Choose a folder that exists and that you may write to.",
+            ) from None
+        finally:
+            with suppress(OSError):  # nothing is left to remove when all went well
+                part.unlink()
+
+    def __str__(self) -> str:
+        """The words and the numbers, for a terminal."""
+        return f"{self.alt}\n\n{self.table}" if self.table else self.alt
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        return {"text/plain": str(self), "text/html": self.html}
+
+
+_DATE = {".svg": "Date", ".pdf": "CreationDate"}  # left out, so that a picture never changes
+
+
+def panels(
+    rows: int, columns: int, *, width: float = 7.6, height: float = 3.2, shared: bool = False
+) -> tuple[Figure, list[list[Axes]]]:
+    """A figure with a grid of empty axes.
+
+    Args:
+        rows: of the grid.
+        columns: of the grid.
+        width: [in] of the figure.
+        height: [in] of the figure.
+        shared: whether a column shares its x axis, and a row its y axis.
+    """
+    figure = Figure(figsize=(width, height), layout="constrained", facecolor=PAPER)
+    grid = figure.subplots(
+        rows,
+        columns,
+        squeeze=False,
+        sharex="col" if shared else "none",
+        sharey="row" if shared else "none",
+    )
+    for axes in grid.flat:
+        axes.set_facecolor(PAPER)
+        axes.grid(visible=True, color="#DDDDDD", linewidth=0.6)
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.tick_params(colors=INK, labelsize=9)
+    return figure, [list(row) for row in grid]

@@ -1,0 +1,81 @@
+"""A table of a few numbers, for eyes and for screen readers."""
+
+import math
+from dataclasses import dataclass
+from html import escape
+from typing import TypeAlias
+
+Cell: TypeAlias = str | float
+
+DIGITS = 3  # significant ones: more than any gain of a robot deserves
+LONGEST = 1e5  # a larger number is written with an exponent
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows under a header; the first cell of a row names it.
+
+    Args:
+        header: what each column holds, with its unit.
+        rows: as many cells each as the header; numbers are shown with three digits.
+        caption: what the table shows; may be empty.
+    """
+
+    header: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    caption: str = ""
+
+    @property
+    def html(self) -> str:
+        """The table in HTML that takes its colors from the page it stands in."""
+        caption = f"<caption>{escape(self.caption)}</caption>" if self.caption else ""
+        head = "".join(_cell("th", name, first=i == 0) for i, name in enumerate(self.header))
+        body = "".join(
+            "<tr>"
+            + _cell("th", shown(row[0]), first=True, scope="row")
+            + "".join(_cell("td", shown(cell)) for cell in row[1:])
+            + "</tr>"
+            for row in self.rows
+        )
+        return (
+            '<table style="border-collapse:collapse;margin:0.5em 0;line-height:1.5">'
+            f"{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        )
+
+    def __str__(self) -> str:
+        """The table in plain text, columns aligned."""
+        lines = [self.header, *([shown(cell) for cell in row] for row in self.rows)]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        text = [
+            "  ".join(
+                cell.ljust(width) if index == 0 else cell.rjust(width)
+                for index, (cell, width) in enumerate(zip(line, widths, strict=True))
+            ).rstrip()
+            for line in lines
+        ]
+        return "\n".join([self.caption, *text] if self.caption else text)
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        return {"text/plain": str(self), "text/html": self.html}
+
+
+def _cell(tag: str, text: str, *, first: bool = False, scope: str = "col") -> str:
+    """One cell: names to the left, numbers to the right, one under the other."""
+    style = f"text-align:{'left' if first else 'right'};padding:0.1em 0.7em"
+    if tag == "td":
+        return f'<td style="{style}">{escape(text)}</td>'
+    weight = "normal" if scope == "row" else "bold"
+    return f'<th scope="{scope}" style="{style};font-weight:{weight}">{escape(text)}</th>'
+
+
+def shown(cell: Cell) -> str:
+    """A cell as text: a number with three significant digits, and a true minus sign."""
+    if isinstance(cell, str):
+        return cell
+    if isinstance(cell, int):
+        return str(cell).replace("-", "−")
+    if not math.isfinite(cell) or cell == 0.0:
+        return f"{cell:g}".replace("-", "−")
+    size = math.floor(math.log10(abs(cell)))
+    text = f"{cell:.{DIGITS}g}" if abs(cell) >= LONGEST else f"{cell:.{max(DIGITS - 1 - size, 0)}f}"
+    return text.replace("-", "−")
