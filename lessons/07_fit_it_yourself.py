@@ -63,7 +63,7 @@ from sim.plot import (
 from sim.prepare import median_filter, prepare
 from sim.simulate import motion, simulate
 from sim.units import unit
-from sim.wiring import Battery, by_duty_cycle
+from sim.wiring import by_duty_cycle
 
 drivetrain = MECHANISMS["drivetrain"]
 
@@ -650,9 +650,8 @@ print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} in the textbook's sense (means l
 # %%
 quiet = simulate(drivetrain, routine, rng=np.random.default_rng(3))
 fast_log = simulate(drivetrain, routine, rng=np.random.default_rng(3), period=0.005)
-tired = Battery(rest=12.2, resistance=0.035)
 hard = sim.Routine(ramp=1.0, step=7.0)
-sag = by_duty_cycle(drivetrain, hard, battery=tired, rng=np.random.default_rng(3))
+sag = by_duty_cycle(drivetrain, hard, rng=np.random.default_rng(3))
 
 
 def changed(log: sim.Log, *, speed: float = 1.0, asked: bool = False) -> sim.Log:
@@ -670,7 +669,7 @@ suspects = {
     "clean, logged at 200 Hz": fast_log,
     "gear ratio typed in wrong (÷ 1.25)": changed(quiet, speed=1 / 1.25),
     "encoder the wrong way": changed(quiet, speed=-1.0),
-    "asked-for voltage, tired battery, 7 V": changed(sag, asked=True),
+    "asked-for voltage logged, 7 V step": changed(sag, asked=True),
 }
 rows = []
 for name, one in suspects.items():

@@ -47,8 +47,8 @@ class Battery:
         if not (FLATTEST <= self.rest <= FULLEST and 0.0 <= self.resistance <= WORST):
             raise BadRequest(
                 f"a battery of {self.rest:g} V with {self.resistance:g} Ω",
-                advice=f"Choose {FLATTEST:g} to {FULLEST:g} V, and 0 to {WORST:g} Ω; a good one has "
-                "12.6 V and 0.02 Ω.",
+                advice=f"Choose {FLATTEST:g} to {FULLEST:g} V, and 0 to {WORST:g} Ω. "
+                "A good one has 12.6 V and 0.02 Ω.",
             )
 
 

@@ -1,0 +1,249 @@
+"""The lessons: notebook and text agree, every cell runs clean, every picture speaks."""
+
+import ast
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+import nbformat
+import numpy as np
+import pytest
+from jupyter_client.kernelspec import KernelSpecManager
+from nbclient import NotebookClient
+
+import sim
+from sim.simulate import simulate
+
+ROOT = Path(__file__).resolve().parents[1]
+TEXTS = sorted((ROOT / "lessons").glob("*.py"))
+LONGEST_CELL = 30  # [s] after which a cell counts as hung; each takes well under 5 s
+SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
+DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
+
+each_lesson = pytest.mark.parametrize("text", TEXTS, ids=lambda path: path.stem)
+
+
+class Page(HTMLParser):
+    """The pictures and the open-and-close of details in a piece of HTML."""
+
+    def __init__(self, html):
+        super().__init__()
+        self.pictures, self.open, self.summaries = [], 0, 0
+        self.feed(html)
+
+    def handle_starttag(self, tag, attrs):
+        """Note a picture, and what opens."""
+        if tag == "img":
+            self.pictures.append(dict(attrs))
+        self.open += tag == "details"
+        self.summaries += tag == "summary"
+
+    def handle_endtag(self, tag):
+        """Note what closes."""
+        self.open -= tag == "details"
+
+
+@pytest.fixture(scope="module")
+def derive():
+    """The function of the script that derives notebooks."""
+    place = ROOT / ".ci" / "derive_notebooks.py"
+    spec = importlib.util.spec_from_file_location("derive_notebooks", place)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.derive
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """Run a lesson's notebook as a learner does, once per module; its cells with their outputs."""
+    done = {}
+
+    def ran(text):
+        if text not in done:
+            done[text] = _execute(text.with_suffix(".ipynb"), tmp_path_factory.mktemp("jupyter"))
+        return done[text]
+
+    return ran
+
+
+def test_there_are_lessons():
+    assert [text.stem for text in TEXTS] == [
+        notebook.stem for notebook in sorted((ROOT / "lessons").glob("*.ipynb"))
+    ]
+    assert TEXTS
+
+
+@each_lesson
+def test_a_notebook_is_its_text(text, derive):
+    path = text.with_suffix(".ipynb")
+    assert path.exists(), f"{path.name} is missing: {DERIVE}"
+    got = [(cell.cell_type, cell.source) for cell in nbformat.read(path, 4).cells]
+    assert got == [(cell.cell_type, cell.source) for cell in derive(text).cells], (
+        f"{path.name} is not what {text.name} says: {DERIVE}"
+    )
+
+
+@each_lesson
+def test_deriving_twice_changes_nothing(text, derive):
+    assert nbformat.writes(derive(text)) == nbformat.writes(derive(text))
+
+
+@each_lesson
+def test_a_committed_notebook_holds_no_outputs(text):
+    for cell in nbformat.read(text.with_suffix(".ipynb"), 4).cells:
+        if cell.cell_type == "code":
+            assert not cell.outputs
+            assert cell.execution_count is None
+
+
+@each_lesson
+def test_every_cell_runs_without_error_or_warning(text, run):
+    for cell in run(text).cells:
+        for output in cell.get("outputs", []):
+            assert output.output_type != "error", cell.source
+            assert output.get("name") != "stderr", f"{output.text}\n{cell.source}"
+
+
+@each_lesson
+def test_every_picture_has_words_and_draws_only_on_white(text, run):
+    pictures = [picture for html in _htmls(run(text)) for picture in Page(html).pictures]
+    assert pictures
+    for picture in pictures:
+        assert len(picture["alt"]) > 40
+        assert picture["src"].startswith("data:image/svg+xml;base64,")
+        assert "background:white" in picture["style"]
+
+
+@each_lesson
+def test_every_widget_has_plain_code_after_it(text, run):
+    cells = run(text).cells
+    for cell, words, code in zip(cells, cells[1:], cells[2:], strict=False):
+        if cell.cell_type == "code" and re.search(r"^live\(", cell.source, re.MULTILINE):
+            called = re.search(r"^live\(\s*(\w+)", cell.source, re.MULTILINE)[1]
+            assert words.source.startswith("No "), words.source
+            assert called in code.source
+
+
+@each_lesson
+def test_every_detail_is_closed_and_has_a_summary(text):
+    for cell in nbformat.read(text.with_suffix(".ipynb"), 4).cells:
+        if cell.cell_type == "markdown":
+            page = Page(cell.source)
+            assert page.open == 0, cell.source
+            assert page.summaries == cell.source.count("<details>")
+
+
+@each_lesson
+def test_a_lesson_has_the_anatomy_of_the_source_lesson(text):
+    headings = re.findall(r"^# ## (?:\d+ )?(.+)$", text.read_text(encoding="utf-8"), re.MULTILINE)
+    assert headings[0].startswith("Why")
+    for part in ("System check", "Knowledge check", "Practice"):
+        assert part in headings
+
+
+@each_lesson
+def test_every_box_quotes_the_lesson_gives_the_source_and_something_to_try(text):
+    for quote in re.findall(r"(?:^# >.*\n)+", text.read_text(encoding="utf-8"), re.MULTILINE):
+        if "**Lesson says:**" in quote:
+            assert "**Source says:**" in quote
+            assert "**Try it" in quote
+            assert "](https://" in quote, f"no link to the source:\n{quote}"
+
+
+@each_lesson
+def test_a_prediction_is_shown_again(text):
+    source = text.read_text(encoding="utf-8")
+    guesses = re.findall(r"^(guess_\w+) = Guess\(", source, re.MULTILINE)
+    assert guesses
+    for guess in guesses:
+        assert f"{{{guess}}}" in source
+
+
+@each_lesson
+def test_a_lesson_uses_only_public_names_and_short_functions(text):
+    for node in ast.walk(ast.parse(text.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom):
+            assert node.module.split(".")[0] != "grader"
+            assert not [name.name for name in node.names if name.name.startswith("_")]
+        if isinstance(node, ast.Attribute):
+            assert not node.attr.startswith("_")
+        if isinstance(node, ast.FunctionDef):
+            assert node.end_lineno - node.lineno < SCREENFUL, node.name
+
+
+@each_lesson
+def test_a_lesson_runs_as_a_plain_program_with_warnings_as_errors(text, tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-W", "error", str(text)],
+        cwd=ROOT / "lessons",
+        env=_environment(tmp_path),
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        timeout=120,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_lesson_7_reads_the_log_that_exercise_9_made(tmp_path, root):
+    lessons, data = tmp_path / "lessons", tmp_path / "exercises" / "exercise9" / "data" / "ada"
+    lessons.mkdir()
+    data.mkdir(parents=True)
+    log = simulate(sim.MECHANISMS["shooter"], sim.Routine(), rng=np.random.default_rng(5))
+    sim.write(log, data / "log.wpilog")
+    done = subprocess.run(
+        [sys.executable, str(root / "lessons" / "07_fit_it_yourself.py")],
+        cwd=lessons,
+        env=_environment(tmp_path),
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        timeout=120,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "ada" in done.stdout
+    assert "in rotations" in done.stdout
+
+
+def _htmls(notebook):
+    """All HTML that a run notebook shows, in outputs and in widgets."""
+    for cell in notebook.cells:
+        for output in cell.get("outputs", []):
+            if "text/html" in output.get("data", {}):
+                yield output.data["text/html"]
+    widgets = notebook.metadata.get("widgets", {})
+    for model in widgets.get("application/vnd.jupyter.widget-state+json", {}).get("state", {}):
+        state = widgets["application/vnd.jupyter.widget-state+json"]["state"][model]["state"]
+        if isinstance(state.get("value"), str):
+            yield state["value"]
+
+
+def _execute(path, home):
+    """Run a notebook in the folder it stands in, warnings being errors."""
+    notebook = nbformat.read(path, 4)
+    client = NotebookClient(
+        notebook,
+        timeout=LONGEST_CELL,
+        kernel_name="python3",
+        allow_errors=True,
+        resources={"metadata": {"path": str(path.parent)}},
+    )
+    assert "python3" in KernelSpecManager().find_kernel_specs(), "install ipykernel"
+    client.execute(env=_environment(home) | {"PYTHONWARNINGS": "error"})
+    return notebook
+
+
+def _environment(home):
+    """The project can be imported, and nothing is written into the person's home."""
+    paths = [str(ROOT), os.environ.get("PYTHONPATH", "")]
+    return os.environ | {
+        "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+        "PYTHONIOENCODING": "utf-8",
+        "IPYTHONDIR": str(home / "ipython"),
+    }

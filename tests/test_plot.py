@@ -1,0 +1,289 @@
+"""Pictures: each says in words and numbers what it shows, and is the same every time."""
+
+import ast
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from html.parser import HTMLParser
+from xml.etree import ElementTree as ET
+
+import ipywidgets
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib.image import imread
+
+import sim
+from sim.errors import BadRequest
+from sim.plot import Line, Table, choices, curves, live, misses, time_series, voltage_velocity
+from sim.plot.picture import COLORS, LINES, MARKERS
+from sim.plot.table import shown
+from sim.simulate import simulate
+
+ROUTINE = sim.Routine(ramp=0.5, step=3.5)
+
+
+def _log(name):
+    return simulate(sim.MECHANISMS[name], ROUTINE, rng=np.random.default_rng(1))
+
+
+DRIVE, SHOOTER = _log("drivetrain"), _log("shooter")
+PICTURES = {
+    "time series": lambda: time_series(DRIVE),
+    "time series beside another": lambda: time_series(DRIVE, beside=DRIVE, dynamic_seconds=1.0),
+    "time series in rotations": lambda: time_series(SHOOTER),
+    "one test only": lambda: time_series(replace(DRIVE, runs=DRIVE.runs[:1])),
+    "voltage over velocity": lambda: voltage_velocity(DRIVE),
+    "with lines": lambda: voltage_velocity(DRIVE, lines={"a": Line(0.2, 2.5), "b": Line(0.1, 2.4)}),
+    "choices": lambda: choices({"a": 1.0, "b": 3.0}, truth=2.0, name="kA", unit="V·s²/m"),
+    "choices with spreads": lambda: choices({"a": 1.0}, truth=2.0, name="kA", spreads={"a": 0.1}),
+    "curves": lambda: curves(
+        range(20), {"up": range(20)}, xlabel="x", ylabel="y", levels={"l": 3}, marked=(3.0, 3.0)
+    ),
+    "misses": lambda: misses([1, 2], [2, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]"),
+}
+each_picture = pytest.mark.parametrize("name", PICTURES)
+
+
+class Tags(HTMLParser):
+    """Every tag of a piece of HTML with its attributes, and whether all were closed."""
+
+    def __init__(self, html):
+        super().__init__()
+        self.found, self.open = [], []
+        self.feed(html)
+
+    def handle_starttag(self, tag, attrs):
+        """Note a tag."""
+        self.found.append((tag, dict(attrs)))
+        if tag != "img":
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        """Take it off again."""
+        assert self.open.pop() == tag
+
+    def all(self, wanted):
+        """The attributes of all tags of a name."""
+        return [attrs for tag, attrs in self.found if tag == wanted]
+
+
+@each_picture
+def test_a_picture_is_drawn_and_says_in_words_what_it_shows(name):
+    picture = PICTURES[name]()
+    assert len(picture.alt) > 40
+    assert picture.alt.endswith(".")
+    root = ET.fromstring(picture.svg)  # noqa: S314 - our own drawing
+    assert root.tag.endswith("svg")
+    tags = Tags(picture.html)
+    assert tags.open == []
+    (image,) = tags.all("img")
+    assert image["alt"] == picture.alt
+    assert image["src"].startswith("data:image/svg+xml;base64,")
+
+
+@each_picture
+def test_a_picture_reaches_for_nothing_outside(name):
+    picture = PICTURES[name]()
+    assert "http" not in picture.html
+    for element in ET.fromstring(picture.svg).iter():  # noqa: S314 - our own drawing
+        for key, value in element.attrib.items():
+            assert not (key.endswith("href") and not value.startswith("#"))
+
+
+@each_picture
+def test_the_same_picture_is_the_same_text(name):
+    assert PICTURES[name]().svg == PICTURES[name]().svg
+
+
+@each_picture
+def test_a_notebook_gets_words_and_picture_and_a_terminal_gets_words(name):
+    picture = PICTURES[name]()
+    bundle = picture._repr_mimebundle_()
+    assert set(bundle) == {"text/plain", "text/html"}
+    assert bundle["text/plain"].startswith(picture.alt)
+    assert picture.alt in str(picture)
+
+
+def test_color_never_speaks_alone():
+    assert len(set(COLORS)) == len(set(MARKERS)) == len(set(LINES)) == len(COLORS)
+
+
+def test_the_table_of_a_log_says_what_the_log_says():
+    table = time_series(DRIVE).table
+    run = DRIVE.of("dynamic-reverse")[0]
+    (row,) = (row for row in table.rows if row[0] == "dynamic-reverse")
+    assert row[1] == len(run) == 381
+    assert row[3:5] == (-3.5, -3.5)
+    assert row[5] == run.velocity.min()
+
+
+def test_velocities_are_in_the_unit_of_the_log():
+    table = time_series(SHOOTER).table
+    fastest = table.rows[0][-1]
+    assert table.header[-1] == "fastest [rot/s]"
+    assert fastest == pytest.approx(
+        SHOOTER.of("quasistatic-forward")[0].velocity.max() / (2 * np.pi)
+    )
+
+
+def test_a_line_is_told_in_words_and_numbers():
+    picture = voltage_velocity(DRIVE, lines={"truth": Line(0.15, 2.524)})
+    assert "meets standstill at 0.150 V and rises by 2.524 V per m/s" in picture.alt
+    assert picture.table.rows == (("truth", 0.15, 2.524),)
+
+
+def test_choices_say_by_how_much_each_is_off():
+    picture = choices({"low": 1.5, "near": 2.002, "high": 3.0}, truth=2.0, name="kA")
+    assert [row[2] for row in picture.table.rows] == ["−25 %", "+0.1 %", "+50 %"]
+
+
+def test_a_small_error_looks_small():
+    axes = choices({"near": 2.002}, truth=2.0, name="kA").figure.axes[0]
+    least, most = axes.get_xlim()
+    assert least < 1.6
+    assert most > 2.4
+
+
+def test_misses_are_squared_and_summed():
+    picture = misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]")
+    assert [row[3] for row in picture.table.rows] == [1.0, 1.0]  # 3 - 2 and 5 - 4
+    assert "the sum of their squares is 2.00" in picture.alt
+
+
+def test_the_table_of_a_curve_is_short():
+    assert len(PICTURES["curves"]().table.rows) <= 8
+
+
+@pytest.mark.parametrize(
+    ("draw", "advice"),
+    [
+        (lambda: choices({}, truth=1.0, name="kA"), "Give at least one value"),
+        (lambda: curves([1, 2], {}, xlabel="", ylabel=""), "Give one or more"),
+        (lambda: curves([1, 2], {"a": [1]}, xlabel="", ylabel=""), "of equal length"),
+        (lambda: time_series(replace(DRIVE, runs=())), "Give a log of a SysIdRoutine"),
+        (lambda: voltage_velocity(replace(DRIVE, runs=DRIVE.runs[2:])), "with a slow ramp in it"),
+    ],
+    ids=["no choices", "no curves", "a short curve", "an empty log", "no ramp"],
+)
+def test_what_cannot_be_drawn_is_refused_with_advice(draw, advice):
+    with pytest.raises(BadRequest, match=advice):
+        draw()
+
+
+@pytest.mark.parametrize("suffix", ["svg", "png", "pdf", "PNG"])
+def test_a_picture_is_saved_whole_and_the_same_again(suffix, tmp_path):
+    one, two = tmp_path / f"one.{suffix}", tmp_path / f"two.{suffix}"
+    PICTURES["choices"]().save(one)
+    PICTURES["choices"]().save(two)
+    assert one.read_bytes() == two.read_bytes()
+    assert sorted(path.name for path in tmp_path.iterdir()) == [one.name, two.name]
+
+
+def test_a_saved_picture_is_not_blank(tmp_path):
+    PICTURES["time series"]().save(tmp_path / "log.png")
+    assert np.unique(imread(tmp_path / "log.png").reshape(-1, 4), axis=0).shape[0] > 50
+
+
+@pytest.mark.parametrize(
+    ("name", "advice"),
+    [("log.gif", "End its name in one of: .svg, .png, .pdf"), ("no/log.svg", "Choose a folder")],
+)
+def test_a_picture_that_cannot_be_saved_leaves_nothing_behind(name, advice, tmp_path):
+    with pytest.raises(BadRequest, match=advice):
+        PICTURES["choices"]().save(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("cell", "text"),
+    [
+        (0.15, "0.150"),
+        (2.52384, "2.52"),
+        (-0.0921, "−0.0921"),
+        (27.01, "27.0"),
+        (499, "499"),
+        (-3, "−3"),
+        (12345.6, "12346"),
+        (1.5e7, "1.5e+07"),
+        (0.0, "0"),
+        (float("inf"), "inf"),
+        ("kS", "kS"),
+    ],
+)
+def test_a_cell_has_three_digits(cell, text):
+    assert shown(cell) == text
+
+
+@given(st.floats(min_value=1e-6, max_value=9e4))
+def test_a_shown_number_is_within_half_a_percent(value):
+    assert float(shown(value)) == pytest.approx(value, rel=0.005)
+
+
+def test_a_table_names_its_rows_and_columns_for_a_screen_reader():
+    tags = Tags(Table(("gain", "value"), (("kS", 0.15), ("<kV>", 2.5)), caption="A & B").html)
+    assert [attrs["scope"] for attrs in tags.all("th")] == ["col", "col", "row", "row"]
+    html = Table(("gain",), (("<kV>",),), caption="A & B").html
+    assert "&lt;kV&gt;" in html
+    assert "A &amp; B" in html
+
+
+def test_a_table_lines_up_in_a_terminal():
+    text = str(Table(("gain", "value"), (("kS", 0.15), ("kV", 12.0)), caption="Gains"))
+    assert text.splitlines() == ["Gains", "gain  value", "kS    0.150", "kV     12.0"]
+
+
+def test_turning_a_knob_draws_the_picture_that_plain_code_draws():
+    def draw(slope):
+        return misses([1, 2], [2, 5], intercept=0, slope=slope, xlabel="x", ylabel="y")
+
+    knob = ipywidgets.FloatSlider(value=1.0, min=0.0, max=4.0)
+    panel = live(draw, slope=knob)
+    assert panel.children[-1].value == draw(1.0).html
+    knob.value = 2.5
+    assert panel.children[-1].value == draw(2.5).html
+
+
+def test_several_pictures_stand_below_each_other():
+    panel = live(lambda: [PICTURES["choices"](), PICTURES["misses"]()])
+    assert panel.children[-1].value.count("<img ") == 2
+
+
+def test_a_knob_that_asks_for_what_cannot_be_drawn_says_so():
+    def draw(ramp):
+        return time_series(
+            simulate(
+                sim.MECHANISMS["drivetrain"], sim.Routine(ramp=ramp), rng=np.random.default_rng(1)
+            )
+        )
+
+    knob = ipywidgets.FloatText(value=1.0)
+    panel = live(draw, ramp=knob)
+    knob.value = -1.0
+    assert "Choose a number above 0" in panel.children[-1].value
+
+
+def test_matplotlib_is_used_here_and_nowhere_else(root):
+    for path in (root / "sim").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [node.module] if isinstance(node, ast.ImportFrom) else []
+            names += [name.name for name in node.names] if isinstance(node, ast.Import) else []
+            if any(name and name.startswith("matplotlib") for name in names):
+                assert path.parent.name == "plot", path
+                assert not any("pyplot" in str(name) for name in names)
+
+
+def test_drawing_needs_no_backend_and_keeps_no_figure(root):
+    code = (
+        "import sys, sim.plot\n"
+        "sim.plot.choices({'a': 1.0}, truth=1.0, name='kA').svg\n"
+        "assert 'matplotlib.pyplot' not in sys.modules\n"
+    )
+    subprocess.run(
+        [sys.executable, "-W", "error", "-c", code],
+        cwd=root,
+        check=True,
+        env=os.environ | {"MPLBACKEND": "qtagg", "PYTHONPATH": str(root)},  # and no Qt anywhere
+    )

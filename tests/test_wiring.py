@@ -1,0 +1,107 @@
+"""A share of the battery is not a voltage: what reaches the motors, and what a fit makes of it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import sim
+from sim.errors import BadRequest
+from sim.fit import fit
+from sim.simulate import simulate
+from sim.wiring import Battery, by_duty_cycle
+
+DRIVE = sim.MECHANISMS["drivetrain"]
+ROUTINE = sim.Routine(ramp=0.5, step=3.5)
+TIRED = Battery(rest=12.2, resistance=0.035)
+
+
+def driven(battery, *, mechanism=DRIVE, routine=ROUTINE, seed=2):
+    return by_duty_cycle(mechanism, routine, battery=battery, rng=np.random.default_rng(seed))
+
+
+def asked(log):
+    """The log of a program that writes down what it asked for."""
+    runs = (replace(run, voltage=12.0 * run.voltage / run.bus_voltage) for run in log.runs)
+    return replace(log, runs=tuple(runs))
+
+
+def test_a_step_from_rest_sags_by_ohms_law():
+    # Four motors of 12 V/366 A at 3.5/12 of the battery, at rest: 0.035 Ω in series with
+    # 12/366/4 Ω/(3.5/12)² seen from the battery.
+    step = driven(TIRED).of("dynamic-forward")[0]
+    seen = 12.0 / 366.0 / 4.0 / (3.5 / 12.0) ** 2
+    assert step.bus_voltage[0] == pytest.approx(12.2 * seen / (seen + 0.035), rel=1e-6)
+    assert step.voltage[0] == pytest.approx(step.bus_voltage[0] * 3.5 / 12.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", sim.MECHANISMS)
+@pytest.mark.parametrize("battery", [Battery(), TIRED, Battery(9.0, 0.1)], ids=str)
+def test_power_out_of_the_battery_is_power_into_the_motors(name, battery):
+    mechanism = sim.MECHANISMS[name]
+    quiet = replace(mechanism, sensor=replace(mechanism.sensor, velocity_noise=0.0))
+    motor = mechanism.motor
+    for run in driven(battery, mechanism=quiet).runs:
+        back_emf = motor.back_emf * mechanism.ratio / mechanism.radius * run.velocity
+        current = (run.voltage - back_emf) / motor.resistance * mechanism.motor_count
+        drawn = (battery.rest - run.bus_voltage) / battery.resistance
+        assert run.bus_voltage * drawn == pytest.approx(run.voltage * current, abs=1e-2)
+
+
+def test_a_battery_of_exactly_12_volts_without_resistance_changes_nothing():
+    ideal = driven(Battery(rest=12.0, resistance=0.0))
+    plain = simulate(DRIVE, ROUTINE, rng=np.random.default_rng(2))
+    for ours, other in zip(ideal.runs, plain.runs, strict=True):
+        assert ours.voltage == pytest.approx(other.voltage, rel=1e-12)
+        assert ours.time.tolist() == other.time.tolist()
+
+
+def test_what_was_asked_for_can_be_told_from_the_log():
+    for run, plain in zip(
+        asked(driven(TIRED)).runs,
+        simulate(DRIVE, ROUTINE, rng=np.random.default_rng(2)).runs,
+        strict=True,
+    ):
+        shortest = min(len(run), len(plain))
+        assert run.voltage[:shortest] == pytest.approx(plain.voltage[:shortest], rel=1e-9)
+
+
+def test_logging_what_arrived_gives_the_gains_and_logging_what_was_asked_for_does_not():
+    log = driven(TIRED)
+    arrived, wanted = fit(log).gains, fit(asked(log)).gains
+    assert arrived["kA"] == pytest.approx(DRIVE.gains["kA"], rel=0.08)
+    assert wanted["kA"] > 1.3 * DRIVE.gains["kA"]
+    assert wanted["kV"] == pytest.approx(DRIVE.gains["kV"], rel=0.05)
+
+
+def test_a_flat_battery_scales_every_gain():
+    # 11.7 V and no resistance: each asked-for volt arrives as 0.975 V.
+    gains = fit(asked(driven(Battery(rest=11.7, resistance=0.0)))).gains
+    assert gains["kV"] == pytest.approx(DRIVE.gains["kV"] * 12.0 / 11.7, rel=0.005)
+
+
+def test_a_test_still_ends_where_the_travel_ends():
+    log = driven(Battery(rest=13.5, resistance=0.0), routine=sim.Routine())
+    for run in log.runs:
+        assert abs(run.position[-1] - run.position[0]) <= DRIVE.travel
+
+
+def test_a_brownout_that_a_real_robot_would_have_is_a_doubt():
+    assert driven(TIRED).doubts == ()
+    (doubt,) = driven(TIRED, routine=sim.Routine(step=7.0)).doubts
+    assert doubt.code == "brownout"
+    assert "Use a smaller step" in doubt.message
+
+
+def test_chance_is_an_argument():
+    one, two, other = driven(TIRED), driven(TIRED), driven(TIRED, seed=3)
+    assert one.runs[0].velocity.tolist() == two.runs[0].velocity.tolist()
+    assert one.runs[0].velocity.tolist() != other.runs[0].velocity.tolist()
+
+
+@pytest.mark.parametrize(
+    ("rest", "resistance"), [(5.0, 0.02), (20.0, 0.02), (12.0, -0.1), (12.0, 1.0), (np.nan, 0.02)]
+)
+def test_no_battery_a_robot_would_start_with_is_refused(rest, resistance):
+    with pytest.raises(BadRequest, match="A good one has 12.6 V"):
+        Battery(rest, resistance)
