@@ -130,7 +130,8 @@ Table(HEADER, (row("wired right", right), row("positions thrown away", no_positi
 #
 # ### Two arguments
 #
-# > **Lesson says:** "The routine takes three things: a Config, a Mechanism and a log-name string."
+# > **Lesson says:** "The routine takes three things: a Config (…), a Mechanism (…), and a log-name
+# > string."
 # >
 # > **Source says:** two: `SysIdRoutine(Config config, Mechanism mechanism)`. The name is an
 # > optional *fourth* argument of `Mechanism`; left out, it is the subsystem's own name.
@@ -155,8 +156,8 @@ Table(
 )
 
 # %% [markdown]
-# > **Lesson says:** ramp "typically 0.5 V/s", step 3 to 7 V, and "start with a step voltage of
-# > 3–4 V".
+# > **Lesson says:** a ramp that is "typically 0.5 V/s", a step that is "typically 3–7V", and "Start
+# > with a step voltage of 3–4V, not 7V".
 # >
 # > **Source says:** the library's default step is what the table shows, and its maintainer finds
 # > it "almost always too much": wheels slip, and slipping data is not what the model describes.
@@ -191,6 +192,9 @@ for mass in (60.0, 30.0):
 #
 # Python differs in one point: there, `None` is *not* "the default" but an error. Leave the argument
 # out instead.
+#
+# (`Mechanism`'s log callback may be `null` too, but only if another logger records the motors for
+# you: CTRE's SignalLogger, or URCL for REV. The same page says how. In this course you write it.)
 
 # %% [markdown]
 # ### Mechanism, first callback: drive
@@ -203,8 +207,8 @@ for mass in (60.0, 30.0):
 #    now". The battery gives less when motors draw current, so the voltage is not what you think.
 # 3. **Every motor.** Or you measure a robot that drags dead motors along.
 #
-# > **Lesson says:** "Use `setVoltage()` directly, not `setControl(new VoltageOut(...))`, so the
-# > routine has raw voltage authority."
+# > **Lesson says:** "Use `setVoltage()` directly — not `setControl(new VoltageOut(...))` — so the
+# > routine has raw voltage authority during testing".
 # >
 # > **Source says:** on a TalonFX (Phoenix 6) the two are the same thing: `setVoltage()` *is* a
 # > `VoltageOut` request, and CTRE's own SysId example uses `setControl` with one request object.
@@ -223,6 +227,8 @@ for mass in (60.0, 30.0):
 #   gear ratio *and* wheel size. A shooter or an arm turns: rotations and rotations per second of
 #   the *output*, after the gear ratio.
 # - **Direction.** A positive voltage must give a positive velocity. Check this before all else.
+# - **Name.** `log.motor("drive-left")`: one name for each motor or pair that shares an encoder. It
+#   becomes part of the entries' names, and you will look for it in a long list.
 #
 # > **Lesson says:** "Use `Units.rotationsToRadians()` if your feedforward class expects radians."
 # >

@@ -24,6 +24,9 @@ LONGEST_CELL = 30  # [s] after which a cell counts as hung; each takes well unde
 SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
 DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
 
+# Windows' event loop cannot watch sockets; the library below nbclient helps itself, and says so.
+pytestmark = pytest.mark.filterwarnings("ignore:Proactor event loop:RuntimeWarning")
+
 each_lesson = pytest.mark.parametrize("text", TEXTS, ids=lambda path: path.stem)
 
 
@@ -154,6 +157,18 @@ def test_every_box_quotes_the_lesson_gives_the_source_and_something_to_try(text)
             assert "](https://" in quote, f"no link to the source:\n{quote}"
 
 
+@pytest.mark.shared
+@each_lesson
+def test_what_the_lesson_is_said_to_say_it_says(text, shared):
+    source = _plain((shared / "source-lesson.md").read_text(encoding="utf-8"))
+    for quote in re.findall(r"(?:^# >.*\n)+", text.read_text(encoding="utf-8"), re.MULTILINE):
+        words = _plain(re.sub(r"^# > ?", "", quote, flags=re.MULTILINE))
+        claim = words.partition("**Lessonsays:**")[2].partition("**Sourcesays:**")[0]
+        for said in re.findall(r'"([^"]+)"', claim):
+            for part in said.rstrip(".").split("…"):
+                assert part in source, said
+
+
 @each_lesson
 def test_a_prediction_is_shown_again(text):
     source = text.read_text(encoding="utf-8")
@@ -209,6 +224,11 @@ def test_lesson_7_reads_the_log_that_exercise_9_made(tmp_path, root):
     assert done.returncode == 0, done.stderr
     assert "ada" in done.stdout
     assert "in rotations" in done.stdout
+
+
+def _plain(text):
+    """Text without code marks, and without spaces, of which the source lesson lost some."""
+    return "".join(text.replace("`", "").split())
 
 
 def _htmls(notebook):
