@@ -48,12 +48,12 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from sim.duty_cycle import Battery, by_duty_cycle
 from sim.fit import fit
 from sim.guess import Guess
 from sim.mechanisms import MECHANISMS
 from sim.plot import Picture, Table, choices, live, time_series
 from sim.simulate import simulate
-from sim.wiring import Battery, by_duty_cycle
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains

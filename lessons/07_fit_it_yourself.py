@@ -44,6 +44,7 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from sim.duty_cycle import by_duty_cycle
 from sim.feedback import allowed_velocity_error, velocity_loop
 from sim.fit import fit
 from sim.guess import Guess
@@ -63,7 +64,6 @@ from sim.plot import (
 from sim.prepare import median_filter, prepare
 from sim.simulate import motion, simulate
 from sim.units import unit
-from sim.wiring import by_duty_cycle
 
 drivetrain = MECHANISMS["drivetrain"]
 

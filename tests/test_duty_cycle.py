@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import sim
+from sim.duty_cycle import Battery, by_duty_cycle
 from sim.errors import BadRequest
 from sim.fit import fit
 from sim.simulate import simulate
-from sim.wiring import Battery, by_duty_cycle
 
 DRIVE = sim.MECHANISMS["drivetrain"]
 ROUTINE = sim.Routine(ramp=0.5, step=3.5)
