@@ -78,7 +78,7 @@ def read_text(path: Path) -> str:
             f"cannot be opened: {reason}", where=str(path), advice="Look at the name once more."
         ) from None
     if not raw.strip():
-        advice = "Write your answer into it. " + _back(path.parent, path.name)
+        advice = f"Write your answer into it. {_back(path.resolve().parent, path.name)}".rstrip()
         raise UnreadableFile("the file is empty", where=str(path), advice=advice)
     text = _decoded(raw)
     if text is None:
@@ -123,5 +123,8 @@ def _decoded(raw: bytes) -> str | None:
 
 
 def _back(folder: Path, name: str) -> str:
+    """How to get an exercise's own file back; nothing for a file from elsewhere."""
+    if folder.parent.name != "exercises":
+        return ""
     path = f"{folder.parent.name}/{folder.name}/{name}"
     return f"To get the file back as it was: git checkout -- {path}"

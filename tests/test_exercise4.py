@@ -94,51 +94,16 @@ def test_a_starter_with_a_syntax_error_is_not_hidden_by_the_untouched_one(real, 
     assert JAVA in capsys.readouterr().err
 
 
-LESSON = """
-import edu.wpi.first.units.measure.*;
-import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine;
-import static edu.wpi.first.units.Units.*;
-
-public class DriveSubsystem extends SubsystemBase {
-  private final TalonFX m_leftLeader = new TalonFX(1);
-  private final TalonFX m_rightLeader = new TalonFX(2);
-  private final SysIdRoutine m_sysIdRoutine = new SysIdRoutine(
-    new SysIdRoutine.Config(
-      Volts.of(0.5).per(Second), // quasistatic ramp rate
-      Volts.of(3.0), // dynamic step voltage
-      Seconds.of(10), // test timeout
-      null
-    ),
-    new SysIdRoutine.Mechanism(
-      (voltage) -> {
-        m_leftLeader.setVoltage(voltage.in(Volts));
-        m_rightLeader.setVoltage(voltage.in(Volts));
-      },
-      (log) -> {
-        log.motor("drive-left")
-          .voltage(Volts.of(m_leftLeader.getMotorVoltage().getValueAsDouble()))
-          .linearPosition(Meters.of(getLeftPositionMeters()))
-          .linearVelocity(MetersPerSecond.of(getLeftVelocityMetersPerSecond()));
-        log.motor("drive-right")
-          .voltage(Volts.of(m_rightLeader.getMotorVoltage().getValueAsDouble()))
-          .linearPosition(Meters.of(getRightPositionMeters()))
-          .linearVelocity(MetersPerSecond.of(getRightVelocityMetersPerSecond()));
-      },
-      this
-    )
-  );
-  public Command sysIdQuasistaticForward() {
-    return m_sysIdRoutine.quasistatic(SysIdRoutine.Direction.kForward);
-  }
-}
-"""
+LESSON = (ROOT / "tests" / "robotcode" / "DriveSubsystem.java").read_text("utf-8")
 
 
 @pytest.mark.parametrize(
     ("step", "code", "score"), [("3.0", 1, 14), ("3.5", 0, 15)], ids=["example", "practice"]
 )
 def test_the_source_lesson_to_the_letter(real, capsys, step, code, score):
-    (real / "DriveSubsystem.java").write_text(LESSON.replace("3.0", step), "utf-8")
+    (real / "DriveSubsystem.java").write_text(
+        LESSON.replace("Volts.of(3.0)", f"Volts.of({step})"), "utf-8"
+    )
 
     assert run(["4", "DriveSubsystem.java", "--json"]) == code
     result = json.loads(capsys.readouterr().out)
