@@ -17,7 +17,7 @@ import venv
 from pathlib import Path
 from typing import NoReturn
 from urllib.error import URLError
-from urllib.request import urlopen
+from urllib.request import Request, urlopen
 
 ROOT = Path(__file__).resolve().parents[1]
 SCREEN = 10.0  # [s] from the end of the install to the first useful screen
@@ -102,14 +102,15 @@ def watch(command: str, environment: dict[str, str]) -> None:
     )
     try:
         waited = first_screen(running)
-        address = lab(runtime)
+        server = lab(runtime)
+        shut_down(server)
+        running.wait(30)
     finally:
         running.terminate()
-        try:
-            running.wait(30)
-        except subprocess.TimeoutExpired:
-            running.kill()
-    print(f"first useful screen {waited:.1f} s after the install; JupyterLab answers at {address}")
+        running.wait(30)
+    print(f"first useful screen {waited:.1f} s after the install; JupyterLab answered and closed")
+    if running.returncode:
+        fail(f"{command} left with exit code {running.returncode}")
     if waited > SCREEN:
         fail(f"the first useful screen took {waited:.1f} s, more than {SCREEN:g}")
 
@@ -128,16 +129,24 @@ def first_screen(running: "subprocess.Popen[str]") -> float:
     return time.monotonic() - installed
 
 
-def lab(runtime: Path) -> str:
+def lab(runtime: Path) -> dict[str, str]:
     """Wait until the server that leaves its address in ``runtime`` serves a page."""
     last = time.monotonic() + 60.0
     while time.monotonic() < last:
         for file in runtime.glob("jpserver-*.json"):
             server = json.loads(file.read_text(encoding="utf-8"))
             if serves(f"{server['url']}lab?token={server['token']}"):
-                return str(server["url"])
+                return dict(server)
         time.sleep(0.5)
     return fail("JupyterLab never answered")
+
+
+def shut_down(server: dict[str, str]) -> None:
+    """Ask a Jupyter server to end, as its menu does."""
+    address = f"{server['url']}api/shutdown"
+    headers = {"Authorization": f"token {server['token']}"}
+    with urlopen(Request(address, headers=headers, method="POST"), timeout=10):  # noqa: S310 - ours
+        pass
 
 
 def serves(address: str) -> bool:

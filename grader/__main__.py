@@ -18,13 +18,15 @@ from importlib.metadata import PackageNotFoundError, distribution
 from importlib.util import find_spec
 from pathlib import Path
 
+from grader.foreground import INTERRUPTED, run
+
 OLDEST = (3, 11)
 ROOT = Path(__file__).resolve().parent.parent
 HOPPED = "SYSID_COURSE_ENVIRONMENT"  # set in the second process, so that it cannot make a third
 INSTALLED = "SYSID_COURSE_INSTALLED"  # the same for an installation that does not help
 SIZE, SIZE_TO_TEST = "750 MB", "1.1 GB"  # on the disk, measured on Linux
 LAST = 6  # lines of pip's complaint that are worth reading
-COULD_NOT, INTERRUPTED = 2, 130
+COULD_NOT = 2
 
 
 def main(arguments: list[str]) -> int:
@@ -98,10 +100,10 @@ def _go(arguments: list[str]) -> int:
     """Everything is there: run the command itself."""
     if arguments[:1] == ["test"]:
         command = [sys.executable, "-m", "pytest", *arguments[1:]]
-        return _run(command, cwd=ROOT)
-    from grader.cli import run  # noqa: PLC0415 - needs what may not be installed yet
+        return run(command, cwd=ROOT)
+    from grader.cli import run as grade  # noqa: PLC0415 - needs what may not be installed yet
 
-    return run(arguments)
+    return grade(arguments)
 
 
 def _hop(arguments: list[str]) -> int:
@@ -113,7 +115,7 @@ def _hop(arguments: list[str]) -> int:
         if problem:
             return _give_up(*problem)
     environment = dict(os.environ, **{HOPPED: "1"})
-    return _run([str(python), "-m", "grader", *arguments], env=environment)
+    return run([str(python), "-m", "grader", *arguments], env=environment)
 
 
 def _make(folder: Path) -> tuple[str, str] | None:
@@ -142,7 +144,7 @@ def _install_and_go(arguments: list[str]) -> int:
         return _give_up(*problem)
     _say("Installed.")
     environment = dict(os.environ, **{INSTALLED: "1"})
-    return _run([sys.executable, "-m", "grader", *arguments], env=environment)
+    return run([sys.executable, "-m", "grader", *arguments], env=environment)
 
 
 def _install(*, testing: bool) -> tuple[str, str] | None:
@@ -173,17 +175,6 @@ def _quietly(command: list[str], *, cwd: Path | None = None) -> str:
     lines = (done.stdout + done.stderr).strip().splitlines()
     telling = [line for line in lines if re.match(r"\s*(ERROR|error|\w*Error)\b", line)]
     return "\n".join((telling or lines)[-LAST:]) or f"exit code {done.returncode}"
-
-
-def _run(command: list[str], *, cwd: Path | None = None, env: dict[str, str] | None = None) -> int:
-    """Run a command in the foreground and return its exit code."""
-    running = subprocess.Popen(command, cwd=cwd, env=env)  # noqa: S603 - our own arguments, no shell
-    while True:
-        try:
-            code = running.wait()
-        except KeyboardInterrupt:  # it heard that too, and ends as it sees fit
-            continue
-        return INTERRUPTED if code < 0 else code
 
 
 def _give_up(what: str, advice: str) -> int:

@@ -3,15 +3,16 @@
 import importlib.util
 import os
 import shutil
-import subprocess
 import sys
 import sysconfig
 from pathlib import Path
 
 from grader.course import Progress
 from grader.exercise import exercises
+from grader.foreground import INTERRUPTED, run
 from grader.report import overview
 from grader.terminal import line, show
+from sim.command import COULD_NOT, DONE
 from sim.errors import BadRequest
 
 # Nothing leaves the machine: no news, no look for updates, no catalogue of extensions. And no chat.
@@ -86,12 +87,8 @@ def _open_lab(course: Path, what: Path) -> int:
     paths = os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part)
     root = f"--ServerApp.root_dir={course}"  # else it shows the lessons' folder alone
     command = [sys.executable, "-m", "jupyterlab", *QUIET, *_as_root(), root, place]
-    lab = subprocess.Popen(command, cwd=course, env={**os.environ, "PATH": paths})  # noqa: S603 - our own arguments, no shell
-    while True:
-        try:
-            return 0 if lab.wait() in {0, 130, -2} else 2
-        except KeyboardInterrupt:
-            continue  # it goes to JupyterLab too, which asks before it ends
+    code = run(command, cwd=course, env={**os.environ, "PATH": paths})
+    return DONE if code in {DONE, INTERRUPTED} else COULD_NOT
 
 
 def _say(text: str) -> None:

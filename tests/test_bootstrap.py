@@ -14,6 +14,7 @@ import pytest
 from grader import __main__ as bootstrap
 
 ROOT = Path(__file__).resolve().parents[1]
+STANDALONE = ("__init__.py", "__main__.py", "foreground.py")  # all that runs before the install
 OLD = (3, 8)
 
 
@@ -51,14 +52,16 @@ def inside(monkeypatch):
     monkeypatch.setattr(bootstrap, "in_environment", lambda: True)
 
 
-def test_an_old_python_can_read_this_file():
-    source = Path(bootstrap.__file__).read_text("utf-8")
+@pytest.mark.parametrize("file", STANDALONE)
+def test_an_old_python_can_read_this_file(file):
+    source = (ROOT / "grader" / file).read_text("utf-8")
 
     ast.parse(source, feature_version=OLD)
 
 
-def test_it_needs_nothing_but_pythons_own_library():
-    tree = ast.parse(Path(bootstrap.__file__).read_text("utf-8"))
+@pytest.mark.parametrize("file", STANDALONE)
+def test_it_needs_nothing_but_pythons_own_library(file):
+    tree = ast.parse((ROOT / "grader" / file).read_text("utf-8"))
     top = [node for node in tree.body if isinstance(node, ast.Import | ast.ImportFrom)]
     names = {
         name.split(".")[0]
@@ -66,7 +69,7 @@ def test_it_needs_nothing_but_pythons_own_library():
         for name in ([node.module] if isinstance(node, ast.ImportFrom) else [node.names[0].name])
     }
 
-    assert names <= sys.stdlib_module_names
+    assert names <= {*sys.stdlib_module_names, "grader"}
 
 
 def test_an_old_python_is_told_which_one_to_get(world, monkeypatch, capsys):
@@ -247,7 +250,7 @@ def test_an_isolated_python_gets_as_far_as_installing(tmp_path):
     """A real process without any package: it starts, sees what is missing, and makes a place."""
     clone = tmp_path / "clone"
     (clone / "grader").mkdir(parents=True)
-    for name in ("__init__.py", "__main__.py"):
+    for name in STANDALONE:
         (clone / "grader" / name).write_bytes((ROOT / "grader" / name).read_bytes())
     (clone / "pyproject.toml").write_bytes((ROOT / "pyproject.toml").read_bytes())
     (clone / ".venv").mkdir()

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from grader import foreground
 from grader import start as starting
 from grader.cli import run
 from grader.course import load
@@ -57,7 +58,7 @@ def course(tmp_path, monkeypatch):
     for name in ("01_motor.ipynb", "00_guess.ipynb"):
         (tmp_path / "lessons" / name).write_text("{}", "utf-8")
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(starting.subprocess, "Popen", Lab)
+    monkeypatch.setattr(foreground.subprocess, "Popen", Lab)
     monkeypatch.setattr(Lab, "ends", (0,))
     monkeypatch.setattr(Lab, "command", ())
     return tmp_path
