@@ -7,7 +7,7 @@ from pathlib import Path
 from sim.errors import BadRequest
 from sim.mechanism import Mechanism
 from sim.routine import Routine
-from sim.units import unit
+from sim.units import gains_per, unit
 
 
 def write_truth(mechanism: Mechanism, routine: Routine, *, path: Path) -> None:
@@ -17,15 +17,11 @@ def write_truth(mechanism: Mechanism, routine: Routine, *, path: Path) -> None:
         BadRequest: the file cannot be written.
     """
     per = unit(mechanism.units)
-    gains = {
-        name: value * (per.si if name in {"kV", "kA"} else 1.0)
-        for name, value in mechanism.gains.items()
-    }
     content = {
         "mechanism": mechanism.name,
         "type": mechanism.type,
         "units": per.name,
-        "gains": gains,
+        "gains": gains_per(mechanism.gains, factor=per.si),
         "routine": asdict(routine),
     }
     try:

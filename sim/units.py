@@ -1,6 +1,7 @@
 """Units of position a log may be written in. Inside, all is SI: meters or radians, and seconds."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sim.errors import BadRequest
@@ -34,6 +35,18 @@ UNITS: dict[str, Unit] = {
         Unit("degrees", "deg", math.pi / 180.0, angular=True),
     )
 }
+
+
+def gains_per(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
+    """The same gains when positions are counted in a unit ``factor`` times as large.
+
+    Args:
+        gains: gain -> value; only kV and kA depend on the unit of position.
+        factor: ``unit("rotations").si`` turns gains per radian into gains per rotation.
+    """
+    return {
+        name: value * factor if name in {"kV", "kA"} else value for name, value in gains.items()
+    }
 
 
 def unit(name: str) -> Unit:

@@ -56,7 +56,7 @@ def draw(student: str) -> Variant:
     from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
     from sim.routine import Routine  # noqa: PLC0415 - the same
     from sim.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.units import unit  # noqa: PLC0415 - the same
+    from sim.units import gains_per, unit  # noqa: PLC0415 - the same
 
     routine = Routine(ramp=RAMP, step=STEP, timeout=TIMEOUT)
     for attempt in range(MOST_DRAWS):
@@ -65,10 +65,7 @@ def draw(student: str) -> Variant:
         log = simulate(mechanism, routine, rng=rng, period=PERIOD)
         found = fit(log, type=mechanism.type, method="sysid").in_units(mechanism.units)
         per = unit(mechanism.units)
-        gains = {
-            name: value * (per.si if name in {"kV", "kA"} else 1.0)
-            for name, value in mechanism.gains.items()
-        }
+        gains = gains_per(mechanism.gains, factor=per.si)
         asked = gains_asked(gains, position=per.symbol)
         found_all = all(one.right(found.gains[name]) for name, one in asked.items())
         if found_all and not _alike(asked):

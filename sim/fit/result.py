@@ -14,9 +14,7 @@ from sim.feedback import (
     position_loop,
     velocity_loop,
 )
-from sim.units import Unit, unit
-
-_PER_UNIT = ("kV", "kA")  # gains whose value depends on the unit of position
+from sim.units import Unit, gains_per, unit
 
 
 @dataclass(frozen=True)
@@ -75,8 +73,8 @@ class Fit:
         return replace(
             self,
             units=new.name,
-            gains=_scaled(self.gains, factor),
-            errors=_scaled(self.errors, factor),
+            gains=gains_per(self.gains, factor=factor),
+            errors=gains_per(self.errors, factor=factor),
             acceleration_rmse=self.acceleration_rmse / factor,
             simulated_velocity_rmse=self.simulated_velocity_rmse / factor,
             velocity_threshold=self.velocity_threshold / factor,
@@ -162,10 +160,6 @@ def gain_unit(gain: str, per: Unit) -> str:
     return {"kV": f"V·s/{per.symbol}", "kA": f"V·s²/{per.symbol}", "offset_rad": "rad"}.get(
         gain, "V"
     )
-
-
-def _scaled(gains: Mapping[str, float], factor: float) -> dict[str, float]:
-    return {name: value * factor if name in _PER_UNIT else value for name, value in gains.items()}
 
 
 def _finite(value: float) -> float | None:
