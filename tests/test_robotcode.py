@@ -93,10 +93,16 @@ REFUSED = {
     "bottomless": (
         "Arm.java",
         b"class A { int x = " + b"(" * 9999,
-        "more than 100 deep",
+        "nested deeper",
         "subsystem",
     ),
-    "generics": ("Arm.java", b"class A { " + b"a<" * 9999, "50 deep", "subsystem"),
+    "endless": (
+        "Arm.java",
+        b"class A { int x = " + b"/a=" * 999,
+        "more than 2000 words",
+        "subsystem",
+    ),
+    "generics": ("Arm.java", b"class A { " + b"a<" * 9999, "nested deeper", "subsystem"),
 }
 
 
@@ -141,6 +147,8 @@ BROKEN = {
     "no semicolon": ("A.java", "class A {\n int x = 1\n int y = 2;\n}", 2, "a ';' is missing"),
     "brackets in text": ("A.java", 'class A {\n String s = "((("\n}', 2, "a ';' is missing"),
     "not Java": ("A.java", "def f():\n    pass\n", 1, "this is not Java: def f():"),
+    "garbage": ("A.java", "class A { int x = " + "-*" * 900, 1, "the '{' here is never closed"),
+    "more garbage": ("A.java", "!;" * 20_000, 1, "too little of this is Java"),
     "Java as Python": ("a.py", "public class A {\n}\n", 1, "this is not Python: invalid syntax"),
     "no colon": ("a.py", "class A\n    pass\n", 1, "this is not Python: expected ':'"),
     "bottomless": ("a.py", "x = " + "-" * 50_000 + "1", 1, "nested deeper than Python itself"),

@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from time import thread_time
 
 import tree_sitter_java
 from tree_sitter import Language, Parser
@@ -9,12 +10,21 @@ from tree_sitter import Node as Tree
 
 from grader.robotcode import syntax
 from grader.robotcode.facts import Problem
-from grader.robotcode.java.brackets import refuse_deep_nesting, unmatched
+from grader.robotcode.java.brackets import refuse_garbage, unmatched
 from grader.robotcode.java.declarations import DECLARATIONS
 from grader.robotcode.java.expressions import EXPRESSIONS
-from grader.robotcode.java.lowering import Lowering, said
+from grader.robotcode.java.lowering import Lowering
 
 MOST_PROBLEMS = 5  # one mistake makes many; the first ones tell
+CHUNK = 65_536  # [bytes] handed to the parser at a time
+FIRST = 16_384  # [bytes] parsed first; most classes are shorter
+# The parser reports in as it goes, once in about 120 bytes of Java, mended mistakes included. On
+# some garbage its repairs grow with the square of the length; then it reports far more often.
+PATIENCE = 300  # [reports]
+BYTES_PER_CALL = 20
+# On other garbage it reports no more often, but each step takes longer than the last.
+LONGEST = 0.3  # [s of this thread alone: a busy machine must not count]
+SECONDS_PER_BYTE = 3e-6  # Java takes a twentieth of it
 
 _LANGUAGE = Language(tree_sitter_java.language())
 
@@ -32,25 +42,60 @@ def parse(text: str, path: Path) -> syntax.Module:
     Raises:
         UnreadableFile: nested deeper than any robot code.
     """
-    refuse_deep_nesting(text, where=path.name)
+    refuse_garbage(text, where=path.name)
     source = text.encode("utf-8", errors="replace")
-    root = Parser(_LANGUAGE).parse(source).root_node
-    body = Lowering(source, EXPRESSIONS | DECLARATIONS).lower(root)
-    headers = [
-        child
-        for child in root.children
-        if child.type in {"import_declaration", "package_declaration"}
-    ]
-    package = next((said(h) for h in headers if h.type == "package_declaration"), "")
+    root = _root(source)
+    if root is None:
+        lost = Problem("too little of this is Java to make sense of it", 1)
+        return syntax.Module(path, "java", source, (), problems=(unmatched(text) or lost,))
+    lowering = Lowering(source, EXPRESSIONS | DECLARATIONS)
+    body = lowering.lower(root)
+    headers = [(child.type, lowering.said(child)) for child in root.children]
+    package = next((said for kind, said in headers if kind == "package_declaration"), "")
     return syntax.Module(
         path,
         "java",
         source,
         body,
-        imports=tuple(_import(said(h)) for h in headers if h.type == "import_declaration"),
-        package=re.sub(r"package|[\s;]", "", package),
-        problems=_problems(root, text) if root.has_error else (),
+        imports=tuple(_import(said) for kind, said in headers if kind == "import_declaration"),
+        package=re.sub(r"^package|[\s;]", "", package),
+        problems=_problems(root, lowering, text) if root.has_error else (),
     )
+
+
+def _root(source: bytes) -> Tree | None:
+    """The parsed text; None where repairing it would take the parser out of all proportion.
+
+    The beginning goes first, then twice as much each time: some garbage is only paid for at its
+    end, by the square of its length, and so what comes next costs no more than four times as much.
+    """
+    length = FIRST
+    while length < len(source):
+        if _parsed(source[:length]) is None:
+            return None
+        length *= 2
+    return _parsed(source)
+
+
+def _parsed(source: bytes) -> Tree | None:
+    calls, start = 0, thread_time()
+
+    def late(at: int) -> bool:
+        return thread_time() > start + LONGEST + at * SECONDS_PER_BYTE
+
+    def give_up(at: int, _: object) -> bool:
+        nonlocal calls
+        calls += 1
+        return late(at) or calls > PATIENCE + at // BYTES_PER_CALL
+
+    def read(at: int, _: object) -> bytes:
+        return source[at : at + CHUNK]
+
+    try:
+        root = Parser(_LANGUAGE).parse(read, progress_callback=give_up).root_node
+    except ValueError:
+        return None
+    return None if late(len(source)) else root
 
 
 def _import(line: str) -> syntax.Import:
@@ -60,7 +105,7 @@ def _import(line: str) -> syntax.Import:
     return syntax.Import(path.rpartition(".")[2], path)
 
 
-def _problems(root: Tree, text: str) -> tuple[Problem, ...]:
+def _problems(root: Tree, lowering: Lowering, text: str) -> tuple[Problem, ...]:
     """What is not Java, the cause before its echoes."""
     bracket = unmatched(text)
     found = [] if bracket is None else [bracket]
@@ -72,12 +117,12 @@ def _problems(root: Tree, text: str) -> tuple[Problem, ...]:
         if tree.is_missing:
             found.append(Problem(f"a '{tree.type}' is missing", tree.start_point[0] + 1))
         elif tree.is_error:
-            found.append(Problem(_misread(tree), tree.start_point[0] + 1))
+            found.append(Problem(_misread(lowering.said(tree)), tree.start_point[0] + 1))
         elif tree.has_error:
             waiting.extend(reversed(tree.children))
     return tuple(dict.fromkeys(found))
 
 
-def _misread(tree: Tree) -> str:
-    shown = " ".join(said(tree)[:200].split())[:40]
+def _misread(text: str) -> str:
+    shown = " ".join(text[:200].split())[:40]
     return f"this is not Java: {shown}" if shown else "something is missing here"

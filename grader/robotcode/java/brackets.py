@@ -9,38 +9,47 @@ import re
 from grader.robotcode.facts import Problem
 from sim.errors import UnreadableFile
 
+# The parser's memory grows with the square of how deep it is, or of how much it cannot make out.
 DEEPEST = 100  # [brackets] robot code stays below 20
-LONGEST_RUN = 50  # [signs] '<' in a row without a ';' or bracket: the parser's memory grows as n²
+MOST_ANGLES = 50  # ['<' without its '>'] in one statement
+LONGEST = 2_000  # [words and signs] without a comma, a semicolon or a brace
 CLOSES = {"(": ")", "[": "]", "{": "}"}
 
 _TOKEN = re.compile(
-    r"//[^\n]*"
-    r"|/\*(?:.*?\*/|.*)"
+    r"(?P<comment>//[^\n]*|/\*(?:.*?\*/|.*))"
     r'|"""(?:\\.|[^\\])*?(?:"""|\Z)'
     r'|"(?:\\.|[^"\\\n])*"?'
     r"|'(?:\\.|[^'\\\n])*'?"
-    r"|[()\[\]{}<;]",
+    r"|->|\w+|[^\s\w]",
     re.DOTALL,
 )
-
 _LOOP = re.compile(r"\b(for|try)\s*$")  # their round brackets hold semicolons
 
 
-def refuse_deep_nesting(text: str, *, where: str) -> None:
-    """Refuse a text that a parser could choke on.
+def refuse_garbage(text: str, *, where: str) -> None:
+    """Refuse a text that the parser would choke on.
 
     Raises:
-        UnreadableFile: brackets nested deeper than DEEPEST, or LONGEST_RUN type arguments.
+        UnreadableFile: nested too deep, or a statement too long, for any person's code.
     """
-    depth = run = 0
+    opened: list[str] = []
+    angles = words = 0
     for match in _TOKEN.finditer(text):
         sign = match.group()
-        run = run + 1 if sign == "<" else 0
-        depth += (sign in CLOSES) - (sign in CLOSES.values())
-        if depth > DEEPEST or run > LONGEST_RUN:
+        if match["comment"]:
+            continue
+        words = 0 if sign in ",;{}" else words + 1
+        angles = 0 if sign in ";{}" else max(angles + (sign == "<") - (sign == ">"), 0)
+        if sign in CLOSES:
+            opened.append(CLOSES[sign])
+        elif opened and opened[-1] == sign:
+            opened.pop()
+        if len(opened) > DEEPEST or angles > MOST_ANGLES or words > LONGEST:
             line = text.count("\n", 0, match.start()) + 1
             raise UnreadableFile(
-                f"the brackets are nested more than {DEEPEST if run == 0 else LONGEST_RUN} deep",
+                f"a statement of more than {LONGEST} words and signs"
+                if words > LONGEST
+                else "the brackets are nested deeper than in any robot code",
                 where=f"{where}, line {line}",
                 advice="Is this the right file? Give the source of your subsystem.",
             )
@@ -52,6 +61,8 @@ def unmatched(text: str) -> Problem | None:
     line, at = 1, 0
     for match in _TOKEN.finditer(text):
         sign = match.group()
+        if match["comment"]:
+            continue
         line, at = line + text.count("\n", at, match.start()), match.start()
         if sign in CLOSES:
             loop = _LOOP.search(text, max(at - 12, 0), at)

@@ -5,11 +5,11 @@ import re
 from tree_sitter import Node as Tree
 
 from grader.robotcode import syntax
-from grader.robotcode.java.lowering import Lowering, Maker, said
+from grader.robotcode.java.lowering import Lowering, Maker
 
 
 def _declaration(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    type_ = said(tree.child_by_field_name("type"))
+    type_ = lowering.said(tree.child_by_field_name("type"))
     made = []
     for child in tree.children_by_field_name("declarator"):
         name = child.child_by_field_name("name")
@@ -17,7 +17,7 @@ def _declaration(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
         made.append(
             syntax.Assign(
                 lowering.place(child),
-                syntax.Name(lowering.place(name or child), said(name)),
+                syntax.Name(lowering.place(name or child), lowering.said(name)),
                 None if value is None else lowering.one(value, around=child),
                 type="" if type_ == "var" else type_,
                 declares=True,
@@ -34,23 +34,23 @@ def _return(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
 def _loop(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     body = tree.child_by_field_name("body")
     statements = () if body is None else lowering.done[body.id]
-    variables = (said(tree.child_by_field_name("name")),)
+    variables = (lowering.said(tree.child_by_field_name("name")),)
     return (
         syntax.Loop(lowering.place(tree), variables, lowering.field(tree, "value"), statements),
     )
 
 
-def _parameters(tree: Tree | None) -> tuple[tuple[str, str], ...]:
+def _parameters(lowering: Lowering, tree: Tree | None) -> tuple[tuple[str, str], ...]:
     """Name and type of each parameter of a method or lambda."""
     if tree is None:
         return ()
     if tree.type == "identifier":
-        return ((said(tree), ""),)
+        return ((lowering.said(tree), ""),)
     found = []
     for child in tree.named_children:
         name = child if child.type == "identifier" else child.child_by_field_name("name")
         if name is not None:
-            found.append((said(name), said(child.child_by_field_name("type"))))
+            found.append((lowering.said(name), lowering.said(child.child_by_field_name("type"))))
     return tuple(found)
 
 
@@ -59,9 +59,9 @@ def _function(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     listed = tree.child_by_field_name("parameters")
     parameters = tuple(
         syntax.Parameter(lowering.place(listed or tree), name, type_)
-        for name, type_ in _parameters(listed)
+        for name, type_ in _parameters(lowering, listed)
     )
-    name = said(tree.child_by_field_name("name"))
+    name = lowering.said(tree.child_by_field_name("name"))
     if tree.type == "constructor_declaration":
         name = "<init>"
     if body is None:
@@ -70,7 +70,7 @@ def _function(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     if tree.type == "lambda_expression" and body.type != "block":
         value = lowering.one(body, around=tree)
         statements = (syntax.Return(value.place, value),)
-    type_ = said(tree.child_by_field_name("type"))
+    type_ = lowering.said(tree.child_by_field_name("type"))
     return (syntax.Function(place, name, parameters, statements, type=type_),)
 
 
@@ -78,13 +78,13 @@ def _class(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     body = tree.child_by_field_name("body")
     members = () if body is None else lowering.many(body.children)
     bases = [
-        re.sub(r"<.*", "", said(kind), flags=re.DOTALL).rpartition(".")[2]
+        re.sub(r"<.*", "", lowering.said(kind), flags=re.DOTALL).rpartition(".")[2]
         for child in tree.children
         if child.type in {"superclass", "super_interfaces", "extends_interfaces"}
         for group in child.named_children
         for kind in (group.named_children if group.type == "type_list" else [group])
     ]
-    name = said(tree.child_by_field_name("name"))
+    name = lowering.said(tree.child_by_field_name("name"))
     return (syntax.Class(lowering.place(tree), name, tuple(bases), members),)
 
 

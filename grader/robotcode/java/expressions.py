@@ -3,11 +3,11 @@
 from tree_sitter import Node as Tree
 
 from grader.robotcode import syntax
-from grader.robotcode.java.lowering import SKIPPED, Lowering, Maker, said
+from grader.robotcode.java.lowering import SKIPPED, Lowering, Maker
 
 
 def _name(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    return (syntax.Name(lowering.place(tree), said(tree)),)
+    return (syntax.Name(lowering.place(tree), lowering.said(tree)),)
 
 
 def _self(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
@@ -19,7 +19,7 @@ def _null(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
 
 
 def _number(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    place, digits = lowering.place(tree), said(tree).replace("_", "").lower()
+    place, digits = lowering.place(tree), lowering.said(tree).replace("_", "").lower()
     try:
         if tree.type == "decimal_floating_point_literal":
             return (syntax.Number(place, float(digits.rstrip("fd")), integer=False),)
@@ -30,7 +30,7 @@ def _number(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
 
 
 def _string(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    return (syntax.Text(lowering.place(tree), said(tree).strip('"').strip()),)
+    return (syntax.Text(lowering.place(tree), lowering.said(tree).strip('"').strip()),)
 
 
 def _member(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
@@ -38,13 +38,13 @@ def _member(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     if field is not None and field.type == "this":  # Outer.this
         return _self(lowering, tree)
     owner = lowering.field(tree, "object")
-    return (syntax.Member(lowering.place(tree), owner, said(field)),)
+    return (syntax.Member(lowering.place(tree), owner, lowering.said(field)),)
 
 
 def _reference(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     named = tree.named_children
     owner = lowering.one(named[0] if named else None, around=tree)
-    name = said(named[-1]) if len(named) > 1 else "new"
+    name = lowering.said(named[-1]) if len(named) > 1 else "new"
     return (syntax.Reference(lowering.place(tree), owner, name),)
 
 
@@ -53,7 +53,7 @@ def _scoped_type(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     if not named:
         return ()
     owner = lowering.one(named[0], around=tree)
-    return (syntax.Member(lowering.place(tree), owner, said(named[-1])),)
+    return (syntax.Member(lowering.place(tree), owner, lowering.said(named[-1])),)
 
 
 def _generic_type(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
@@ -65,9 +65,9 @@ def _method_call(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     owner = tree.child_by_field_name("object")
     start = lowering.place(name)
     place = syntax.Place(lowering.source, name.start_byte, tree.end_byte, start.line)
-    target: syntax.Node = syntax.Name(place, said(name))
+    target: syntax.Node = syntax.Name(place, lowering.said(name))
     if owner is not None:  # a chain begins far above; its method stands where its name does
-        target = syntax.Member(place, lowering.one(owner, around=tree), said(name))
+        target = syntax.Member(place, lowering.one(owner, around=tree), lowering.said(name))
     return (syntax.Call(lowering.place(tree), target, _arguments(lowering, tree)),)
 
 
@@ -99,7 +99,7 @@ def _arguments(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
 
 
 def _operation(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    sign = said(tree.child_by_field_name("operator"))
+    sign = lowering.said(tree.child_by_field_name("operator"))
     place = lowering.place(tree)
     if tree.type == "unary_expression":
         return (syntax.Operation(place, sign, None, lowering.field(tree, "operand")),)
@@ -113,7 +113,7 @@ def _choice(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
 
 
 def _cast(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    type_ = said(tree.child_by_field_name("type"))
+    type_ = lowering.said(tree.child_by_field_name("type"))
     return (syntax.Cast(lowering.place(tree), type_, lowering.field(tree, "value")),)
 
 
@@ -132,7 +132,7 @@ def _array(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
 
 
 def _assignment(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    place, sign = lowering.place(tree), said(tree.child_by_field_name("operator"))
+    place, sign = lowering.place(tree), lowering.said(tree.child_by_field_name("operator"))
     target, value = lowering.field(tree, "left"), lowering.field(tree, "right")
     if sign != "=":
         value = syntax.Operation(place, sign.removesuffix("="), target, value)

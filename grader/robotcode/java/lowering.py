@@ -54,6 +54,11 @@ class Lowering:
         """Where a tree stands in the file."""
         return syntax.Place(self.source, tree.start_byte, tree.end_byte, tree.start_point[0] + 1)
 
+    def said(self, tree: Tree | None) -> str:
+        """The source text of a tree."""
+        text = b"" if tree is None else self.source[tree.start_byte : tree.end_byte]
+        return text.decode("utf-8", errors="replace")
+
     def many(self, trees: Iterable[Tree]) -> tuple[syntax.Node, ...]:
         """What some trees became."""
         return tuple(node for tree in trees for node in self.done[tree.id])
@@ -69,8 +74,3 @@ class Lowering:
 
 
 Maker = Callable[[Lowering, Tree], tuple[syntax.Node, ...]]
-
-
-def said(tree: Tree | None) -> str:
-    """The source text of a tree."""
-    return "" if tree is None or tree.text is None else tree.text.decode("utf-8", errors="replace")
