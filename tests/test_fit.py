@@ -174,7 +174,7 @@ def test_a_velocity_logged_faster_than_it_is_sent_is_doubted(drive):
     found = fit(replace(drive, runs=runs))
 
     (doubt,) = [doubt for doubt in found.doubts if doubt.code == "stale-velocity"]
-    assert "75% of the moving samples repeat" in doubt.message
+    assert "of the samples that speed up repeat" in doubt.message
     assert "kA comes out too small" in doubt.message
 
 
