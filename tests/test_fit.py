@@ -167,15 +167,19 @@ def test_repeated_runs_are_said_to_be_ignored(drive):
     assert "quasistatic-forward (2 runs)" in doubt.message
 
 
-def test_a_velocity_logged_faster_than_it_is_sent_is_doubted(drive):
-    held = [np.repeat(run.velocity[::4], 4)[: len(run)] for run in drive.runs]
-    runs = tuple(replace(run, velocity=v) for run, v in zip(drive.runs, held, strict=True))
+@pytest.mark.parametrize(("held", "of_its_size"), [(3, 0.67), (4, 0.50), (5, 0.40)])
+def test_a_velocity_logged_faster_than_it_is_sent_is_doubted_by_what_it_costs(held, of_its_size):
+    truth = MECHANISMS["shooter"]  # slow enough that a few held samples delay nothing
+    log = simulate(truth, Routine(ramp=0.5, step=3.5), rng=np.random.default_rng(1))
+    stale = [np.repeat(run.velocity[::held], held)[: len(run)] for run in log.runs]
+    runs = tuple(replace(run, velocity=v) for run, v in zip(log.runs, stale, strict=True))
 
-    found = fit(replace(drive, runs=runs))
+    found = fit(replace(log, runs=runs))
 
     (doubt,) = [doubt for doubt in found.doubts if doubt.code == "stale-velocity"]
-    assert "of the samples that speed up repeat" in doubt.message
-    assert "kA comes out too small" in doubt.message
+    said = int(doubt.message.partition("kA comes out at about ")[2].partition("%")[0]) / 100
+    assert said == pytest.approx(of_its_size, abs=0.06)
+    assert found.gains["kA"] / truth.gains["kA"] == pytest.approx(said, abs=0.08)
 
 
 def test_a_suggested_gain_that_would_run_away_is_doubted():

@@ -12,7 +12,7 @@ from sim.prepare import NEAR_TOP, Prepared
 
 DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA dubious
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
-STALE = 0.25  # [share of accelerating samples] more repeat only where frames are slower than logs
+STALE = 0.6  # [share of accelerating samples] that repeat; up to a half costs no bias, see _stale
 SURELY = 2.0  # [standard errors] further below zero than this is no accident of noise
 UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
 
@@ -56,18 +56,23 @@ def _repeats(log: Log) -> list[Doubt]:
 
 
 def _stale(log: Log) -> list[Doubt]:
-    """Velocities that were logged more often than they were measured."""
+    """Velocities that were logged more often than they were measured.
+
+    Of a velocity held for n samples SysId keeps the two next to each jump and spreads the jump over
+    two periods instead of n, so kA comes out as 2/n, or 2·(1 - share repeated), of its size.
+    """
     steps = [_rise(log.of(test)[0]) for test in FOUR_TESTS if test.startswith("dynamic")]
     repeated = np.concatenate(steps) == 0.0
-    if not repeated.size or repeated.mean() < STALE:
+    share = float(repeated.mean()) if repeated.size else 0.0
+    if share < STALE:
         return []
     return [
         Doubt(
             "stale-velocity",
-            f"{repeated.mean():.0%} of the samples that speed up repeat the velocity before them: "
-            "it was logged faster than the motor controller sends it. SysId leaves those out and "
-            "takes the jumps between them for acceleration, so kA comes out too small. Log at the "
-            "controller's own rate, or raise that rate.",
+            f"{share:.0%} of the samples that speed up repeat the velocity before them: it was "
+            "logged faster than the motor controller sends it. SysId's recipe takes the jumps "
+            f"between them for acceleration, so kA comes out at about {2 * (1 - share):.0%} of its "
+            "size. Log at the controller's own rate, or raise that rate.",
         )
     ]
 
