@@ -263,7 +263,7 @@ def test_a_request_that_makes_no_sense_lists_what_does(drive, asked, said):
     assert said in str(refused.value)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=200)
 @given(
     st.lists(st.floats(-1e8, 1e8), min_size=12, max_size=60),
     st.lists(st.floats(-1e8, 1e8), min_size=12, max_size=60),

@@ -55,8 +55,9 @@ def simulated_velocity(
             model = _swing(part, decay, gain, gains)
         else:
             model = _slide(part, decay, gain, gains)
-        error = part.velocity - model
-        missed += float(error @ error)
+        with np.errstate(over="ignore", invalid="ignore"):  # gains of nonsense may run away
+            error = part.velocity - model
+            missed += float(error @ error)
         total += float(part.velocity[1:] @ part.velocity[1:])
         count += len(part) - 1
     if not count or not math.isfinite(missed) or not total:
