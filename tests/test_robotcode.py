@@ -166,6 +166,66 @@ def test_a_syntax_error_is_named_with_its_line(case: str, tmp_path: Path) -> Non
     assert said in problem.message
 
 
+ENDLESS = {
+    "itself": "void drive(double v) { drive(v); m.setVoltage(v); }",
+    "each other": "void drive(double v) { m.setVoltage(v); f(v); } void f(double v) { drive(v); }",
+    "made by itself": "Object x = x.y(); void drive(double v) { x.go(); m.setVoltage(v); }",
+    "a constant by itself": "double k = k; void drive(double v) { m.setVoltage(v * k); }",
+}
+
+
+@pytest.mark.parametrize("case", ENDLESS)
+def test_code_that_leads_back_to_itself_is_followed_once(case: str, tmp_path: Path) -> None:
+    (tmp_path / "A.java").write_text(
+        "class A extends A { TalonFX m = new TalonFX(1); SysIdRoutine r = new SysIdRoutine("
+        "new SysIdRoutine.Config(), new SysIdRoutine.Mechanism(v -> drive(v), null, this)); "
+        f"{ENDLESS[case]} }}",
+        encoding="utf-8",
+    )
+
+    assert [call.motor for call in read(tmp_path / "A.java").drive] == ["m"]
+
+
+def test_what_is_too_deep_to_follow_is_said(tmp_path: Path) -> None:
+    methods = " ".join(f"void f{n}(double v) {{ f{n + 1}(v); }}" for n in range(9))
+    (tmp_path / "A.java").write_text(
+        "class A { SysIdRoutine r = new SysIdRoutine(new SysIdRoutine.Config(),\n"
+        f"new SysIdRoutine.Mechanism(v -> f0(v), null, this));\n{methods} }}",
+        encoding="utf-8",
+    )
+
+    facts = read(tmp_path / "A.java")
+
+    assert facts.drive == ()
+    assert [problem.message for problem in facts.unread] == [
+        "the code goes deeper here than it was followed"
+    ]
+
+
+def test_what_is_made_elsewhere_is_unknown_and_said_to_be(tmp_path: Path) -> None:
+    (tmp_path / "A.java").write_text(
+        "class A { SysIdRoutine r =\n new SysIdRoutine(Team.config(), Team.mechanism(this)); }",
+        encoding="utf-8",
+    )
+
+    facts = read(tmp_path / "A.java")
+
+    assert (facts.config_argument, facts.mechanism_argument) == (0, 1)
+    assert (facts.ramp.known, facts.ramp.text) == (Known.UNKNOWN, "Team.config()")
+    assert facts.unread[0].line == 2
+    assert "`Team.mechanism(this)` is made in code" in facts.unread[0].message
+
+
+def test_a_misspelled_keyword_does_not_pass_for_a_default(tmp_path: Path) -> None:
+    (tmp_path / "a.py").write_text(
+        "r = SysIdRoutine(SysIdRoutine.Config(rampRate=0.5, stepvoltage=3.5), m)", encoding="utf-8"
+    )
+
+    facts = read(tmp_path / "a.py")
+
+    assert (facts.ramp.value, facts.step.known) == (0.5, Known.UNKNOWN)
+
+
 edits = st.lists(
     st.tuples(
         st.sampled_from(["delete", "repeat", "move"]),

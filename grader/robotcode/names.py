@@ -122,6 +122,8 @@ class Names:
             return self._descend(path, scope.home if scope.classes else None)
         if not isinstance(node, Name) or self.local(node.name, scope):
             return None
+        if node.name == "super":
+            return next(iter(self.lineage(scope.home)[1:]), None) if scope.classes else None
         start = self.named(node.name, scope)
         if start is None and scope.module.language == "java":  # a name with its package in front
             return self._found(".".join((node.name, *path)), scope.module)

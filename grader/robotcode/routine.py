@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.robotcode.drive import DriveTrace
-from grader.robotcode.facts import Known, Quantity, RoutineFacts
+from grader.robotcode.facts import Known, Problem, Quantity, RoutineFacts
 from grader.robotcode.files import Files
 from grader.robotcode.logged import LogTrace
 from grader.robotcode.meaning import Placed, constructed, methods, resolve, simple, type_of
@@ -114,6 +114,11 @@ def _arguments(call: Call, words: tuple[str, ...]) -> dict[int, Node]:
     return dict(enumerate(call.args)) | by_word
 
 
+def _may_hide(call: Call, words: tuple[str, ...]) -> bool:
+    """Whether an argument may be there unseen: spread from a variable, or its word misspelled."""
+    return call.spread or any(plain(word) not in words for word, _ in call.named)
+
+
 def _with_config(
     facts: RoutineFacts, config: Placed | None, names: Names, measures: Measures
 ) -> RoutineFacts:
@@ -121,23 +126,27 @@ def _with_config(
         return facts
     call, scope = resolve(*config, names)
     if not isinstance(call, Call) or constructed(call, scope, names) != "Config":
-        return facts
+        untold = Quantity(Known.UNKNOWN, text=config[0].place.text, line=_line(config[0], names))
+        return replace(facts, ramp=untold, step=untold, timeout=untold)
     given = _arguments(call, CONFIG)
     found = dict.fromkeys(DEFAULTS, Quantity(Known.UNKNOWN))
     for at, (name, default) in enumerate(DEFAULTS.items()):
         if at in given:
             found[name] = _quantity(given[at], scope, default, names, measures)
-        elif not call.spread:
+        elif not _may_hide(call, CONFIG):
             found[name] = default
     return replace(facts, ramp=found["ramp"], step=found["step"], timeout=found["timeout"])
+
+
+def _line(node: Node, names: Names) -> int:
+    return node.place.line if node.place.source is names.main.source else 0
 
 
 def _quantity(
     node: Node, scope: Scope, default: Quantity, names: Names, measures: Measures
 ) -> Quantity:
     """One number of a Config that was given something."""
-    place = node.place
-    line = place.line if place.source is names.main.source else 0
+    place, line = node.place, _line(node, names)
     resolved, where = resolve(node, scope, names)
     if isinstance(resolved, Null):  # only Java takes null for "your own"; Python stumbles over it
         known = Known.DEFAULT if where.module.language == "java" else Known.UNKNOWN
@@ -156,7 +165,8 @@ def _with_mechanism(
         return facts
     call, scope = resolve(*mechanism, names)
     if not isinstance(call, Call) or constructed(call, scope, names) != "Mechanism":
-        return facts
+        said = f"`{mechanism[0].place.text}` is made in code that is not in these files"
+        return replace(facts, unread=(Problem(said, _line(mechanism[0], names)),))
     given = _arguments(call, MECHANISM)
     facts = replace(facts, subsystem_passed=_passed(given.get(2), call, scope, names))
     drive = DriveTrace(names, measures)
@@ -193,7 +203,7 @@ def _callback(node: Node | None, scope: Scope, names: Names) -> Node | None:
 def _passed(node: Node | None, call: Call, scope: Scope, names: Names) -> bool | None:
     """Whether the subsystem argument is the object itself."""
     if node is None:
-        return None if call.spread else False
+        return None if _may_hide(call, MECHANISM) else False
     value, _ = resolve(node, scope, names)
     return True if isinstance(value, Self) else False if isinstance(value, Null) else None
 

@@ -153,7 +153,7 @@ class Trace(Statements):
         """The object whose code a method is, to be put before the names of its fields."""
         if receiver is None:
             return frame.me
-        if isinstance(receiver.origin, Self):
+        if isinstance(receiver.origin, Self) or last_name(receiver.origin) == "super":
             return receiver.me
         if self.names.home(receiver.origin, receiver.scope) is not None:
             return ""

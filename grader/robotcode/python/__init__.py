@@ -1,0 +1,38 @@
+"""RobotPy text to the common syntax, with Python's own parser."""
+
+import ast
+import warnings
+from pathlib import Path
+
+from grader.robotcode import syntax
+from grader.robotcode.facts import Problem
+from grader.robotcode.python.expressions import EXPRESSIONS
+from grader.robotcode.python.lowering import Lowering
+from grader.robotcode.python.statements import STATEMENTS
+
+
+def parse(text: str, path: Path) -> syntax.Module:
+    r"""Bring a Python file to the common syntax.
+
+    Args:
+        text: the source, with ``\n`` line ends.
+        path: where it is.
+
+    Returns:
+        The module. A text that is not Python gives one without a body, and one problem.
+    """
+    source = text.encode("utf-8", errors="replace")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # a doubtful escape is the learner's own affair
+            tree = ast.parse(text)
+    except SyntaxError as error:
+        said = error.msg.partition(";")[0]
+        problem = Problem(f"this is not Python: {said}", max(error.lineno or 1, 1))
+    except (RecursionError, MemoryError, ValueError):
+        problem = Problem("the code is nested deeper than Python itself can read", 1)
+    else:
+        lowering = Lowering(source, EXPRESSIONS | STATEMENTS)
+        body = lowering.lower(tree)
+        return syntax.Module(path, "python", source, body, tuple(reversed(lowering.imports)))
+    return syntax.Module(path, "python", source, (), problems=(problem,))

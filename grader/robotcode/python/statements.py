@@ -1,0 +1,109 @@
+"""Python's statements in the common syntax, one small function each."""
+
+import ast
+
+from grader.robotcode import syntax
+from grader.robotcode.python.lowering import SELF, SIGNS, Lowering, Maker
+
+
+def _assign(lowering: Lowering, tree: ast.Assign) -> tuple[syntax.Node, ...]:
+    place, value = lowering.place(tree), lowering.one(tree.value)
+    made: list[syntax.Node] = []
+    for target in tree.targets:
+        if not isinstance(target, ast.List | ast.Tuple):
+            made.append(syntax.Assign(place, lowering.one(target), value))
+            continue
+        several = value.items if isinstance(value, syntax.Items) else ()
+        fits = len(several) == len(target.elts)
+        for index, part in enumerate(target.elts):
+            got = several[index] if fits else syntax.Opaque(place, (value,))
+            made.append(syntax.Assign(place, lowering.one(part), got))
+    return tuple(made)
+
+
+def _annotated(lowering: Lowering, tree: ast.AnnAssign) -> tuple[syntax.Node, ...]:
+    value = None if tree.value is None else lowering.one(tree.value)
+    type_ = lowering.said(tree.annotation)
+    return (syntax.Assign(lowering.place(tree), lowering.one(tree.target), value, type=type_),)
+
+
+def _augmented(lowering: Lowering, tree: ast.AugAssign) -> tuple[syntax.Node, ...]:
+    place, target = lowering.place(tree), lowering.one(tree.target)
+    sign = SIGNS.get(type(tree.op), "?")
+    value = syntax.Operation(place, sign, target, lowering.one(tree.value))
+    return (syntax.Assign(place, target, value),)
+
+
+def _expression(lowering: Lowering, tree: ast.Expr) -> tuple[syntax.Node, ...]:
+    return lowering.done[id(tree.value)]
+
+
+def _return(lowering: Lowering, tree: ast.Return) -> tuple[syntax.Node, ...]:
+    if tree.value is None:
+        return ()
+    return (syntax.Return(lowering.place(tree), lowering.one(tree.value)),)
+
+
+def _for(lowering: Lowering, tree: ast.For) -> tuple[syntax.Node, ...]:
+    body = lowering.many([*tree.body, *tree.orelse])
+    variables = lowering.variables(tree.target)
+    return (syntax.Loop(lowering.place(tree), variables, lowering.one(tree.iter), body),)
+
+
+def _function(
+    lowering: Lowering, tree: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
+) -> tuple[syntax.Node, ...]:
+    place = lowering.place(tree)
+    listed = [*tree.args.posonlyargs, *tree.args.args, *tree.args.kwonlyargs]
+    parameters = tuple(
+        syntax.Parameter(lowering.place(one), one.arg, lowering.said(one.annotation))
+        for index, one in enumerate(listed)
+        if index or one.arg not in SELF
+    )
+    if isinstance(tree, ast.Lambda):
+        value = lowering.one(tree.body)
+        return (syntax.Function(place, "", parameters, (syntax.Return(value.place, value),)),)
+    property_ = any(lowering.said(word).endswith("property") for word in tree.decorator_list)
+    body = lowering.many(tree.body)
+    return (syntax.Function(place, tree.name, parameters, body, property=property_),)
+
+
+def _class(lowering: Lowering, tree: ast.ClassDef) -> tuple[syntax.Node, ...]:
+    bases = tuple(lowering.said(base).rpartition(".")[2] for base in tree.bases)
+    return (syntax.Class(lowering.place(tree), tree.name, bases, lowering.many(tree.body)),)
+
+
+def _import(lowering: Lowering, tree: ast.Import) -> tuple[syntax.Node, ...]:
+    for alias in tree.names:
+        if alias.asname:
+            lowering.imports.append(syntax.Import(alias.asname, alias.name))
+        else:  # `import a.b` binds a, and makes a.b.c readable
+            first = alias.name.partition(".")[0]
+            lowering.imports.append(syntax.Import(first, first))
+    return ()
+
+
+def _import_from(lowering: Lowering, tree: ast.ImportFrom) -> tuple[syntax.Node, ...]:
+    for alias in tree.names:
+        path = tree.module or ""
+        if alias.name != "*":
+            path = f"{path}.{alias.name}".lstrip(".")
+        name = alias.asname or alias.name
+        lowering.imports.append(syntax.Import(name, path, level=tree.level))
+    return ()
+
+
+STATEMENTS: dict[type[ast.AST], Maker] = {
+    ast.Assign: _assign,
+    ast.AnnAssign: _annotated,
+    ast.AugAssign: _augmented,
+    ast.Expr: _expression,
+    ast.Return: _return,
+    ast.For: _for,
+    ast.FunctionDef: _function,
+    ast.AsyncFunctionDef: _function,
+    ast.Lambda: _function,
+    ast.ClassDef: _class,
+    ast.Import: _import,
+    ast.ImportFrom: _import_from,
+}
