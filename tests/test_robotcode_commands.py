@@ -52,6 +52,10 @@ JAVA_COMMANDS = {  # what is done with voltage -> kind of command, carries the p
     "one of two": ("m_motor.setVoltage(v.in(Volts) > 0 ? 3 : -3)", (VOLTAGE, NO, NO)),
     "duty": ("m_motor.set(v.in(Volts) / 12)", (DUTY, YES, YES)),
     "battery": ("m_spark.set(v.in(Volts) / RobotController.getBatteryVoltage())", (DUTY, YES, YES)),
+    "battery as a measure": (
+        "m_spark.set(v.div(RobotController.getMeasureBatteryVoltage()).magnitude())",
+        (DUTY, YES, YES),
+    ),
     "DutyCycleOut": ("m_motor.setControl(new DutyCycleOut(v.in(Volts) / 12))", (DUTY, YES, YES)),
     "percent": ("m_motor.set(ControlMode.PercentOutput, v.in(Volts) / 12)", (DUTY, YES, YES)),
     "tank": ("m_drive.tankDrive(v.in(Volts), v.in(Volts))", (DUTY, YES, NO)),

@@ -1,11 +1,12 @@
 """Robot code in, facts out: Java and RobotPy are parsed, never executed.
 
-    file ──source──▶ text ──java | python──▶ common syntax ──routine──▶ RoutineFacts
+    file ──source──▶ text ──java | python──▶ common syntax ──names──▶ routine ──▶ RoutineFacts
 
-``source`` refuses what is no text, ``java`` and ``python`` bring both languages to one small
-syntax, and everything after that is written once: ``scope`` finds what a name stands for,
-``measure`` works out a constant, ``trace`` follows a callback (``drive`` and ``logged`` say what
-they saw), and ``routine`` collects the facts. Words that change with the season are in
+``source`` refuses what is no text, ``java`` and ``python`` bring both languages to the small
+``syntax``, and everything after that is written once: ``names`` and ``meaning`` find what a name
+stands for, ``measure`` works out a constant, ``trace`` follows a callback (``statements`` and
+``flow`` step by step; ``drive`` and ``logged`` note what they are after), ``motors`` knows who
+follows whom, and ``routine`` collects the facts. Words that change with the season are in
 ``vocabulary``.
 """
 

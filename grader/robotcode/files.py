@@ -129,10 +129,10 @@ def _walk(top: Path, suffix: str) -> list[Path]:
 def _parsed(path: Path) -> Module:
     language = language_of(path)
     text = text_of(path)
-    if language == "java":  # tree-sitter is loaded only where there is Java to read
-        from grader.robotcode import java  # noqa: PLC0415
+    if language == "java":
+        from grader.robotcode import java  # noqa: PLC0415 - no tree-sitter for Python
 
         return java.parse(text, path)
-    from grader.robotcode import python  # noqa: PLC0415 - nor ast for Java
+    from grader.robotcode import python  # noqa: PLC0415 - no ast for Java
 
     return python.parse(text, path)

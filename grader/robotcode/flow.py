@@ -71,6 +71,8 @@ class Flow:
             sign = "*" if name in TIMES else "/"
             constant = self._measures.of(call.args[0], at.scope)
             factor = _factor(sign, constant, left_carries=receiver.carries is not False)
+            if constant is None and Mark.BUS in made.marks:
+                factor = CHANGED
             return replace(made, factor=receiver.times(factor).factor)
         if made.carries is False:
             return made

@@ -218,7 +218,13 @@ APPLIED_DUTY = frozenset(
     {"get", "getAppliedOutput", "getDutyCycle", "getMotorOutputPercent", "getPercentOutput"}
 )
 BUS_VOLTAGE = frozenset(
-    {"getBatteryVoltage", "getBusVoltage", "getSupplyVoltage", "getInputVoltage"}
+    {
+        "getBatteryVoltage",
+        "getMeasureBatteryVoltage",
+        "getBusVoltage",
+        "getSupplyVoltage",
+        "getInputVoltage",
+    }
 )
 MEASURED = re.compile(  # position, velocity, acceleration and current of encoders and motors
     r"get\w*(Position|Velocity|Distance|Rate|Angle|Acceleration|Current|Speed)\w*|get"
