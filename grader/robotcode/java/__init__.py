@@ -16,15 +16,10 @@ from grader.robotcode.java.expressions import EXPRESSIONS
 from grader.robotcode.java.lowering import Lowering
 
 MOST_PROBLEMS = 5  # one mistake makes many; the first ones tell
-CHUNK = 65_536  # [bytes] handed to the parser at a time
-FIRST = 16_384  # [bytes] parsed first; most classes are shorter
-# The parser reports in as it goes, once in about 120 bytes of Java, mended mistakes included. On
-# some garbage its repairs grow with the square of the length; then it reports far more often.
-PATIENCE = 300  # [reports]
-BYTES_PER_CALL = 20
-# On other garbage it reports no more often, but each step takes longer than the last.
-LONGEST = 0.3  # [s of this thread alone: a busy machine must not count]
-SECONDS_PER_BYTE = 3e-6  # Java takes a twentieth of it
+# On garbage the parser's repairs take time and memory by the square of the length.
+FIRST = 1_024  # [bytes] parsed first, then twice as much, and so on
+LONGEST = 0.2  # [s of this thread alone: a busy machine must not count] what garbage may take,
+SECONDS_PER_BYTE = 3e-6  # and this for its length; Java takes a twentieth
 
 _LANGUAGE = Language(tree_sitter_java.language())
 
@@ -66,8 +61,8 @@ def parse(text: str, path: Path) -> syntax.Module:
 def _root(source: bytes) -> Tree | None:
     """The parsed text; None where repairing it would take the parser out of all proportion.
 
-    The beginning goes first, then twice as much each time: some garbage is only paid for at its
-    end, by the square of its length, and so what comes next costs no more than four times as much.
+    The beginning is tried first, then twice as much each time, so that what comes next never costs
+    much more than four times what was still in proportion.
     """
     length = FIRST
     while length < len(source):
@@ -78,24 +73,10 @@ def _root(source: bytes) -> Tree | None:
 
 
 def _parsed(source: bytes) -> Tree | None:
-    calls, start = 0, thread_time()
-
-    def late(at: int) -> bool:
-        return thread_time() > start + LONGEST + at * SECONDS_PER_BYTE
-
-    def give_up(at: int, _: object) -> bool:
-        nonlocal calls
-        calls += 1
-        return late(at) or calls > PATIENCE + at // BYTES_PER_CALL
-
-    def read(at: int, _: object) -> bytes:
-        return source[at : at + CHUNK]
-
-    try:
-        root = Parser(_LANGUAGE).parse(read, progress_callback=give_up).root_node
-    except ValueError:
-        return None
-    return None if late(len(source)) else root
+    start = thread_time()
+    root = Parser(_LANGUAGE).parse(source).root_node
+    late = thread_time() - start > LONGEST + len(source) * SECONDS_PER_BYTE
+    return None if late else root
 
 
 def _import(line: str) -> syntax.Import:
