@@ -4,6 +4,7 @@ Everything runs in a virtual environment made for this run, so nothing that happ
 on the machine can help.
 """
 
+import io
 import json
 import os
 import re
@@ -30,6 +31,8 @@ OK = 200  # HTTP's word for it
 def main() -> None:
     """Run every step; leave with 1 at the first that fails."""
     started = time.monotonic()
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")  # a Windows console may lack a sign
     browser()
     with tempfile.TemporaryDirectory(prefix="gate-") as folder:
         environment = fresh_environment(Path(folder) / "env")
