@@ -76,6 +76,12 @@ class Setting:
         """
         if facts.config_argument < 0:
             raise NotReached("looked at once the SysIdRoutine gets a Config")
+        if got.text == "None":
+            raise Wrong(
+                f"None for the {self.name}",
+                hint="In Java null means WPILib's default. RobotPy stops with a TypeError when the "
+                f"test begins. This exercise asks for {self._asked(facts)}.",
+            )
         if got.known is Known.UNKNOWN:
             hint = "Write it as a number, or as a named constant in this folder."
             raise Wrong(cannot_tell(f"the {self.name}", got.text), hint=hint)

@@ -52,6 +52,13 @@ MISTAKES = (
         "WPILib's default, 1 V/s",
     ),
     Mistake(
+        "None where Java would take null",
+        PYTHON,
+        replacing(("rampRate=0.5", "rampRate=None")),
+        "ramp",
+        "RobotPy stops with a TypeError",
+    ),
+    Mistake(
         "the step of the lesson's example",
         JAVA,
         replacing(("Volts.of(3.5)", "Volts.of(3.0)")),
