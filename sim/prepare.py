@@ -13,8 +13,7 @@ import numpy as np
 from sim.errors import BadRequest, NotIdentifiable
 from sim.log import FOUR_TESTS, Array, Log, Run
 
-NOISE_WINDOW = 9  # [samples] SysId's noise floor looks at a moving mean this long …
-NOISE_STEP = 4  # [samples] … which lags its center by this much
+NOISE_WINDOW = 9  # [samples] SysId's noise floor looks at a moving mean this long
 LONGEST_GAP = 0.5  # [s] a longer step between samples does not count toward the mean period
 MOVED = 0.8  # [share of the peak acceleration] where the velocity is taken to have begun to move
 NEAR_TOP = 0.9  # [share of the top speed] where a dynamic test has nothing more to say

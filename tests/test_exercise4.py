@@ -136,6 +136,30 @@ def test_what_is_right_in_another_way_passes_with_a_note(real, capsys, old, new,
     assert note in " ".join(capsys.readouterr().out.split())
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "check"),
+    [
+        ("m_right.setVoltage(voltage.in(Volts))", "Team.send(m_right, voltage)", "drive"),
+        (".linearVelocity(MetersPerSecond.of(getMetersPerSecond(m_right)))", "", "log"),
+    ],
+    ids=["a motor driven in code out of sight", "a log filled in code out of sight"],
+)
+def test_what_may_happen_out_of_sight_is_asked_about(real, capsys, old, new, check):
+    text = (ROOT / "solutions" / "exercise4" / JAVA).read_text("utf-8")
+    assert old in text
+    elsewhere = "Team.finish(log);\n    log.motor" if check == "log" else "log.motor"
+    (real / "Mine.java").write_text(
+        text.replace(old, new).replace("log.motor", elsewhere, 1), "utf-8"
+    )
+
+    assert run(["4", "Mine.java", "--json"]) == 1
+    checks = {one["id"]: one for one in json.loads(capsys.readouterr().out)["checks"]}
+
+    assert checks[check]["status"] == "failed"
+    assert "Write the callback where it can be read" in checks[check]["hint"]
+    assert checks[check]["misconception"] == ""
+
+
 PROGRAM = """
 from commands2.sysid import SysIdRoutine
 from wpilib.sysid import SysIdRoutineLog

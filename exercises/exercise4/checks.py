@@ -23,6 +23,7 @@ RAMP = Setting(
 )
 STEP = Setting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)", "stepVoltage=3.5")
 TIMEOUT = Setting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)", "timeout=10.0")
+NEEDED = ("voltage", "position", "velocity")  # of every motor
 LESSON_STEP = 3.0  # [V] in the source lesson's example
 
 
@@ -74,7 +75,7 @@ def step(facts: RoutineFacts) -> str | None:
 
 def _about_step(value: float) -> tuple[str, str]:
     if value == LESSON_STEP:
-        return "3 V is the lesson's own example, and fine on a robot.", ""
+        return "3 V is the lesson's own example, and no mistake in itself.", ""
     if value >= STEP.default:
         return "7 V, WPILib's default, is almost always too much.", "M-BIG-STEP"
     return "", ""
@@ -128,14 +129,16 @@ def log(facts: RoutineFacts) -> None:
             "null in place of the log callback: then WPILib records nothing",
             hint="That is for vendors' own loggers. Here, write a callback that fills the log.",
         )
-    recorded = {one.signal for one in facts.logged}
-    _followed(facts, whole=recorded >= {"voltage", "position", "velocity"})
+    motors = dict.fromkeys(one.motor for one in facts.logged)
+    recorded = {(one.motor, one.signal) for one in facts.logged}
+    needed = {(motor, signal) for motor in motors for signal in NEEDED}
+    _followed(facts, whole=recorded >= needed > set())
     if not facts.logged:
         raise Wrong(
             "the log callback records nothing" if facts.log_found else "no log callback",
             hint='It gets a log: log.motor("left"), then voltage, position and velocity.',
         )
-    for motor in dict.fromkeys(one.motor for one in facts.logged):
+    for motor in motors:
         check_recorded(motor, [one for one in facts.logged if one.motor == motor], points=3)
 
 

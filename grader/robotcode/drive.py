@@ -47,6 +47,8 @@ class DriveTrace(Trace):
         """Note a command to a motor, or a call that may be one."""
         method = plain(last_name(call.target))
         if not self._may_be_motor(method, receiver, at):
+            if any(is_motor(type_of(arg.origin, arg.scope, self.names)) for arg in args):
+                self.cannot_read(call)  # a motor is handed out: what it gets is not told here
             return None
         values = [arg for arg in args if _mode(arg) is None]
         sent = joined(values[:1] if method in BY_MODE else values, at=at)

@@ -196,6 +196,5 @@ def _percent(value: float, truth: float) -> str:
     if not truth:
         return shown(value - truth)
     off = 100.0 * (value / truth - 1.0)
-    return (
-        f"{off:+.0f} %".replace("-", "−") if abs(off) >= 1.0 else f"{off:+.1f} %".replace("-", "−")
-    )
+    digits = 0 if abs(off) >= 1.0 else 1
+    return f"{off:+.{digits}f} %".replace("-", "−")

@@ -212,8 +212,8 @@ def _follow(
 ) -> tuple[Numbers, int]:
     """The records of one window that follow one another from ``at``, and where the last one ends.
 
-    None if the record at ``at`` itself is not whole. The walk may end before the window does,
-    where a record has a header of a shape not met yet.
+    There are none if the record at ``at`` itself is not whole. The walk may end before the window
+    does, where a record has a header of a shape not met yet.
     """
     width = stop - at
     open_here = np.ones(width + 1, dtype=bool)  # the last stands for all that lies behind
