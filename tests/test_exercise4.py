@@ -15,7 +15,7 @@ from grader.cli import run
 from grader.exercise import Exercise
 
 ROOT = Path(__file__).resolve().parents[1]
-JAVA = "ExampleSubsystem.java"
+JAVA, PYTHON = "ExampleSubsystem.java", "example_subsystem.py"
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 
 
@@ -77,9 +77,9 @@ def test_without_a_file_the_better_starter_is_graded_and_named(real, capsys):
     assert run(["4"]) == 1
     assert JAVA in capsys.readouterr().out.splitlines()[0]
 
-    shutil.copy(solutions / "example_subsystem.py", folder)
+    shutil.copy(solutions / PYTHON, folder)
     assert run(["4"]) == 0
-    assert "example_subsystem.py" in capsys.readouterr().out.splitlines()[0]
+    assert PYTHON in capsys.readouterr().out.splitlines()[0]
 
     shutil.copy(solutions / JAVA, folder)
     assert run(["4"]) == 0
@@ -136,23 +136,29 @@ def test_what_is_right_in_another_way_passes_with_a_note(real, capsys, old, new,
     assert note in " ".join(capsys.readouterr().out.split())
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "check"),
-    [
-        ("m_right.setVoltage(voltage.in(Volts))", "Team.send(m_right, voltage)", "drive"),
-        (".linearVelocity(MetersPerSecond.of(getMetersPerSecond(m_right)))", "", "log"),
-    ],
-    ids=["a motor driven in code out of sight", "a log filled in code out of sight"],
-)
-def test_what_may_happen_out_of_sight_is_asked_about(real, capsys, old, new, check):
-    text = (ROOT / "solutions" / "exercise4" / JAVA).read_text("utf-8")
-    assert old in text
-    elsewhere = "Team.finish(log);\n    log.motor" if check == "log" else "log.motor"
-    (real / "Mine.java").write_text(
-        text.replace(old, new).replace("log.motor", elsewhere, 1), "utf-8"
-    )
+OUT_OF_SIGHT = [
+    (JAVA, "drive", [("m_right.setVoltage(voltage.in(Volts))", "Team.send(m_right, voltage)")]),
+    (PYTHON, "drive", [("self.right.setVoltage(voltage)", "team.send(self.right, voltage)")]),
+    (
+        JAVA,
+        "log",
+        [
+            (".linearVelocity(MetersPerSecond.of(getMetersPerSecond(m_right)))", ""),
+            ('log.motor("left")', 'Team.finish(log);\n    log.motor("left")'),
+        ],
+    ),
+]
 
-    assert run(["4", "Mine.java", "--json"]) == 1
+
+@pytest.mark.parametrize(("name", "check", "changes"), OUT_OF_SIGHT)
+def test_what_may_happen_out_of_sight_is_asked_about(real, capsys, name, check, changes):
+    text = (ROOT / "solutions" / "exercise4" / name).read_text("utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    (real / name).write_text(text, "utf-8")
+
+    assert run(["4", name, "--json"]) == 1
     checks = {one["id"]: one for one in json.loads(capsys.readouterr().out)["checks"]}
 
     assert checks[check]["status"] == "failed"
@@ -195,8 +201,7 @@ def test_the_python_solution_runs_on_wpilibs_own_routine(tmp_path):
 
 
 SOLUTIONS = {
-    name: (ROOT / "solutions" / "exercise4" / name).read_text("utf-8")
-    for name in (JAVA, "example_subsystem.py")
+    name: (ROOT / "solutions" / "exercise4" / name).read_text("utf-8") for name in (JAVA, PYTHON)
 }
 
 

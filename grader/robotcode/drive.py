@@ -46,9 +46,10 @@ class DriveTrace(Trace):
     ) -> Value | None:
         """Note a command to a motor, or a call that may be one."""
         method = plain(last_name(call.target))
+        if any(map(self._is_motor, args)) and not (receiver and self._is_motor(receiver)):
+            self.cannot_read(call)  # a motor is handed out: what it gets is not told here
+            return None
         if not self._may_be_motor(method, receiver, at):
-            if any(is_motor(type_of(arg.origin, arg.scope, self.names)) for arg in args):
-                self.cannot_read(call)  # a motor is handed out: what it gets is not told here
             return None
         values = [arg for arg in args if _mode(arg) is None]
         sent = joined(values[:1] if method in BY_MODE else values, at=at)
@@ -111,6 +112,9 @@ class DriveTrace(Trace):
         if known or not type_ or class_of(origin, receiver.scope, self.names) is not None:
             return True
         return named or method in BY_MODE - {"set"}  # much can be set that is no motor
+
+    def _is_motor(self, value: Value) -> bool:
+        return is_motor(type_of(value.origin, value.scope, self.names))
 
     def _is_variable(self, node: Node, scope: Scope) -> bool:
         """Whether a node can hold an object: no class, no module, no number."""
