@@ -1,0 +1,17 @@
+"""``sysid mechanisms``."""
+
+import click
+
+from sim.cli.options import as_json, list_catalogue
+
+
+@click.command()
+@as_json
+def mechanisms(*, as_json: bool) -> None:
+    """List the mechanisms that can be simulated."""
+    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - --help must not wait for it
+
+    list_catalogue(
+        ({"name": name, "summary": found.summary} for name, found in MECHANISMS.items()),
+        as_json=as_json,
+    )

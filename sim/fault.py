@@ -1,0 +1,114 @@
+"""The contract of a fault: damage to the record of a test, made on purpose and found again.
+
+A fault is not physics: an effect is something a model ought to include, a fault is something a
+record ought not to contain. A module of ``sim/faults`` offers one as ``FAULT``, with ``spoil``,
+which makes the damage, and ``detect``, which finds it, side by side.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.clues import Clues
+from sim.log import Log
+
+MOST = 3.0  # [1] largest severity that makes sense; 1 is what one meets on an ordinary bad day
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A part of a log: some seconds of one run, one whole run, or the log as a whole.
+
+    Args:
+        run: which run of the log, from 0; None if it is not in the log, or the whole log is meant.
+        test: the name of its test; empty for the log as a whole.
+        start: [s] in the log's own time.
+        end: [s] the same.
+    """
+
+    run: int | None
+    test: str
+    start: float
+    end: float
+
+    def overlap(self, other: "Stretch") -> float:
+        """Shared time over the time that either covers: 1 if equal, 0 if apart or other runs."""
+        if (self.run, self.test) != (other.run, other.test):
+            return 0.0
+        shared = min(self.end, other.end) - max(self.start, other.start)
+        either = max(self.end, other.end) - min(self.start, other.start)
+        return max(shared, 0.0) / either if either > 0.0 else 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Spoilt:
+    """A damaged log, and where the damage is.
+
+    Args:
+        log: as a robot with this fault would have recorded it.
+        where: the damaged parts.
+    """
+
+    log: Log
+    where: tuple[Stretch, ...]
+
+
+@dataclass(frozen=True)
+class Damage:
+    """A fault that was found in a log.
+
+    Args:
+        fault: its name.
+        where: the damaged part.
+        confidence: 0 to 1; near 1 nothing else would look like this.
+        evidence: one sentence with a number, for people.
+        advice: what to do about it, one sentence: re-run, trim, filter, or fix the code.
+    """
+
+    fault: str
+    where: Stretch
+    confidence: float
+    evidence: str
+    advice: str
+
+
+@dataclass(frozen=True)
+class Blow:
+    """Where and how hard a fault strikes.
+
+    Args:
+        run: which run, from 0; every fault has one, even if it spoils the whole log.
+        start: [s] since the run's first sample.
+        severity: above 0, at most ``MOST``; 1 is ordinary.
+    """
+
+    run: int
+    start: float
+    severity: float
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One kind of damage.
+
+    Args:
+        name: as on the command line: ``encoder-slip``.
+        summary: one line for a list.
+        ordinary: what severity 1 means, in plain words with a number.
+        spoil: damages a log. Takes the log, a ``Blow`` and a generator; the same state of the
+            generator gives the same log. Never called with severity 0.
+        detect: finds this fault and only this fault, from what any log shows.
+        kinds: the kinds of test it can strike.
+        whole: it spoils whole runs, so the start in a ``Blow`` means nothing.
+        when: the share of a run (earliest, latest) where it may start if nobody says.
+    """
+
+    name: str
+    summary: str
+    ordinary: str
+    spoil: Callable[[Log, Blow, np.random.Generator], Spoilt]
+    detect: Callable[[Clues], Iterable[Damage]]
+    kinds: tuple[str, ...] = ("quasistatic", "dynamic")
+    whole: bool = False
+    when: tuple[float, float] = (0.3, 0.6)

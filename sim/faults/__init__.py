@@ -1,0 +1,23 @@
+"""The faults that a record may have, one file each."""
+
+import sys
+from typing import cast
+
+from sim.catalogue import members
+from sim.errors import BadRequest
+from sim.fault import Fault
+
+FAULTS: dict[str, Fault] = {
+    name: cast("Fault", module.FAULT) for name, module in members(sys.modules[__name__]).items()
+}
+
+
+def fault(name: str) -> Fault:
+    """Look up a fault.
+
+    Raises:
+        BadRequest: no such fault; the message lists those there are.
+    """
+    if name not in FAULTS:
+        raise BadRequest(f"unknown fault {name!r}", advice=f"Choose one of: {', '.join(FAULTS)}.")
+    return FAULTS[name]
