@@ -1,0 +1,64 @@
+"""Faults of the record: each is struck at random and found again, and clean logs stay clean.
+
+The table at the end of a fault's own paragraph in its module says what is meant; here is whether it
+holds. What all faults have in common is tested in ``test_faults.py``.
+"""
+
+import numpy as np
+import pytest
+
+from sim.clues import Clues
+from sim.fault import Blow
+from sim.faults import FAULTS
+from sim.mechanisms import MECHANISMS
+from sim.routine import Routine
+from sim.simulate import simulate
+
+MINE = ("stale-samples",)
+SEEDS = 8  # per severity; the share of a hundred seeds stands in the table of test_faults.py
+
+
+def drawn(seed, *, period=0.02):
+    """A clean log of some mechanism."""
+    rng = np.random.default_rng(seed)
+    name = tuple(MECHANISMS)[seed % len(MECHANISMS)]
+    built = MECHANISMS[name].draw(rng)
+    return simulate(built, Routine(ramp=0.5, step=3.5), rng=rng, period=period)
+
+
+def struck(name, log, seed, *, severity=1.0):
+    """The log with one fault, somewhere it may strike."""
+    fault, rng = FAULTS[name], np.random.default_rng(seed + 1000)
+    runs = [i for i, run in enumerate(log.runs) if run.kind in fault.kinds]
+    run = int(rng.choice(runs))
+    time = log.runs[run].time
+    start = float(rng.uniform(*fault.when) * (time[-1] - time[0]))
+    return fault.spoil(log, Blow(run, start, severity), rng)
+
+
+def found(name, log):
+    return list(FAULTS[name].detect(Clues(log)))
+
+
+def missed(name, spoilt):
+    """The damaged parts that the detective did not find."""
+    damages = found(name, spoilt.log)
+    return [part for part in spoilt.where if not any(d.where.overlap(part) >= 0.5 for d in damages)]
+
+
+@pytest.mark.parametrize("severity", [0.3, 1.0, 3.0])
+@pytest.mark.parametrize("name", MINE)
+def test_a_fault_is_found_where_it_struck(name, severity):
+    blows = [(drawn(seed), seed) for seed in range(SEEDS)]
+
+    spoilt = [struck(name, log, seed, severity=severity) for log, seed in blows]
+
+    assert [missed(name, one) for one in spoilt] == [[] for _ in spoilt]
+
+
+@pytest.mark.parametrize("period", [0.02, 0.005])
+@pytest.mark.parametrize("seed", range(2 * len(MECHANISMS)))
+def test_a_clean_log_comes_out_clean(seed, period):
+    log = drawn(seed, period=period)
+
+    assert [damage for name in MINE for damage in found(name, log)] == []
