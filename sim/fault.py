@@ -7,11 +7,14 @@ which makes the damage, and ``detect``, which finds it, side by side.
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from types import ModuleType
 
 import numpy as np
 
 from sim.clues import Clues
+from sim.errors import BadRequest
 from sim.log import Log
+from sim.vocabulary import KINDS, TYPES
 
 MOST = 3.0  # [1] largest severity that makes sense; 1 is what one meets on an ordinary bad day
 
@@ -100,8 +103,10 @@ class Fault:
             generator gives the same log. Never called with severity 0.
         detect: finds this fault and only this fault, from what any log shows.
         kinds: the kinds of test it can strike.
+        types: the types of mechanism it can strike; a log that does not say its type is let pass.
         whole: it spoils whole runs, so the start in a ``Blow`` means nothing.
-        when: the share of a run (earliest, latest) where it may start if nobody says.
+        when: the share (earliest, latest) of the time a run is in motion, where it starts if nobody
+            says.
     """
 
     name: str
@@ -110,5 +115,49 @@ class Fault:
     spoil: Callable[[Log, Blow, np.random.Generator], Spoilt]
     detect: Callable[[Clues], Iterable[Damage]]
     kinds: tuple[str, ...] = ("quasistatic", "dynamic")
+    types: tuple[str, ...] = TYPES
     whole: bool = False
     when: tuple[float, float] = (0.3, 0.6)
+
+
+def fault_of(module: ModuleType, *, name: str) -> Fault:
+    """The fault that a file of ``sim/faults`` offers, once it is sure that it is one.
+
+    Args:
+        module: the file, imported.
+        name: what the fault is called, after its file: ``encoder-slip``.
+
+    Raises:
+        BadRequest: the file breaks the contract; the sentence says where.
+    """
+    found = getattr(module, "FAULT", None)
+    if isinstance(found, Fault):
+        broken = _broken(found, name=name, caption=module.__doc__ or "")
+    else:
+        broken = ["offers no FAULT = Fault(...)"]
+    if broken or not isinstance(found, Fault):
+        raise BadRequest(
+            "; ".join(broken),
+            where=f"sim/faults/{name.replace('-', '_')}.py",
+            advice="Mend it as the contract in sim/fault.py says, or take it out of the folder.",
+        )
+    return found
+
+
+def _broken(fault: Fault, *, name: str, caption: str) -> list[str]:
+    """What a fault's file does not keep of the contract."""
+    earliest, latest = fault.when
+    rules = {
+        f"is named {fault.name!r} and not {name!r}, as its file says": fault.name == name,
+        "opens with no sentence that says what it is": bool(caption.strip()),
+        "has no line in the module's text that begins with Fingerprint:": "Fingerprint:" in caption,
+        "has no summary of one line": len(fault.summary) > 0 and "\n" not in fault.summary,
+        "says what severity 1 means without a number": any(c.isdigit() for c in fault.ordinary),
+        f"strikes kinds {fault.kinds}, which are not all tests": {*fault.kinds} <= {*KINDS},
+        "strikes no kind of test": bool(fault.kinds),
+        f"strikes types {fault.types}, which are not all types": {*fault.types} <= {*TYPES},
+        f"may start at {fault.when}, which are no shares in order": 0 <= earliest <= latest <= 1,
+        "has a spoil that cannot be called": callable(fault.spoil),
+        "has a detect that cannot be called": callable(fault.detect),
+    }
+    return [rule for rule, kept in rules.items() if not kept]

@@ -1,14 +1,13 @@
 """The faults that a record may have, one file each."""
 
 import sys
-from typing import cast
 
 from sim.catalogue import members
 from sim.errors import BadRequest
-from sim.fault import Fault
+from sim.fault import Fault, fault_of
 
 FAULTS: dict[str, Fault] = {
-    name: cast("Fault", module.FAULT) for name, module in members(sys.modules[__name__]).items()
+    name: fault_of(module, name=name) for name, module in members(sys.modules[__name__]).items()
 }
 
 

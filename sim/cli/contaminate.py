@@ -1,0 +1,56 @@
+"""``sysid contaminate``."""
+
+from pathlib import Path
+
+import click
+
+from sim.cli.options import FILE, read_together, reading
+
+
+@click.command()
+@click.argument("file", type=FILE)
+@reading
+@click.option(
+    "--fault",
+    "faults",
+    multiple=True,
+    required=True,
+    metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
+    help="Damage to do; once for each. `sysid faults` lists them.",
+)
+@click.option("-o", "--output", type=FILE, required=True, help="Log to write: .wpilog or .csv.")
+@click.option("--seed", type=click.IntRange(min=0), help="Same seed, same damage.")
+def contaminate(
+    file: Path,
+    *,
+    faults: tuple[str, ...],
+    output: Path,
+    seed: int | None,
+    type_: str | None,
+    units: str | None,
+    motor: str | None,
+    **entries: str | None,
+) -> None:
+    """Damage the log FILE on purpose and write it as another.
+
+    For example: sysid contaminate drive.csv --fault encoder-slip:0.5@dynamic-forward+0.4 -o bad.csv
+    """
+    import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
+
+    from sim.contaminate import contaminate as damage  # noqa: PLC0415
+    from sim.contaminate import parse_blow  # noqa: PLC0415
+    from sim.formats import write  # noqa: PLC0415
+
+    asked = [parse_blow(text) for text in faults]
+    log = read_together([file], units=units, type=type_, motor=motor, entries=entries)
+    rng = np.random.default_rng(seed)
+    where = []
+    for one in asked:
+        spoilt = damage(log, one.name, severity=one.severity, test=one.test, at=one.at, rng=rng)
+        log = spoilt.log
+        where += [(one.name, stretch) for stretch in spoilt.where]
+    write(log, output)
+    for name, stretch in where:
+        place = f"{stretch.test} {stretch.start:.2f} to {stretch.end:.2f} s"
+        click.echo(f"{name}: {place if stretch.test else 'the whole log'}")
+    click.echo(f"{output}: written. Next: sysid inspect {output}")

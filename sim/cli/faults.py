@@ -1,0 +1,27 @@
+"""``sysid faults``."""
+
+import click
+
+from sim.cli.options import as_json, list_catalogue
+
+
+@click.command()
+@as_json
+def faults(*, as_json: bool) -> None:
+    """List the faults that a log can have, and that `sysid inspect` looks for."""
+    from sim.faults import FAULTS  # noqa: PLC0415 - --help must not wait for it
+
+    list_catalogue(
+        (
+            {
+                "name": name,
+                "summary": found.summary,
+                "ordinary": found.ordinary,
+                "kinds": list(found.kinds),
+                "types": list(found.types),
+                "whole": found.whole,
+            }
+            for name, found in FAULTS.items()
+        ),
+        as_json=as_json,
+    )

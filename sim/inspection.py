@@ -1,0 +1,102 @@
+"""What is wrong with a record: every detector asked, and their answers brought into one account.
+
+    inspect(log).damages
+
+Each fault of ``sim/faults`` looks at the same clues. Where two of them explain the same moment, the
+more confident one is believed: a moment's damage has one cause.
+"""
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from sim.clues import Clues
+from sim.doubt import Doubt
+from sim.fault import Damage, Stretch
+from sim.faults import FAULTS
+from sim.log import Log
+
+SAME = 0.5  # [share of the shorter one] two stretches that share more are about the same moment
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """What an inspection found.
+
+    Args:
+        damages: in the order of time; those that concern the whole log first.
+        doubts: what is odd and no known fault: about the file, and about what it holds.
+    """
+
+    damages: tuple[Damage, ...]
+    doubts: tuple[Doubt, ...] = ()
+
+    @property
+    def clean(self) -> bool:
+        """Whether no fault was found."""
+        return not self.damages
+
+    def to_json(self) -> dict[str, Any]:
+        """As ``sysid inspect --json`` prints it."""
+        return {
+            "faults": [
+                {
+                    "fault": damage.fault,
+                    "run": damage.where.run,
+                    "test": damage.where.test,
+                    "start_s": damage.where.start,
+                    "end_s": damage.where.end,
+                    "confidence": round(damage.confidence, 3),
+                    "evidence": damage.evidence,
+                    "advice": damage.advice,
+                }
+                for damage in self.damages
+            ],
+            "clean": self.clean,
+            "doubts": [asdict(doubt) for doubt in self.doubts],
+        }
+
+
+def inspect(log: Log) -> Inspection:
+    """Look for every known fault in a log, of a robot or of the bench.
+
+    Args:
+        log: with any number of runs.
+
+    Returns:
+        What was found. A confidence is 0 to 1: the share of what is odd in that stretch which this
+        fault alone would explain, less where the same could be an accident. Above 0.5 it is
+        likelier than not.
+    """
+    clues = Clues(log)
+    found = [damage for fault in FAULTS.values() for damage in fault.detect(clues)]
+    return Inspection(tuple(sorted(_settled(found), key=_when)), log.doubts)
+
+
+def _settled(found: Iterable[Damage]) -> list[Damage]:
+    """The damages without those whose moment a more confident one explains.
+
+    What spoils whole runs stands beside what happens in a moment of one.
+    """
+    kept: list[Damage] = []
+    for damage in sorted(found, key=lambda damage: -damage.confidence):
+        rivals = (
+            other
+            for other in kept
+            if FAULTS[other.fault].whole == FAULTS[damage.fault].whole is False
+        )
+        if not any(_same_moment(damage.where, other.where) for other in rivals):
+            kept.append(damage)
+    return kept
+
+
+def _same_moment(one: Stretch, other: Stretch) -> bool:
+    if one.run != other.run:
+        return False
+    shared = min(one.end, other.end) - max(one.start, other.start)
+    return shared >= SAME * min(one.end - one.start, other.end - other.start)
+
+
+def _when(damage: Damage) -> tuple[int, float, str]:
+    run = damage.where.run
+    return (-1 if run is None else run, damage.where.start, damage.fault)
