@@ -12,6 +12,10 @@ from numpy.typing import NDArray
 
 from sim.log import Array, Log, Run
 
+FEWEST = 6  # [samples] of voltage; fewer do not tell a ramp from a step
+RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
+DRIVEN = 0.05  # [share of a run's largest voltage] less is the time before and after the test
+AGREED = 0.6  # [mean of the signs] where 4 of 5 samples agree, a run has that sign
 MOVING = 0.1  # [share of a run's top speed] slower samples say little about how it moves
 Flags: TypeAlias = NDArray[np.bool_]
 Counts: TypeAlias = NDArray[np.intp]
@@ -56,6 +60,15 @@ class Clues:
         """[m/s or rad/s] the smallest change of a velocity in the log; inf if none changes."""
         return _smallest_step([run.velocity for run in self.log.runs])
 
+    @cached_property
+    def seems(self) -> tuple[str, ...]:
+        """Per run, the test that its voltage and its motion make it: ``quasistatic-forward``.
+
+        What they do not tell is taken from the name it is filed under: the direction where voltage
+        and motion disagree, and everything about a test that is neither a ramp nor a step.
+        """
+        return tuple(_seems(run) for run in self.log.runs)
+
 
 def top_speed(run: Run) -> float:
     """[m/s or rad/s] the speed of the fastest samples of a run, whatever a single one says."""
@@ -73,6 +86,29 @@ def holds(values: Array) -> tuple[Counts, Counts]:
     """
     starts = np.flatnonzero(np.concatenate(([True], np.diff(values) != 0.0)))
     return starts, np.diff(np.append(starts, values.size))
+
+
+def way(values: Array) -> int:
+    """The sign that at least 4 of 5 values have: 1, -1, or 0 where it is unclear."""
+    mean = float(np.sign(values).mean()) if values.size else 0.0
+    return 0 if abs(mean) < AGREED else int(np.sign(mean))
+
+
+def _seems(run: Run) -> str:
+    if run.kind not in ("quasistatic", "dynamic"):
+        return run.test
+    size = np.abs(run.voltage)
+    driven = np.flatnonzero(size > DRIVEN * size.max(initial=0.0))
+    if driven.size < FEWEST:
+        return run.test
+    first, last = np.array_split(np.arange(driven[0], driven[-1] + 1), 2)
+    rise = float(np.median(size[first]) / (np.median(size[last]) or 1.0))
+    kind = "quasistatic" if rise < RAMP else "dynamic" if rise > STEP else run.kind
+    moving = last[np.abs(run.velocity[last]) > MOVING * top_speed(run)]
+    pushed, moved = way(run.voltage[last]), way(run.velocity[moving])
+    if pushed * moved <= 0:
+        return f"{kind}-{run.direction}"
+    return f"{kind}-{'forward' if pushed > 0 else 'reverse'}"
 
 
 def _smallest_step(signals: list[Array]) -> float:
