@@ -14,7 +14,7 @@ from sim.mechanisms import MECHANISMS
 from sim.routine import Routine
 from sim.simulate import simulate
 
-MINE = ("mislabelled-test", "missing-test", "stale-samples")
+MINE = ("mislabelled-test", "missing-test", "sign-flip", "stale-samples", "unit-error")
 SEEDS = 8  # per severity; the share of a hundred seeds stands in the table of test_faults.py
 
 
