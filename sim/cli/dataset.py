@@ -1,0 +1,170 @@
+"""``sysid dataset``."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from sim.cli.options import FILE
+from sim.command import DONE, INTERRUPTED, NOT_RIGHT, complain
+from sim.errors import BadRequest
+
+if TYPE_CHECKING:
+    from sim.dataset.plan import Job
+    from sim.dataset.run import Place
+    from sim.dataset.secret import Secret
+    from sim.dataset.spec import Spec
+
+
+@click.command()
+@click.argument("spec", type=FILE)
+@click.option("-o", "--output", type=FILE, help="Folder for the logs.")
+@click.option("--key", type=FILE, help="File for the truth.  [default: FOLDER.key.json]")
+@click.option(
+    "--processes", type=click.IntRange(min=1), help="How many make logs.  [default: every core]"
+)
+@click.option("--cluster", metavar="ADDRESS", help="Make them on a Dask cluster: tcp://host:8786.")
+@click.option("--overwrite", is_flag=True, help="Replace what is not of this dataset.")
+@click.option("--check", is_flag=True, help="Make nothing: say what is not as it was made.")
+@click.option("--example", is_flag=True, help="Write an example of a SPEC, with every key.")
+def dataset(  # noqa: PLR0917 - click passes options by name
+    spec: Path,
+    output: Path | None,
+    key: Path | None,
+    processes: int | None,
+    cluster: str | None,
+    overwrite: bool,  # noqa: FBT001 - click passes it by name
+    check: bool,  # noqa: FBT001 - the same
+    example: bool,  # noqa: FBT001 - the same
+) -> int:
+    """Make many logs, damaged as SPEC says, with a sealed key to them beside the folder.
+
+    A run that was stopped goes on when the same command is run again.
+
+    For example: sysid dataset week3.toml -o week3
+    """
+    if example:
+        return _write_example(spec)
+    if output is None:
+        raise click.UsageError("Missing option '-o': a folder for the logs.")
+    from sim.dataset.key import key_of  # noqa: PLC0415 - as all below: --help must not wait
+    from sim.dataset.plan import plan  # noqa: PLC0415
+    from sim.dataset.run import Place  # noqa: PLC0415
+    from sim.dataset.secret import find_secret  # noqa: PLC0415
+    from sim.dataset.spec import read_spec  # noqa: PLC0415
+
+    asked = read_spec(spec)
+    place = Place(output, key or key_of(output))
+    place.keep_apart(spec=spec, secret=asked.secret)
+    secret = find_secret(asked, make=not check)
+    jobs = plan(asked, secret)
+    if check:
+        return _check(place, jobs, secret)
+    return _make(
+        asked,
+        place,
+        jobs,
+        secret=secret,
+        overwrite=overwrite,
+        processes=processes,
+        cluster=cluster,
+    )
+
+
+def _make(
+    asked: "Spec",
+    place: "Place",
+    jobs: "tuple[Job, ...]",
+    *,
+    secret: "Secret",
+    overwrite: bool,
+    processes: int | None,
+    cluster: str | None,
+) -> int:
+    """Make what is not there yet."""
+    from sim.dataset.run import finish, look, rehearse  # noqa: PLC0415 - --help must not wait
+    from sim.dataset.workers import cores, made_here, made_on_cluster  # noqa: PLC0415 - the same
+
+    found = look(place, jobs, secret=secret, overwrite=overwrite)
+    rehearse(found.todo)
+    if secret.new:
+        secret.keep()
+        click.echo(f"{secret.new}: a new secret. Keep it, and keep it to yourself.", err=True)
+    with _bar(len(jobs), len(found.kept)) as (step, done):
+        try:
+            finish(
+                place,
+                found,
+                maker=lambda todo: (
+                    made_on_cluster(todo, address=cluster)
+                    if cluster
+                    else made_here(todo, processes=processes or cores())
+                ),
+                dataset=asked.name,
+                secret=secret,
+                overwrite=overwrite,
+                say=step,
+            )
+        except KeyboardInterrupt:
+            stopped = True
+        else:
+            stopped = False
+    if stopped:
+        said = f"stopped with {done()} of {len(jobs)} logs whole. Run the same command to go on."
+        complain(said, name="sysid")
+        return INTERRUPTED
+    kept = f", {len(found.kept)} of them made earlier" if found.kept else ""
+    click.echo(f"{place.folder}: {len(jobs)} logs{kept}. The truth about them: {place.key}")
+    return DONE
+
+
+def _check(place: "Place", jobs: "tuple[Job, ...]", secret: "Secret") -> int:
+    """Say what is not as it was made."""
+    from sim.dataset.checking import check  # noqa: PLC0415 - --help must not wait for it
+
+    wrong = check(place.folder, jobs, key=place.key, secret=secret)
+    for line in wrong:
+        click.echo(line)
+    if not wrong:
+        click.echo(f"{place.folder}: {len(jobs)} logs, all as they were made; the seal is whole.")
+    return NOT_RIGHT if wrong else DONE
+
+
+def _write_example(path: Path) -> int:
+    """Write a spec to begin with, where none is."""
+    from importlib.resources import files  # noqa: PLC0415 - few ask for it
+
+    try:
+        with path.open("x", encoding="utf-8", newline="\n") as stream:
+            stream.write(files("sim.dataset").joinpath("example.toml").read_text(encoding="utf-8"))
+    except OSError as error:
+        raise BadRequest(
+            f"the example cannot be written ({error.strerror})",
+            where=str(path),
+            advice="Name a new file, in a folder you may write to.",
+        ) from None
+    click.echo(f"{path}: an example. Edit it, then: sysid dataset {path} -o {path.stem}")
+    return DONE
+
+
+@contextmanager
+def _bar(total: int, kept: int) -> Iterator[tuple[Callable[[], None], Callable[[], int]]]:
+    """A progress bar where there is a terminal; gives what moves it and what reads it."""
+    from rich.console import Console  # noqa: PLC0415 - --help must not wait for it
+    from rich.progress import (  # noqa: PLC0415 - the same
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    console = Console(stderr=True)
+    columns = (TextColumn("logs"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(
+        *columns, console=console, transient=True, disable=not console.is_terminal
+    ) as progress:
+        task = progress.add_task("logs", total=total, completed=kept)
+        yield lambda: progress.advance(task), lambda: int(progress.tasks[0].completed)

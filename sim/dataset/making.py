@@ -1,0 +1,149 @@
+"""One job, made: the bytes of its files and the truth about them. Runs on any process or machine.
+
+What comes back is plain data: machines need not share a disk, and one process alone writes.
+"""
+
+import tempfile
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+from sim.dataset.plan import DAMAGE, MECHANISM, RECORD, Job
+from sim.errors import Refusal
+from sim.fault import Stretch
+from sim.formats import write
+from sim.log import Log
+from sim.mechanism import Mechanism
+from sim.mechanisms import MECHANISMS
+from sim.simulate import simulate
+from sim.units import gains_per, unit
+
+
+@dataclass(frozen=True)
+class Made:
+    """A log that is made.
+
+    Args:
+        job: what was asked for.
+        contents: path of a file in the dataset's folder -> its bytes.
+        truth: about them, as it stands in the key.
+    """
+
+    job: Job
+    contents: Mapping[str, bytes]
+    truth: Mapping[str, object]
+
+
+@dataclass(frozen=True)
+class Failed:
+    """A log that cannot be made: a refusal as plain data, which every process can hand on."""
+
+    job: Job
+    what: str
+    advice: str
+
+
+def make(job: Job) -> Made | Failed:
+    """Make a log."""
+    try:
+        built = _built(job)
+        log = simulate(built, job.routine, rng=job.stream(RECORD), period=job.period)
+        log = replace(log, runs=tuple(run for run in log.runs if run.test in job.tests))
+        log, where = _spoil(log, job)
+        return Made(job, _contents(log, job), _truth(built, job, log=log, where=where))
+    except Refusal as refusal:
+        return Failed(job, refusal.what, refusal.advice)
+
+
+def _built(job: Job) -> Mechanism:
+    """The mechanism, drawn and with its effects hidden."""
+    built = MECHANISMS[job.mechanism]
+    if job.drawn:
+        built = built.draw(job.stream(MECHANISM))
+    for one in job.effects:
+        built = built.hiding(one.effect, size=one.size)
+    return built
+
+
+def _spoil(log: Log, job: Job) -> tuple[Log, list[tuple[Stretch, ...]]]:
+    """The log with all its faults, and where each of them is."""
+    where: list[tuple[Stretch, ...]] = []
+    if not job.strikes:
+        return log, where
+    from sim.contaminate import contaminate  # noqa: PLC0415 - few logs need every fault there is
+
+    for number, strike in enumerate(job.strikes):
+        spoilt = contaminate(
+            log,
+            strike.fault,
+            severity=strike.severity,
+            test=strike.test,
+            at=strike.at,
+            rng=job.stream(DAMAGE, number),
+        )
+        log = spoilt.log
+        where.append(spoilt.where)
+    return log, where
+
+
+def _contents(log: Log, job: Job) -> dict[str, bytes]:
+    """The log as files."""
+    with tempfile.TemporaryDirectory(prefix="sysid-") as folder:
+        contents = {}
+        for file in job.files:
+            path = Path(folder) / Path(file).name
+            write(log, path)
+            contents[file] = path.read_bytes()
+    return contents
+
+
+def _truth(
+    built: Mechanism, job: Job, *, log: Log, where: list[tuple[Stretch, ...]]
+) -> dict[str, object]:
+    """What is true of a log, as it stands in the key."""
+    per = unit(built.units)
+    sizes = {one.effect: one.size for one in job.effects}  # none for what every such one has
+    return {
+        "student": job.student,
+        "mechanism": built.name,
+        "type": built.type,
+        "units": per.name,
+        "gains": gains_per(built.gains, factor=per.si),
+        "built": {name: getattr(built, name) for name in built.spread},
+        "effects": [
+            {
+                "effect": part.effect,
+                "size": sizes.get(part.effect),
+                "parameters": dict(part.parameters),
+            }
+            for part in getattr(built, "hidden", ())
+        ],
+        "faults": [
+            {
+                "fault": strike.fault,
+                "severity": strike.severity,
+                "where": [_stretch(one, log) for one in found],
+            }
+            for strike, found in zip(job.strikes, where, strict=True)
+        ],
+        "routine": {**asdict(job.routine), "period": job.period, "tests": list(job.tests)},
+        "seed": f"{job.seed:064x}",
+    }
+
+
+def _stretch(found: Stretch, log: Log) -> dict[str, object]:
+    """A damaged part, its run counted in the log as it ended up: a later fault may remove one."""
+    return {
+        "run": None if found.run is None else _run_at((found.start + found.end) / 2.0, log),
+        "test": found.test,
+        "start_s": found.start,
+        "end_s": found.end,
+    }
+
+
+def _run_at(time: float, log: Log) -> int | None:
+    """The run that holds a time [s]; None if it is in none."""
+    for number, run in enumerate(log.runs):
+        if run.time[0] <= time <= run.time[-1]:
+            return number
+    return None
