@@ -10,8 +10,12 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.balance import Balance, weigh
 from sim.log import Array, Log, Run
+from sim.surprise import Surprise, expect, surprises
 
+STANDING = 0.03  # [share of the log's top speed] slower samples stand, as far as gains go
+WHITE, NORMAL = 20.0**0.5, 0.6745  # third differences of white noise; a normal median of |x|
 FEWEST = 6  # [samples] of voltage; fewer do not tell a ramp from a step
 RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
 DRIVEN = 0.05  # [share of a run's largest voltage] less is the time before and after the test
@@ -68,6 +72,55 @@ class Clues:
         and motion disagree, and everything about a test that is neither a ramp nor a step.
         """
         return tuple(_seems(run) for run in self.log.runs)
+
+    @cached_property
+    def noise(self) -> float:
+        """[m/s or rad/s] the velocity's noise in motion, told without a model.
+
+        From third differences of readings that are new: smooth motion leaves next to nothing.
+        """
+        thirds = []
+        for run in self.log.runs:
+            new = run.velocity[holds(run.velocity)[0]] if len(run) else run.velocity
+            third = np.abs(np.diff(new, n=3))
+            thirds.append(third[np.abs(new[3:]) > STANDING * top_speed(run)])
+        third = np.concatenate([*thirds, np.zeros(0)])
+        return float(np.median(third) / NORMAL / WHITE) if third.size else 0.0
+
+    @cached_property
+    def still(self) -> float:
+        """[m/s or rad/s] a speed that tells motion from standstill."""
+        top = max((top_speed(run) for run in self.log.runs), default=0.0)
+        return STANDING * top + 3.0 * self.noise
+
+    @cached_property
+    def balance(self) -> Balance | None:
+        """Which voltage its motion needs, by most of the log; None if the log cannot tell."""
+        return weigh(self.log.runs, still=self.still, period=self.period)
+
+    @cached_property
+    def expected(self) -> tuple[Array, ...]:
+        """Per run, (n,) [m/s or rad/s]: the velocity its voltage should bring; () if untold."""
+        if self.balance is None:
+            return ()
+        return tuple(
+            expect(run, self.balance, still=self.still) if len(run) else np.zeros(0)
+            for run in self.log.runs
+        )
+
+    @cached_property
+    def surprises(self) -> tuple[Surprise, ...]:
+        """Where runs do not go the way their voltage says, in the order of time."""
+        if self.balance is None:
+            return ()
+        return surprises(
+            self.log.runs,
+            self.expected,
+            self.balance,
+            still=self.still,
+            noise=self.noise,
+            period=self.period,
+        )
 
 
 def top_speed(run: Run) -> float:

@@ -1,0 +1,145 @@
+"""Where a run does not go the way its voltage says, and how much of that an explanation explains.
+
+A run's voltage is replayed through the balance of the whole log. Where the velocity strays further
+than noise and an ordinary mechanism's own ways can take it, and only for a while, there is a
+surprise. Each fault that could be behind it draws the shape it would leave, and the share of the
+surprise that the shape explains is how much it is believed.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.balance import Balance
+from sim.log import Array, Run
+
+WITHIN = 0.1  # [V] a linear model of a real mechanism strays this far anyway,
+SHARE = 0.1  # [share of the back-EMF] and this much more with speed,
+ONSET, SETTLED = 0.35, 0.6  # [V, s] and this much just after it begins to move: friction is no line
+SIGMAS = 3.0  # [standard deviations of the averaged noise]
+AVERAGE = 0.04  # [s] over which noise is averaged, at least two samples
+SHORTEST = 0.03  # [s] a shorter surprise is noise, at least two samples
+LONGEST = 0.6  # [share of the motion] a longer one is no surprise but how this run is
+AROUND = 0.15  # [s] before and after that an explanation has to explain as well
+JOIN = 0.06  # [s] two closer ones are one
+
+
+@dataclass(frozen=True, eq=False)
+class Surprise:
+    """A stretch of a run that its voltage does not explain.
+
+    Args:
+        run: which run of the log.
+        first: its first sample.
+        last: its last sample.
+        begin: the first sample of the stretch with what is around it.
+        end: behind the last sample of that.
+        left: (end - begin,) [m/s or rad/s] seen minus expected, what it strays by anyway taken off.
+        expected: (end - begin,) [m/s or rad/s] the velocity as replayed, brought to what was seen
+            before and after.
+    """
+
+    run: int
+    first: int
+    last: int
+    begin: int
+    end: int
+    left: Array
+    expected: Array
+
+    def explained(self, shape: Array) -> float:
+        """The share of what is left that a shape (end - begin,) explains; below 0 it is worse."""
+        total = float(self.left @ self.left)
+        rest = self.left - shape
+        return 1.0 - float(rest @ rest) / total if total > 0.0 else 0.0
+
+
+def expect(run: Run, balance: Balance, *, still: float) -> Array:
+    """The velocity (n,) [m/s or rad/s] that a run's voltage should bring about.
+
+    Before its first motion it is taken to stand: whether a stop or friction holds it there, a log cannot
+    tell.
+    """
+    begin = first_motion(run, still=still)
+    rest = np.zeros(begin)
+    velocity = float(run.velocity[begin]) if abs(run.velocity[begin]) > still else 0.0
+    moving = balance.replay(run, voltage=run.voltage, first=begin, last=len(run), velocity=velocity)
+    return np.concatenate((rest, moving))
+
+
+def first_motion(run: Run, *, still: float) -> int:
+    """The sample before the first three that all move; the last one if none do."""
+    fast = np.abs(run.velocity) > still
+    lasting = fast[:-2] & fast[1:-1] & fast[2:]
+    return max(int(np.argmax(lasting)) - 1, 0) if lasting.any() else max(len(run) - 1, 0)
+
+
+def surprises(
+    runs: Sequence[Run],
+    expected: Sequence[Array],
+    balance: Balance,
+    *,
+    still: float,
+    noise: float,
+    period: float,
+) -> tuple[Surprise, ...]:
+    """Find where runs stray from what is expected of them.
+
+    Args:
+        runs: of the log.
+        expected: per run, (n,) [m/s or rad/s].
+        balance: of the log.
+        still: [m/s or rad/s] what counts as standing.
+        noise: [m/s or rad/s] standard deviation of the velocity in motion.
+        period: [s] usual time between samples.
+    """
+    found = []
+    wide = max(2, round(AVERAGE / period))
+    sigma = SIGMAS * noise / np.sqrt(wide)
+    for index, run in enumerate(runs):
+        if len(run) < 3 * wide:
+            continue
+        begin = first_motion(run, still=still)
+        since = run.time - run.time[begin]
+        early = ONSET * (since < SETTLED)
+        within = (WITHIN + early) / balance.kv + SHARE * np.abs(expected[index]) + sigma
+        stray = run.velocity - expected[index]
+        stray -= _slow(stray, within)
+        far = np.abs(_average(stray, wide)) > within
+        far[:begin] = False
+        longest = LONGEST * (len(run) - begin)
+        for first, last in _stretches(far, join=round(JOIN / period)):
+            if last - first + 1 < max(2, round(SHORTEST / period)) or last - first > longest:
+                continue
+            around = max(3, round(AROUND / period))
+            part = slice(max(first - around, begin), min(last + around + 1, len(run)))
+            found.append(
+                Surprise(
+                    index, first, last, part.start, part.stop, stray[part], expected[index][part]
+                )
+            )
+    return tuple(found)
+
+
+def _slow(stray: Array, within: Array) -> Array:
+    """What the run strays by anyway: the median where it is not odd."""
+    usual = np.abs(stray) <= 2.0 * within
+    return np.full(stray.size, np.median(stray[usual]) if usual.any() else 0.0)
+
+
+def _average(values: Array, wide: int) -> Array:
+    """A centered running mean that keeps the length; the ends repeat themselves."""
+    fed = np.pad(values, (wide // 2, wide - 1 - wide // 2), mode="edge")
+    return np.asarray(np.convolve(fed, np.full(wide, 1.0 / wide), mode="valid"))
+
+
+def _stretches(
+    flags: "np.ndarray[tuple[int], np.dtype[np.bool_]]", *, join: int
+) -> list[tuple[int, int]]:
+    """First and last sample of each stretch of flags, those less than ``join`` apart as one."""
+    at = np.flatnonzero(flags)
+    if not at.size:
+        return []
+    parts = np.split(at, np.flatnonzero(np.diff(at) > max(join, 1)) + 1)
+    return [(int(part[0]), int(part[-1])) for part in parts]
