@@ -84,8 +84,9 @@ def _make(
     cluster: str | None,
 ) -> int:
     """Make what is not there yet."""
-    from sim.dataset.run import finish, look, rehearse  # noqa: PLC0415 - --help must not wait
-    from sim.dataset.workers import cores, made_here, made_on_cluster  # noqa: PLC0415 - the same
+    from sim.dataset.cluster import made_on_cluster  # noqa: PLC0415 - --help must not wait
+    from sim.dataset.run import finish, look, rehearse  # noqa: PLC0415 - the same
+    from sim.dataset.workers import cores, made_here  # noqa: PLC0415 - the same
 
     found = look(place, jobs, secret=secret, overwrite=overwrite)
     rehearse(found.todo)

@@ -7,16 +7,28 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Any
 
-from sim.dataset.plan import DAMAGE, MECHANISM, RECORD, Job
+from sim.contaminate import contaminate
+from sim.dataset.plan import DAMAGE, MECHANISM, RECORD, Job, Strike
 from sim.errors import Refusal
-from sim.fault import Stretch
+from sim.fault import Spoilt, Stretch
 from sim.formats import write
-from sim.log import Log
+from sim.log import Log, Run
 from sim.mechanism import Mechanism
 from sim.mechanisms import MECHANISMS
 from sim.simulate import simulate
 from sim.units import gains_per, unit
+
+ATTEMPTS = 20  # at finding a moment where a fault can strike
+DIGITS = {  # after the point, of what is in SI; finer than any encoder or converter
+    "time": 6,
+    "voltage": 6,
+    "position": 9,
+    "velocity": 6,
+    "current": 6,
+    "bus_voltage": 6,
+}
 
 
 @dataclass(frozen=True)
@@ -48,8 +60,9 @@ def make(job: Job) -> Made | Failed:
     try:
         built = _built(job)
         log = simulate(built, job.routine, rng=job.stream(RECORD), period=job.period)
-        log = replace(log, runs=tuple(run for run in log.runs if run.test in job.tests))
-        log, where = _spoil(log, job)
+        kept = tuple(run for run in log.runs if run.test in job.tests)
+        log, where = _spoil(_recorded(replace(log, runs=kept)), job)
+        log = _recorded(log)
         return Made(job, _contents(log, job), _truth(built, job, log=log, where=where))
     except Refusal as refusal:
         return Failed(job, refusal.what, refusal.advice)
@@ -65,25 +78,50 @@ def _built(job: Job) -> Mechanism:
     return built
 
 
+def _recorded(log: Log) -> Log:
+    """The log to as many digits as a recorder keeps.
+
+    Another processor, or another version of NumPy, computes a sine or a logarithm that differs in
+    the sixteenth digit. Without this, the same secret would give other bytes there.
+    """
+    return replace(log, runs=tuple(replace(run, **_rounded(run)) for run in log.runs))
+
+
+def _rounded(run: Run) -> dict[str, Any]:
+    signals = {name: getattr(run, name) for name in DIGITS}
+    return {
+        name: values.round(DIGITS[name]) for name, values in signals.items() if values is not None
+    }
+
+
 def _spoil(log: Log, job: Job) -> tuple[Log, list[tuple[Stretch, ...]]]:
     """The log with all its faults, and where each of them is."""
-    where: list[tuple[Stretch, ...]] = []
-    if not job.strikes:
-        return log, where
-    from sim.contaminate import contaminate  # noqa: PLC0415 - few logs need every fault there is
-
+    where = []
     for number, strike in enumerate(job.strikes):
-        spoilt = contaminate(
-            log,
-            strike.fault,
-            severity=strike.severity,
-            test=strike.test,
-            at=strike.at,
-            rng=job.stream(DAMAGE, number),
-        )
+        spoilt = _struck(log, strike, job, number)
         log = spoilt.log
         where.append(spoilt.where)
     return log, where
+
+
+def _struck(log: Log, strike: Strike, job: Job, number: int) -> Spoilt:
+    """The log with one more fault; where chance chose a moment that cannot be, it chooses again."""
+    attempt = 0
+    while True:
+        rng = job.stream(DAMAGE, number, attempt)
+        try:
+            return contaminate(
+                log,
+                strike.fault,
+                severity=strike.severity,
+                test=strike.test,
+                at=strike.at.draw(rng) if strike.at else None,
+                rng=rng,
+            )
+        except Refusal:
+            attempt += 1
+            if attempt == ATTEMPTS:
+                raise
 
 
 def _contents(log: Log, job: Job) -> dict[str, bytes]:
@@ -132,10 +170,11 @@ def _truth(
 
 
 def _stretch(found: Stretch, log: Log) -> dict[str, object]:
-    """A damaged part, its run counted in the log as it ended up: a later fault may remove one."""
+    """A damaged part, in the log as it ended up: a later fault may remove a run, or rename it."""
+    number = None if found.run is None else _run_at((found.start + found.end) / 2.0, log)
     return {
-        "run": None if found.run is None else _run_at((found.start + found.end) / 2.0, log),
-        "test": found.test,
+        "run": number,
+        "test": found.test if number is None else log.runs[number].test,
         "start_s": found.start,
         "end_s": found.end,
     }

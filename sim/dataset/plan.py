@@ -15,6 +15,7 @@ import numpy as np
 
 from sim.dataset.secret import Secret, log_seed
 from sim.dataset.spec import Hiding, Logs, Spec, Spoiling
+from sim.dataset.table import Span
 from sim.routine import Routine
 from sim.student import folder_name
 
@@ -37,13 +38,13 @@ class Strike:
         fault: its name.
         severity: 1 is an ordinary bad day.
         test: where it strikes; None leaves it to the fault.
-        at: [s] since the test's first sample; None leaves it to the fault.
+        at: [s] since the test's first sample, drawn when it is made; None leaves it to the fault.
     """
 
     fault: str
     severity: float
     test: str | None
-    at: float | None
+    at: Span | None
 
 
 @dataclass(frozen=True)
@@ -167,7 +168,7 @@ def _strikes(asked: tuple[Spoiling, ...], seed: int) -> Iterator[Strike]:
                 fault=_one_of(one.names, rng),
                 severity=one.severity.draw(rng),
                 test=_one_of(one.tests, rng) if one.tests else None,
-                at=one.at.draw(rng) if one.at else None,
+                at=one.at,
             )
 
 

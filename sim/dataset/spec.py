@@ -216,20 +216,21 @@ def _settings(table: Table, *, default: _Settings | None) -> _Settings:
 def _logs(table: Table, *, default: _Settings) -> Logs:
     """One ``[[logs]]``, checked."""
     settings = _settings(table, default=default)
+    mechanisms = table.choices("mechanisms", MECHANISMS)
     found = Logs(
         where=table.where,
-        mechanisms=table.choices("mechanisms", MECHANISMS),
+        mechanisms=mechanisms,
         count=table.whole("count", default=1, least=1, most=MOST_LOGS),
         drawn=table.flag("drawn", default=True),
         routine=settings.routine,
         tests=settings.tests,
         period=settings.period,
         effects=tuple(
-            _hiding(one, mechanisms=table.choices("mechanisms", MECHANISMS))
+            _hiding(one, mechanisms=mechanisms)
             for one in table.tables("effects", name="logs.effects", known=EFFECT)
         ),
         faults=tuple(
-            _spoiling(one, settings=settings)
+            _spoiling(one, settings=settings, mechanisms=mechanisms)
             for one in table.tables("faults", name="logs.faults", known=FAULT)
         ),
     )
@@ -267,7 +268,7 @@ def _check_together(logs: Logs) -> None:
                 ) from None
 
 
-def _spoiling(table: Table, *, settings: _Settings) -> Spoiling:
+def _spoiling(table: Table, *, settings: _Settings, mechanisms: tuple[str, ...]) -> Spoiling:
     """One ``[[logs.faults]]``."""
     found = Spoiling(
         names=table.choices("name", FAULTS),
@@ -283,6 +284,12 @@ def _spoiling(table: Table, *, settings: _Settings) -> Spoiling:
     for name in found.names:
         for what, advice in _mistakes(FAULTS[name], found, tests=settings.tests):
             table.refuse(what, advice=advice)
+        for mechanism in mechanisms:
+            if MECHANISMS[mechanism].type not in FAULTS[name].types:
+                table.refuse(
+                    f"{name} cannot strike {mechanism}",
+                    advice=f"It takes a mechanism of type {' or '.join(FAULTS[name].types)}.",
+                )
     return found
 
 

@@ -1,7 +1,6 @@
-"""Who makes the jobs: this process, as many as there are cores, or the machines of a cluster.
+"""Who makes the jobs on this machine: this process, or as many as there are cores.
 
-All three hand back what is made as soon as it is, in no order, and hold only a few logs at a time.
-A cluster is Dask's: its workers need this package, and neither the spec nor a disk in common.
+What is made comes back as soon as it is, in no order, and only a few logs are held at a time.
 """
 
 import multiprocessing
@@ -12,7 +11,6 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from importlib import import_module
 from itertools import islice
 from multiprocessing.connection import wait as wait_for_end
 from typing import TYPE_CHECKING
@@ -28,7 +26,6 @@ if TYPE_CHECKING:
 
 AHEAD = 4  # [jobs a worker] that are handed out at a time: enough that none waits for work
 WORTH = 25  # [jobs] that a further process has to save, to be worth its start
-PATIENCE = 10.0  # [s] until a scheduler has to answer
 
 
 def cores() -> int:
@@ -59,7 +56,7 @@ def made_here(jobs: Sequence["Job"], *, processes: int) -> Iterator["Made | Fail
         initializer=_serve,
     )
     try:
-        yield from _made_by(executor, jobs, ahead=AHEAD * processes)
+        yield from made_by(executor, jobs, ahead=AHEAD * processes)
     except BrokenProcessPool:
         raise BadRequest(
             "a process that made logs was ended from outside, perhaps for want of memory",
@@ -69,41 +66,7 @@ def made_here(jobs: Sequence["Job"], *, processes: int) -> Iterator["Made | Fail
         executor.shutdown(cancel_futures=True)
 
 
-def made_on_cluster(jobs: Sequence["Job"], *, address: str) -> Iterator["Made | Failed"]:
-    """Make jobs on a Dask cluster.
-
-    Args:
-        jobs: what to make.
-        address: of its scheduler: ``tcp://10.0.0.5:8786``.
-
-    Raises:
-        BadRequest: Dask is not installed here, nobody answers, or the workers cannot do it.
-    """
-    try:
-        client_of = import_module("distributed").Client  # an extra; nothing else needs it
-    except ImportError:
-        raise BadRequest(
-            "a cluster needs Dask, which is not installed",
-            advice='Install the extra "cluster": pip install "sysid-course[cluster]"',
-        ) from None
-    try:
-        client = client_of(address, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise BadRequest(
-            f"no Dask scheduler answers at {address} ({type(error).__name__})",
-            advice="Start one with: dask scheduler; and give the address it prints.",
-        ) from None
-    with client:
-        workers = len(client.scheduler_info(n_workers=-1)["workers"])
-        if not workers:
-            raise BadRequest(
-                f"the scheduler at {address} has no workers",
-                advice=f"Start some with: dask worker {address}",
-            )
-        yield from _made_by(client.get_executor(pure=False), jobs, ahead=AHEAD * workers)
-
-
-def _made_by(
+def made_by(
     executor: "Executor", jobs: Sequence["Job"], *, ahead: int
 ) -> Iterator["Made | Failed"]:
     """Results as they come, with only so many jobs handed out at a time."""

@@ -1,0 +1,90 @@
+"""Making the jobs on more than one machine: a Dask cluster, the extra ``cluster``.
+
+A worker gets a job and gives back bytes, and this process writes them: machines need this package
+in the same version, and neither the spec, nor the secret, nor a disk in common. A job's seed and
+the truth about its log do travel: over a network that is not one's own, use ``tls://``.
+"""
+
+import re
+from collections.abc import Iterator, Sequence
+from concurrent.futures import CancelledError
+from importlib import import_module
+from importlib.metadata import version
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from sim.dataset.workers import AHEAD, made_by
+from sim.errors import BadRequest
+
+if TYPE_CHECKING:
+    from sim.dataset.making import Failed, Made
+    from sim.dataset.plan import Job
+
+ADDRESS = re.compile(r"((tcp|tls|wss?)://)?(\[[0-9a-fA-F:]+\]|[^\s/:]+):\d{1,5}/?")
+PATIENCE = 10.0  # [s] until a scheduler has to answer
+US = "sysid-course"
+
+
+def made_on_cluster(jobs: Sequence["Job"], *, address: str) -> Iterator["Made | Failed"]:
+    """Make jobs on a Dask cluster.
+
+    Args:
+        jobs: what to make.
+        address: of its scheduler: ``tcp://10.0.0.5:8786``.
+
+    Raises:
+        BadRequest: Dask is not installed here, nobody answers, or the workers cannot do it.
+    """
+    dask = _dask()
+    with _client(dask, address) as client:
+        _check_workers(client, address)
+        workers = len(client.scheduler_info(n_workers=-1)["workers"])
+        try:
+            yield from made_by(client.get_executor(pure=False), jobs, ahead=AHEAD * workers)
+        except (CancelledError, OSError, dask.KilledWorker) as error:
+            raise BadRequest(
+                f"the cluster at {address} was lost ({type(error).__name__})",
+                advice="See that its machines have memory and stay on, then run the same command "
+                "again to go on.",
+            ) from None
+
+
+def _dask() -> ModuleType:
+    """Dask's own package; nothing else here needs it."""
+    try:
+        return import_module("distributed")
+    except ImportError:
+        raise BadRequest(
+            "a cluster needs Dask, which is not installed",
+            advice='Install the extra "cluster": pip install "sysid-course[cluster]"',
+        ) from None
+
+
+def _client(dask: ModuleType, address: str) -> Any:  # noqa: ANN401 - of a package that may be absent
+    """A connection to a scheduler."""
+    advice = "Start one with: dask scheduler; and give the address it prints."
+    if not ADDRESS.fullmatch(address):
+        raise BadRequest(f"{address!r} is not the address of a Dask scheduler", advice=advice)
+    try:
+        return dask.Client(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError) as error:  # what cannot be reached, and what has no such protocol
+        raise BadRequest(
+            f"no Dask scheduler answers at {address} ({type(error).__name__})", advice=advice
+        ) from None
+
+
+def _check_workers(client: Any, address: str) -> None:  # noqa: ANN401 - as above
+    """Refuse a cluster without workers, or with workers that would make something else."""
+    found = client.run(version, US, on_error="return")
+    if not found:
+        raise BadRequest(
+            f"the scheduler at {address} has no workers",
+            advice=f"Start some with: dask worker {address}",
+        )
+    for worker, theirs in found.items():
+        if theirs != version(US):
+            has = f"has {US} {theirs}" if isinstance(theirs, str) else f"has no {US}"
+            raise BadRequest(
+                f"the worker at {worker} {has}",
+                advice=f"Install {US} {version(US)} on every machine, as here.",
+            )
