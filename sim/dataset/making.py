@@ -90,7 +90,9 @@ def _recorded(log: Log) -> Log:
 def _rounded(run: Run) -> dict[str, Any]:
     signals = {name: getattr(run, name) for name in DIGITS}
     return {
-        name: values.round(DIGITS[name]) for name, values in signals.items() if values is not None
+        name: values.round(DIGITS[name]) + 0.0  # so that there is one zero, not -0.0 besides
+        for name, values in signals.items()
+        if values is not None
     }
 
 

@@ -1,0 +1,95 @@
+"""Datasets that the tests of ``sysid dataset`` make."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from sim.cli import sysid as command
+from sim.command import run
+
+PLAIN = """
+name = "week3"
+seed = 1
+[routine]
+timeout = 1.0
+step = 3.0
+[[logs]]
+mechanisms = ["drivetrain", "shooter"]
+count = 2
+"""
+"""Four short logs, of nobody, with nothing wrong."""
+
+DAMAGED = """
+name = "week3"
+secret = "class.secret"
+students = ["ann", "Bo"]
+formats = ["wpilog", "csv"]
+[routine]
+timeout = 1.0
+step = 3.0
+[[logs]]
+mechanisms = ["drivetrain", "shooter"]
+[[logs]]
+mechanisms = "drivetrain"
+count = 2
+[[logs.faults]]
+name = "loop-overrun"
+severity = [0.5, 1.5]
+test = "quasistatic-forward"
+at = [0.2, 0.6]
+[[logs.faults]]
+name = ["missing-test", "sign-flip"]
+"""
+"""Eight short logs of two students, four of them damaged twice."""
+
+SECRET = "a secret of more than sixteen letters"  # noqa: S105 - long enough, and no one's
+
+
+def spec(folder: Path, text: str = PLAIN, *, secret: str = SECRET) -> Path:
+    """A spec in a folder, with its secret beside it."""
+    path = folder / "spec.toml"
+    path.write_text(text, encoding="utf-8")
+    if "class.secret" in text and secret:
+        (folder / "class.secret").write_text(secret + "\n", encoding="utf-8")
+    return path
+
+
+def sysid(*arguments: object) -> int:
+    """The command, in this process; its exit code."""
+    return run(command, name="sysid", arguments=[str(one) for one in arguments])
+
+
+def make(path: Path, name: str = "data", *more: object) -> Path:
+    """A dataset, made to its end beside its spec; its folder."""
+    folder = path.parent / name
+    assert sysid("dataset", path, "-o", folder, *more) == 0
+    return folder
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    """Everything in a folder, by its path there."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def key(folder: Path) -> dict:
+    """The key beside a folder."""
+    return json.loads(folder.with_name(f"{folder.name}.key.json").read_bytes())
+
+
+def process(*arguments: object, folder: Path) -> subprocess.Popen:
+    """The command as a process of its own, in a group of its own, with no terminal."""
+    return subprocess.Popen(
+        [sys.executable, "-c", "from sim.cli import main; main()", *map(str, arguments)],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        start_new_session=True,
+        env=os.environ | {"SYSID_SECRET": ""},
+    )
