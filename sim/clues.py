@@ -20,6 +20,7 @@ FEWEST = 6  # [samples] of voltage; fewer do not tell a ramp from a step
 RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
 DRIVEN = 0.05  # [share of a run's largest voltage] less is the time before and after the test
 AGREED = 0.6  # [mean of the signs] where 4 of 5 samples agree, a run has that sign
+RISEN = 0.632  # [share of the top speed] that one timescale brings
 MOVING = 0.1  # [share of a run's top speed] slower samples say little about how it moves
 Flags: TypeAlias = NDArray[np.bool_]
 Counts: TypeAlias = NDArray[np.intp]
@@ -122,6 +123,16 @@ class Clues:
             period=self.period,
         )
 
+    @cached_property
+    def timescale(self) -> float:
+        """[s] in which a step brings a dynamic test to 63 % of its top speed; 0 if none tells.
+
+        The median over the dynamic tests, from the last sample at rest; delays are part of it.
+        """
+        rises = [_rise(run) for run in self.log.runs if run.kind == "dynamic" and len(run)]
+        rises = [rise for rise in rises if rise > 0.0]
+        return float(np.median(rises)) if rises else 0.0
+
 
 def top_speed(run: Run) -> float:
     """[m/s or rad/s] the speed of the fastest samples of a run, whatever a single one says."""
@@ -162,6 +173,14 @@ def _seems(run: Run) -> str:
     if pushed * moved <= 0:
         return f"{kind}-{run.direction}"
     return f"{kind}-{'forward' if pushed > 0 else 'reverse'}"
+
+
+def _rise(run: Run) -> float:
+    """[s] from rest to 63 % of the top speed; 0 if the run does not start at rest."""
+    speed = np.abs(run.velocity)
+    up = int(np.argmax(speed > RISEN * top_speed(run)))
+    still = np.flatnonzero(speed[:up] < MOVING * top_speed(run))
+    return float(run.time[up] - run.time[still[-1]]) if still.size else 0.0
 
 
 def _smallest_step(signals: list[Array]) -> float:

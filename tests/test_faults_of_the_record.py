@@ -8,13 +8,22 @@ import numpy as np
 import pytest
 
 from sim.clues import Clues
-from sim.fault import Blow
+from sim.contaminate import contaminate
 from sim.faults import FAULTS
 from sim.mechanisms import MECHANISMS
 from sim.routine import Routine
 from sim.simulate import simulate
 
-MINE = ("mislabelled-test", "missing-test", "sign-flip", "stale-samples", "unit-error")
+MINE = (
+    "mislabelled-test",
+    "missing-test",
+    "noisy-standstill",
+    "sign-flip",
+    "stale-samples",
+    "stuck-sensor",
+    "unit-error",
+    "voltage-dropout",
+)
 SEEDS = 8  # per severity; the share of a hundred seeds stands in the table of test_faults.py
 
 
@@ -28,12 +37,8 @@ def drawn(seed, *, period=0.02):
 
 def struck(name, log, seed, *, severity=1.0):
     """The log with one fault, somewhere it may strike."""
-    fault, rng = FAULTS[name], np.random.default_rng(seed + 1000)
-    runs = [i for i, run in enumerate(log.runs) if run.kind in fault.kinds]
-    run = int(rng.choice(runs))
-    time = log.runs[run].time
-    start = float(rng.uniform(*fault.when) * (time[-1] - time[0]))
-    return fault.spoil(log, Blow(run, start, severity), rng)
+    rng = np.random.default_rng(seed + 1000)
+    return contaminate(log, name, severity=severity, rng=rng)
 
 
 def found(name, log):

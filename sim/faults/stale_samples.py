@@ -13,11 +13,11 @@ by many times the sensor's smallest step. A coarse sensor repeats itself as well
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues, Flags, holds
+from sim.clues import Clues, Counts, Flags, holds
 from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
 from sim.log import Array, Log, Run
 
@@ -40,57 +40,50 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
 
 def detect(clues: Clues) -> Iterable[Damage]:
     """Find runs whose usual reading is held for several samples while they move."""
+    steps = {"velocity": clues.velocity_step, "position": clues.position_step}
+    held = {
+        name: [
+            _held(getattr(run, name), moving, step=step)
+            for run, moving in zip(clues.log.runs, clues.moving, strict=True)
+        ]
+        for name, step in steps.items()
+    }
     for index, run in enumerate(clues.log.runs):
-        moving = clues.moving[index]
-        seen = {
-            "velocity": _held(run.velocity, moving, step=clues.velocity_step),
-            "position": _held(run.position, moving, step=clues.position_step),
-        }
-        stale = {name: held for name, held in seen.items() if held.usual >= STALE}
+        stale = {name: runs[index] for name, runs in held.items() if _stale(runs, index)}
         if stale:
             yield _damage(index, run, stale)
 
 
-@dataclass(frozen=True)
-class _Held:
-    """How long readings with clear jumps around them stand.
-
-    Args:
-        usual: [samples] the median.
-        mean: [samples].
-        count: [readings].
-    """
-
-    usual: float = 1.0
-    mean: float = 1.0
-    count: int = 0
-
-
-def _held(values: Array, moving: Flags, *, step: float) -> _Held:
-    """How long the readings stand of which one can tell."""
+def _held(values: Array, moving: Flags, *, step: float) -> Counts:
+    """[samples] how long those readings stand of which one can tell, by clear jumps around them."""
     starts, lengths = holds(values)
-    if starts.size < FEWEST:
-        return _Held()
-    jumps = np.abs(np.diff(values[starts]))
-    clear = jumps > JUMP * step
+    clear = np.abs(np.diff(values[starts])) > JUMP * step
     between = clear[:-1] & clear[1:] & moving[starts[1:-1]]
-    judged = lengths[1:-1][between]
-    if judged.size < FEWEST:
-        return _Held()
-    return _Held(float(np.median(judged)), float(np.mean(judged)), int(judged.size))
+    return np.asarray(lengths[1:-1][between])
 
 
-def _damage(index: int, run: Run, stale: dict[str, _Held]) -> Damage:
+def _stale(runs: list[Counts], index: int) -> bool:
+    """Whether a run's readings usually stand; a short run may lean on the rest of the log."""
+    own = runs[index]
+    proof = own if own.size >= FEWEST else np.concatenate(runs)
+    return (
+        own.size > 0
+        and proof.size >= FEWEST
+        and min(float(np.median(own)), float(np.median(proof))) >= STALE
+    )
+
+
+def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     period = float(np.median(np.diff(run.time)))
-    said = " and ".join(f"each {name} for {held.mean:.1f}" for name, held in stale.items())
-    longest = max(held.mean for held in stale.values())
-    readings = max(held.count for held in stale.values())
+    said = " and ".join(f"each {name} for {held.mean():.1f}" for name, held in stale.items())
+    longest = max(float(held.mean()) for held in stale.values())
+    readings = max(held.size for held in stale.values())
     return Damage(
         fault="stale-samples",
         where=_whole(index, run),
-        confidence=1.0 - 0.5 ** (readings / FEWEST),
-        evidence=f"While it moves, the log holds {said} samples of {period * 1e3:.3g} ms: frames "
-        f"arrive every {longest * period * 1e3:.0f} ms.",
+        confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
+        evidence=f"While it moves, the log holds {said} samples of {period * 1e3:.3g} ms: a frame "
+        f"arrives every {longest * period * 1e3:.0f} ms.",
         advice="Raise the frame rate of the motor controller, or log at its rate, and record "
         "again; until then distrust kA.",
     )
