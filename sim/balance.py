@@ -59,7 +59,8 @@ class Balance:
         part = slice(first, last)
         pull = (voltage[part] - self.gravity(run.position[part])) / self.kv
         keep = np.exp(-np.diff(run.time[part]) / self.timescale)
-        hold, speed, speeds = self.ks / self.kv, velocity, [velocity]
+        hold, speed = self.ks / self.kv, float(velocity)
+        speeds = [speed]
         for want, share in zip(pull.tolist(), keep.tolist(), strict=False):
             if speed == 0.0 and abs(want) <= hold:
                 speeds.append(0.0)
@@ -188,18 +189,18 @@ def _robust(terms: Array, volts: Array) -> Array:
     """Least squares in which rows far from the rest lose their weight (Tukey's biweight)."""
     weight: Array = np.ones(volts.size)
     ridge = RIDGE * np.eye(terms.shape[1])
-    gains = np.zeros(terms.shape[1])
+    gains: Array = np.zeros(terms.shape[1])
     for turn in range(ROUNDS):
         weighted = terms * weight[:, None]
-        gains = np.linalg.solve(
-            weighted.T @ terms + ridge * max(float(weight.sum()), 1e-300), weighted.T @ volts
-        )
+        tied = weighted.T @ terms + ridge * max(float(weight.sum()), 1e-300)
+        gains = np.asarray(np.linalg.solve(tied, weighted.T @ volts))
         left = np.abs(volts - terms @ gains)
         spread = float(np.median(left)) / 0.6745
         if spread <= 0.0:
             break
+        near = left / (TUNING * spread)
         if turn < GENTLE:
-            weight = 1.0 / np.maximum(left / spread, 1.0)
+            weight = np.asarray(1.0 / np.maximum(left / spread, 1.0))
         else:
-            weight = np.maximum(1.0 - (left / (TUNING * spread)) ** 2, 0.0) ** 2
+            weight = np.asarray(np.square(np.maximum(1.0 - near**2, 0.0)))
     return gains

@@ -6,14 +6,15 @@ which makes the damage, and ``detect``, which finds it, side by side.
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import ModuleType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.clues import Clues
 from sim.errors import BadRequest
-from sim.log import Log
+from sim.log import Array, Log, Run
 from sim.vocabulary import KINDS, TYPES
 
 MOST = 3.0  # [1] largest severity that makes sense; 1 is what one meets on an ordinary bad day
@@ -104,6 +105,8 @@ class Fault:
         detect: finds this fault and only this fault, from what any log shows.
         kinds: the kinds of test it can strike.
         types: the types of mechanism it can strike; a log that does not say its type is let pass.
+        about: what it makes odd: ``motion``, as voltage and motion do not agree, or ``time``. Of
+            those about the same, only one is believed to be behind one moment.
         whole: it spoils whole runs, so the start in a ``Blow`` means nothing.
         when: the share (earliest, latest) of the time a run is in motion, where it starts if nobody
             says.
@@ -116,8 +119,49 @@ class Fault:
     detect: Callable[[Clues], Iterable[Damage]]
     kinds: tuple[str, ...] = ("quasistatic", "dynamic")
     types: tuple[str, ...] = TYPES
+    about: str = "motion"
     whole: bool = False
     when: tuple[float, float] = (0.3, 0.6)
+
+
+def at_pace(run: Run, pace: Array) -> Run:
+    """A run in which the mechanism, or what reads it, goes at another pace.
+
+    Velocities are multiplied, and positions put together again from their multiplied steps, so that
+    a sensor's noise, its steps and its held readings stay what they are.
+
+    Args:
+        run: as it was.
+        pace: (n,) 1 where nothing changes, 0 where it stands.
+    """
+    renewed = np.concatenate(([True], np.diff(run.velocity) != 0.0))
+    latest = np.maximum.accumulate(np.where(renewed, np.arange(len(run)), 0))
+    steps = np.diff(run.position) * pace[1:]
+    position = run.position[0] + np.concatenate(([0.0], np.cumsum(steps)))
+    same = np.cumprod(pace == 1.0) > 0.0  # not a digit changes before it begins
+    return replace(
+        run,
+        velocity=run.velocity * pace[latest],
+        position=np.where(same, run.position, position),
+    )
+
+
+def only(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
+    """The samples of a run that a mask or a slice keeps."""
+    return replace(
+        run,
+        time=run.time[keep],
+        voltage=run.voltage[keep],
+        position=run.position[keep],
+        velocity=run.velocity[keep],
+        current=None if run.current is None else run.current[keep],
+        bus_voltage=None if run.bus_voltage is None else run.bus_voltage[keep],
+    )
+
+
+def with_run(log: Log, index: int, run: Run) -> Log:
+    """The log with another run in the place of one of its own."""
+    return replace(log, runs=(*log.runs[:index], run, *log.runs[index + 1 :]))
 
 
 def fault_of(module: ModuleType, *, name: str) -> Fault:

@@ -12,11 +12,9 @@ from typing import Any
 
 from sim.clues import Clues
 from sim.doubt import Doubt
-from sim.fault import Damage, Stretch
+from sim.fault import Damage
 from sim.faults import FAULTS
 from sim.log import Log
-
-SAME = 0.5  # [share of the shorter one] two stretches that share more are about the same moment
 
 
 @dataclass(frozen=True)
@@ -74,27 +72,24 @@ def inspect(log: Log) -> Inspection:
 
 
 def _settled(found: Iterable[Damage]) -> list[Damage]:
-    """The damages without those whose moment a more confident one explains.
+    """The damages without those whose moment a more confident one of another fault explains.
 
-    What spoils whole runs stands beside what happens in a moment of one.
+    What spoils whole runs, or the time, stands beside what happens to the motion in a moment.
     """
     kept: list[Damage] = []
     for damage in sorted(found, key=lambda damage: -damage.confidence):
-        rivals = (
-            other
-            for other in kept
-            if FAULTS[other.fault].whole == FAULTS[damage.fault].whole is False
-        )
-        if not any(_same_moment(damage.where, other.where) for other in rivals):
+        if not any(_rivals(damage, other) for other in kept):
             kept.append(damage)
     return kept
 
 
-def _same_moment(one: Stretch, other: Stretch) -> bool:
-    if one.run != other.run:
+def _rivals(one: Damage, other: Damage) -> bool:
+    """Whether two damages are different explanations of one moment."""
+    mine, others = FAULTS[one.fault], FAULTS[other.fault]
+    if mine is others or mine.about != others.about or mine.whole or others.whole:
         return False
-    shared = min(one.end, other.end) - max(one.start, other.start)
-    return shared >= SAME * min(one.end - one.start, other.end - other.start)
+    shared = min(one.where.end, other.where.end) - max(one.where.start, other.where.start)
+    return one.where.run == other.where.run and shared > 0.0
 
 
 def _when(damage: Damage) -> tuple[int, float, str]:

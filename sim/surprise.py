@@ -6,8 +6,8 @@ surprise. Each fault that could be behind it draws the shape it would leave, and
 surprise that the shape explains is how much it is believed.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +22,7 @@ AVERAGE = 0.04  # [s] over which noise is averaged, at least two samples
 SHORTEST = 0.03  # [s] a shorter surprise is noise, at least two samples
 LONGEST = 0.6  # [share of the motion] a longer one is no surprise but how this run is
 AROUND = 0.15  # [s] before and after that an explanation has to explain as well
+ALIKE = 0.5  # [share of the shorter] two stretches of time or way that share more are one habit
 JOIN = 0.06  # [s] two closer ones are one
 
 
@@ -38,6 +39,8 @@ class Surprise:
         left: (end - begin,) [m/s or rad/s] seen minus expected, what it strays by anyway taken off.
         expected: (end - begin,) [m/s or rad/s] the velocity as replayed, brought to what was seen
             before and after.
+        again: another run has one at the same place, or as long after its start: that is how the
+            mechanism is, and no accident.
     """
 
     run: int
@@ -47,6 +50,21 @@ class Surprise:
     end: int
     left: Array
     expected: Array
+    again: bool = False
+
+    def spans(self, *, slack: int) -> Iterator[tuple[int, int]]:
+        """Where it may have begun and ended: samples within ``begin`` and ``end``, near its own.
+
+        Args:
+            slack: [samples] how far from its own first and last sample to look.
+        """
+        inside = self.end - self.begin
+        stride = max(1, slack // 3)
+        for first in range(self.first - slack, self.first + slack + 1, stride):
+            for last in range(self.last + 1 - slack, self.last + 2 + slack, stride):
+                span = first - self.begin, last - self.begin
+                if 0 <= span[0] < span[1] <= inside:
+                    yield span
 
     def explained(self, shape: Array) -> float:
         """The share of what is left that a shape (end - begin,) explains; below 0 it is worse."""
@@ -58,8 +76,8 @@ class Surprise:
 def expect(run: Run, balance: Balance, *, still: float) -> Array:
     """The velocity (n,) [m/s or rad/s] that a run's voltage should bring about.
 
-    Before its first motion it is taken to stand: whether a stop or friction holds it there, a log cannot
-    tell.
+    Before its first motion it is taken to stand: whether a stop or friction holds it there, a log
+    cannot tell.
     """
     begin = first_motion(run, still=still)
     rest = np.zeros(begin)
@@ -119,7 +137,28 @@ def surprises(
                     index, first, last, part.start, part.stop, stray[part], expected[index][part]
                 )
             )
-    return tuple(found)
+    return tuple(
+        replace(one, again=any(_alike(one, other, runs, still=still) for other in found))
+        for one in found
+    )
+
+
+def _alike(one: Surprise, other: Surprise, runs: Sequence[Run], *, still: float) -> bool:
+    """Whether two are one habit: in two runs, as long after the start, or at the same place."""
+    if one.run == other.run:
+        return False
+    mine, others = runs[one.run], runs[other.run]
+
+    def shared(a: Array, b: Array) -> bool:
+        together = min(a.max(), b.max()) - max(a.min(), b.min())
+        return bool(together >= ALIKE * min(np.ptp(a), np.ptp(b)))
+
+    since = [
+        run.time[[s.first, s.last]] - run.time[first_motion(run, still=still)]
+        for run, s in ((mine, one), (others, other))
+    ]
+    place = [run.position[s.first : s.last + 1] for run, s in ((mine, one), (others, other))]
+    return (mine.kind == others.kind and shared(*since)) or shared(*place)
 
 
 def _slow(stray: Array, within: Array) -> Array:

@@ -12,13 +12,12 @@ percent of a loop, or a millisecond.
 """
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 import numpy as np
 
 from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
-from sim.log import Log, Run
+from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, only, with_run
+from sim.log import Log
 
 SHORTEST, LONGEST = 0.04, 0.3  # [s] a stall; shorter ones are jitter, longer ones trip a watchdog
 SPREAD = 1.5  # [s] over which stalls come at severity 1, one about every quarter of a second
@@ -27,7 +26,6 @@ LATE = 1.75  # [usual steps] what is no jitter any more
 GAP = 0.035  # [s] a shorter step in time does no harm, however fast the log
 TOGETHER = 1.0  # [s] stalls no further apart than this are one stretch of trouble
 PROOF = 2.0  # [usual steps] lost in all: one might be a hiccup, ten are none
-SIGNALS = ("time", "voltage", "position", "velocity", "current", "bus_voltage")
 
 
 def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
@@ -49,7 +47,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     if not stalls:
         return Spoilt(log, ())
     first, last = run.time[stalls[0][0] - 1], run.time[stalls[-1][-1] + 1]
-    spoilt = replace(log, runs=tuple(_only(r, keep) if r is run else r for r in log.runs))
+    spoilt = with_run(log, blow.run, only(run, keep))
     return Spoilt(spoilt, (Stretch(blow.run, run.test, float(first), float(last)),))
 
 
@@ -83,16 +81,11 @@ def _times(count: int) -> str:
     return "Once" if count == 1 else f"{count} times"
 
 
-def _only(run: Run, keep: "np.ndarray[tuple[int], np.dtype[np.bool_]]") -> Run:
-    """The samples of a run that are kept."""
-    kept = {name: getattr(run, name)[keep] for name in SIGNALS if getattr(run, name) is not None}
-    return replace(run, **kept)
-
-
 FAULT = Fault(
     name="loop-overrun",
     summary="the robot program's loop stalls: gaps in time, samples lost",
     ordinary="about five stalls of 80 to 225 ms within 1.5 s",
     spoil=spoil,
     detect=detect,
+    about="time",
 )

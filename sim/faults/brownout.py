@@ -1,0 +1,126 @@
+"""Brownout: the robot controller cuts the motors because the battery's voltage has collapsed.
+
+On a robot: a weak battery or a large current pulls the bus below 6.3 V (roboRIO 1) or 6.75 V
+(roboRIO 2); the controller disables its outputs until the bus is back above 7.5 V.
+
+To the gains: the mechanism slows down without a motor while the log goes on to tell the commanded
+voltage. SysId sees voltage without acceleration: kA too large (by 43 % for one cut), kS too small.
+
+Fingerprint: the velocity falls as it does with no voltage at all, along its own timescale, and
+climbs back along the same one; the bus voltage, where it is logged, dips.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from sim.clues import Clues
+from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, at_pace, with_run
+from sim.log import Log
+from sim.surprise import Surprise
+
+CUT = 0.3  # [s] without motors at severity 1
+DIP = 6.0  # [V] of the bus while it lasts: below every controller's threshold
+RECOVERED = 7.5  # [V] where a controller lets the motors go on
+SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
+ENDS = 12  # ends of the cut that are tried at first
+BELIEVED = 0.7  # [share explained] less is something else
+FASTEST = 1.2  # [times the usual speed] a cut can make what falls go, before the model is in doubt
+
+
+def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+    """Let the mechanism go on without its motor for a moment."""
+    clues = Clues(log)
+    run = log.runs[blow.run]
+    start = float(run.time[0]) + blow.start
+    end = min(start + CUT * blow.severity * rng.uniform(0.9, 1.1), float(run.time[-1]))
+    cut = (run.time >= start) & (run.time < end)
+    if clues.balance is None or not cut.any():
+        return Spoilt(log, ())
+    first = int(np.argmax(cut))
+    velocity = clues.expected[blow.run][first]
+    as_it_was, without = (
+        clues.balance.replay(run, voltage=volts, first=first, last=len(run), velocity=velocity)
+        for volts in (run.voltage, np.where(cut, 0.0, run.voltage))
+    )
+    moves = np.abs(as_it_was) > clues.still
+    if not np.any(moves & (as_it_was != without)):
+        return Spoilt(log, ())
+    pace = np.ones(len(run))
+    pace[first:][moves] = np.clip(without[moves] / as_it_was[moves], -FASTEST, FASTEST)
+    spoilt = at_pace(run, pace)
+    if run.bus_voltage is not None:
+        bus = np.where(cut, np.minimum(run.bus_voltage, DIP), run.bus_voltage)
+        spoilt = replace(spoilt, bus_voltage=bus)
+    return Spoilt(with_run(log, blow.run, spoilt), (Stretch(blow.run, run.test, start, end),))
+
+
+def detect(clues: Clues) -> Iterable[Damage]:
+    """Find surprises that a cut of the whole voltage explains."""
+    for surprise in clues.surprises:
+        if surprise.again:
+            continue
+        share, first, last = _best(clues, surprise)
+        if share < BELIEVED:
+            continue
+        run = clues.log.runs[surprise.run]
+        start = float(run.time[first])
+        end = float(run.time[min(last, len(run) - 1)])
+        bus = None if run.bus_voltage is None else float(run.bus_voltage[first:last].min())
+        seen = bus is not None and bus < RECOVERED
+        said = f"; the bus is down to {bus:.1f} V" if seen else ""
+        yield Damage(
+            fault="brownout",
+            where=Stretch(surprise.run, run.test, start, end),
+            confidence=1.0 - (1.0 - share) * (0.5 if seen else 1.0),
+            evidence=f"For {end - start:.2f} s it moves as if no voltage were applied, while the "
+            f"log tells {abs(float(np.median(run.voltage[first:last]))):.1f} V{said}.",
+            advice="Charge or change the battery, set supply current limits, and run this test "
+            "again; log the applied voltage, not the commanded one.",
+        )
+
+
+def _best(clues: Clues, surprise: Surprise) -> tuple[float, int, int]:
+    """Share explained by a cut, its first sample of the run, and the one behind its last."""
+    best = (0.0, surprise.first, surprise.last + 1)
+    if float(surprise.left @ np.sign(surprise.expected)) >= 0.0:
+        return best
+    slack = max(3, round(SLACK / clues.period))
+    stride = max(1, slack // 3)
+    ends = np.unique(np.linspace(surprise.first + 1, surprise.last + 1, ENDS).astype(int))
+    for first in range(surprise.first - slack, surprise.first + 1, stride):
+        if first >= surprise.begin:
+            best = max(
+                best, *((_share(clues, surprise, first, e), first, e) for e in ends.tolist())
+            )
+    _, first, last = best
+    near = range(max(last - slack, first + 1), min(last + slack, surprise.end))
+    return max([best, *((_share(clues, surprise, first, end), first, end) for end in near)])
+
+
+def _share(clues: Clues, surprise: Surprise, first: int, last: int) -> float:
+    """How much a cut of these samples of the run explains."""
+    run, balance = clues.log.runs[surprise.run], clues.balance
+    if balance is None:
+        return 0.0
+    volts = run.voltage.copy()
+    volts[first:last] = 0.0
+    without = balance.replay(
+        run,
+        voltage=volts,
+        first=surprise.begin,
+        last=surprise.end,
+        velocity=float(surprise.expected[0]),
+    )
+    return surprise.explained(without - surprise.expected)
+
+
+FAULT = Fault(
+    name="brownout",
+    summary="the controller cuts the motors, and the log goes on to tell a voltage",
+    ordinary="the motors are without voltage for 0.3 s",
+    spoil=spoil,
+    detect=detect,
+    when=(0.2, 0.6),
+)
