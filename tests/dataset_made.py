@@ -82,14 +82,14 @@ def key(folder: Path) -> dict:
     return json.loads(folder.with_name(f"{folder.name}.key.json").read_bytes())
 
 
-def process(*arguments: object, folder: Path) -> subprocess.Popen:
+def process(*arguments: object, folder: Path, stderr: int = subprocess.PIPE) -> subprocess.Popen:
     """The command as a process of its own, in a group of its own, with no terminal."""
     return subprocess.Popen(
         [sys.executable, "-c", "from sim.cli import main; main()", *map(str, arguments)],
         cwd=folder,
         stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        stderr=stderr,
         encoding="utf-8",
         start_new_session=True,
-        env=os.environ | {"SYSID_SECRET": ""},
+        env=os.environ | {"SYSID_SECRET": "", "TERM": "xterm"},
     )

@@ -262,6 +262,16 @@ def test_a_number_says_nothing_about_what_was_done_to_a_log(tmp_path):
     }  # 40 draws miss one of five 1 time in 1500
 
 
+def test_no_room_for_temporary_files_is_one_line(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(making.tempfile, "tempdir", str(tmp_path / "none"))
+
+    assert sysid("dataset", spec(tmp_path), "-o", tmp_path / "data") == 2
+
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "a temporary file cannot be written (No such file or directory). Make room" in said
+
+
 def test_a_secret_is_made_on_first_use_and_kept(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED, secret="")
 

@@ -43,11 +43,13 @@ def survey(folder: Path, jobs: Sequence[Job], *, known: Iterable[Entry]) -> Surv
     Raises:
         BadRequest: it is no folder, or cannot be read.
     """
-    if folder.exists() and not folder.is_dir():
-        raise BadRequest("this is not a folder", where=str(folder), advice="Name another with -o.")
     entries = {entry["plan"]: entry for entry in known}
     kept, todo, foreign = [], [], []
     try:
+        if folder.exists() and not folder.is_dir():
+            raise BadRequest(
+                "this is not a folder", where=str(folder), advice="Name another with -o."
+            )
         for job in jobs:
             entry = entries.pop(job.fingerprint, None)
             hashes = {file: digest(folder / file) for file in job.files}
@@ -155,15 +157,16 @@ class Shelf:
 
     def _folder(self, folder: Path) -> None:
         missing = []
-        while not folder.exists():
-            missing.append(folder)
-            folder = folder.parent
-        for one in reversed(missing):
-            try:
-                one.mkdir(exist_ok=True)
-            except OSError as error:
-                raise _cannot(error, one) from None
-            self._made.append(one)
+        try:
+            while not folder.exists():
+                missing.append(folder)
+                folder = folder.parent
+            for one in reversed(missing):
+                folder = one
+                folder.mkdir(exist_ok=True)
+                self._made.append(folder)
+        except OSError as error:
+            raise _cannot(error, folder) from None
 
 
 def _cannot(error: OSError, path: Path) -> BadRequest:

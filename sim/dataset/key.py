@@ -58,9 +58,9 @@ def read_key(path: Path, *, secret: Secret) -> tuple[Entry, ...]:
         whole, entries = False, ()
     if not whole:
         raise BadRequest(
-            "the seal of the key is broken: the key was changed, or made with another secret",
+            "the seal of the key is broken: it was changed, or made with another secret or seed",
             where=str(path),
-            advice="Put back the key and the secret as they were, or name another with --key.",
+            advice="Put both back as they were, or name another folder with -o.",
         )
     return entries
 

@@ -65,7 +65,14 @@ def make(job: Job) -> Made | Failed:
         log = _recorded(log)
         return Made(job, _contents(log, job), _truth(built, job, log=log, where=where))
     except Refusal as refusal:
-        return Failed(job, refusal.what, refusal.advice)
+        what = f"{refusal.where}: {refusal.what}" if refusal.where else refusal.what
+        return Failed(job, what, refusal.advice)
+    except OSError as error:
+        return Failed(
+            job,
+            f"a temporary file cannot be written ({error.strerror or error})",
+            "Make room for temporary files, or say where with TMPDIR.",
+        )
 
 
 def _built(job: Job) -> Mechanism:

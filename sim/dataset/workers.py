@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from sim.dataset.plan import Job
 
 AHEAD = 4  # [jobs a worker] that are handed out at a time: enough that none waits for work
-WORTH = 25  # [jobs] that a further process has to save, to be worth its start
+WORTH = 50  # [jobs] that a further process has to save, to be worth its start
 
 
 def cores() -> int:

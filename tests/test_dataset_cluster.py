@@ -1,0 +1,129 @@
+"""The same dataset from a Dask cluster of real worker processes."""
+
+import builtins
+import importlib.util
+import sys
+
+import pytest
+from dataset_made import DAMAGED, PLAIN, files, key, make, process, spec, sysid
+
+from sim.dataset import cluster
+from sim.dataset.plan import plan
+from sim.dataset.secret import find_secret
+from sim.dataset.spec import read_spec
+
+needs_dask = pytest.mark.skipif(
+    importlib.util.find_spec("distributed") is None,
+    reason="Dask is not installed (extra `cluster`)",
+)
+
+
+@pytest.fixture(autouse=True)
+def _no_secret_around(monkeypatch):
+    monkeypatch.delenv("SYSID_SECRET", raising=False)
+
+
+@pytest.fixture(scope="module")
+def address():
+    """The scheduler of a cluster with two workers, each a process of its own."""
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as found:
+        yield found.scheduler_address
+
+
+@needs_dask
+def test_a_cluster_makes_the_files_that_one_process_makes(tmp_path, address):
+    path = spec(tmp_path, DAMAGED.replace("count = 2", "count = 20"))  # 22 logs of each student
+    here = make(path, "here", "--processes", 1)
+
+    running = process("dataset", "spec.toml", "-o", "there", "--cluster", address, folder=tmp_path)
+    said = running.communicate(timeout=60)
+
+    assert running.returncode == 0, said
+    assert said[1] == ""
+    assert len(files(here)) == 88
+    assert files(tmp_path / "there") == files(here)
+    assert key(tmp_path / "there") == key(here)
+
+
+@needs_dask
+def test_a_refusal_on_a_worker_comes_back_as_one(tmp_path, address):
+    late = '[[logs.faults]]\nname = "loop-overrun"\nat = 0.99\ntest = "dynamic-forward"\n'
+    asked = read_spec(spec(tmp_path, PLAIN + late))  # a test of 1 s drives for 0.96 s
+    jobs = plan(asked, find_secret(asked, make=False))
+
+    found = list(cluster.made_on_cluster(jobs, address=address))
+
+    assert {one.job for one in found} == set(jobs)
+    assert all("0.99 s is not within dynamic-forward" in one.what for one in found)
+
+
+@needs_dask
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("nonsense", "'nonsense' is not the address of a Dask scheduler. Start one with: dask sch"),
+        ("http://host:1", "is not the address of a Dask scheduler"),
+        ("tcp://127.0.0.1:9", "no Dask scheduler answers at tcp://127.0.0.1:9 (OSError). Start"),
+    ],
+)
+def test_a_scheduler_that_is_not_there_is_one_line(tmp_path, monkeypatch, capsys, given, said):
+    monkeypatch.setattr(cluster, "PATIENCE", 0.2)  # [s]
+
+    assert sysid("dataset", spec(tmp_path), "-o", tmp_path / "data", "--cluster", given) == 2
+
+    shown = capsys.readouterr().err
+    assert said in shown
+    assert shown.count("\n") == 1
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["spec.toml"]
+
+
+def test_without_dask_the_extra_is_named(tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "distributed", None)  # as if it were not installed
+
+    asked = ("--cluster", "tcp://127.0.0.1:8786")
+    assert sysid("dataset", spec(tmp_path), "-o", tmp_path / "data", *asked) == 2
+
+    shown = capsys.readouterr().err
+    assert 'Install the extra "cluster": pip install "sysid-course[cluster]"' in shown
+    assert shown.count("\n") == 1
+    assert not (tmp_path / "data").exists()
+
+
+def test_nothing_but_a_cluster_imports_dask(tmp_path, monkeypatch):
+    real = builtins.__import__
+
+    def watched(name, *arguments, **named):
+        assert not name.startswith(("distributed", "dask"))
+        return real(name, *arguments, **named)
+
+    monkeypatch.setattr(builtins, "__import__", watched)
+    monkeypatch.setattr(cluster, "import_module", pytest.fail)
+
+    make(spec(tmp_path))
+
+
+class Workers:
+    """A connection to workers that have something else installed."""
+
+    def __init__(self, *has):
+        self.has = has
+
+    def run(self, *_arguments, **_named):
+        """What each worker answers."""
+        return {f"tcp://worker:{number}": one for number, one in enumerate(self.has)}
+
+
+@pytest.mark.parametrize(
+    ("has", "said"),
+    [
+        ((), "has no workers. Start some with: dask worker tcp://host:1"),
+        (("0.0.1",), "the worker at tcp://worker:0 has sysid-course 0.0.1. Install sysid-course"),
+        ((ModuleNotFoundError("sim"),), "the worker at tcp://worker:0 has no sysid-course."),
+    ],
+)
+def test_workers_that_would_make_something_else_are_refused(has, said):
+    with pytest.raises(cluster.BadRequest, match=said):
+        cluster._check_workers(Workers(*has), "tcp://host:1")

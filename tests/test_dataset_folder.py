@@ -1,0 +1,264 @@
+"""Where a dataset goes: what is there already, what must not be there, and what has changed."""
+
+import json
+import shutil
+
+import pytest
+from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
+
+
+@pytest.fixture(autouse=True)
+def _no_secret_around(monkeypatch):
+    monkeypatch.delenv("SYSID_SECRET", raising=False)
+
+
+def refused(capsys, *arguments):
+    """What is said by a command that refuses, in one line."""
+    capsys.readouterr()
+    assert sysid("dataset", *arguments) == 2
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.count("\n") == 1
+    return shown.err
+
+
+def test_what_is_finished_is_kept(tmp_path, capsys):
+    path = spec(tmp_path, DAMAGED)
+    folder = make(path)
+    before = {one: one.stat().st_ino for one in folder.rglob("*")}
+    capsys.readouterr()
+
+    make(path)
+
+    assert {one: one.stat().st_ino for one in folder.rglob("*")} == before
+    assert "8 logs, 8 of them made earlier" in capsys.readouterr().out
+
+
+def test_a_file_that_went_missing_is_made_again(tmp_path):
+    path = spec(tmp_path, DAMAGED)
+    folder = make(path)
+    before = files(folder)
+    (folder / "ann" / "log-02.csv").unlink()
+    shutil.rmtree(folder / "bo")
+
+    assert files(make(path)) == before
+
+
+def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys):
+    path = spec(tmp_path)
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "log-02.wpilog").write_bytes(b"a robot's own log")
+    (tmp_path / "data" / "notes.txt").write_bytes(b"mine")
+
+    said = refused(capsys, path, "-o", tmp_path / "data")
+
+    assert "log-02.wpilog: there already, and not of this spec and secret. Name another" in said
+    assert files(tmp_path / "data") == {"log-02.wpilog": b"a robot's own log", "notes.txt": b"mine"}
+    assert not (tmp_path / "data.key.json").exists()
+    made = files(make(path, "data", "--overwrite"))
+    assert made.pop("notes.txt") == b"mine"
+    assert made == files(make(path, "other"))
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        pytest.param(PLAIN.replace("seed = 1", "seed = 2"), id="seed"),
+        pytest.param(PLAIN.replace("3.0", "3.1"), id="step"),
+    ],
+)
+def test_files_of_another_spec_are_foreign(tmp_path, capsys, other):
+    before = files(make(spec(tmp_path)))
+
+    said = refused(capsys, spec(tmp_path, other), "-o", tmp_path / "data")
+
+    assert "ame another folder with -o" in said
+    assert files(tmp_path / "data") == before
+
+
+def test_a_changed_file_is_foreign_too(tmp_path, capsys):
+    path = spec(tmp_path)
+    (make(path) / "log-01.wpilog").write_bytes(b"changed by a student")
+
+    assert "log-01.wpilog: there already" in refused(capsys, path, "-o", tmp_path / "data")
+
+
+def test_logs_that_the_spec_no_longer_has_are_not_forgotten_unasked(tmp_path, capsys):
+    folder = make(spec(tmp_path, DAMAGED))
+    fewer = spec(tmp_path, DAMAGED.replace('"ann", ', ""))
+
+    said = refused(capsys, fewer, "-o", folder)
+
+    assert "ann/log-01.wpilog, ann/log-01.csv, " in said
+    assert "and 5 more: of this dataset once, and no longer in the spec." in said
+    assert {log["student"] for log in key(folder)["logs"]} == {"ann", "Bo"}
+    make(fewer, "data", "--overwrite")
+    assert {log["student"] for log in key(folder)["logs"]} == {"Bo"}
+
+
+@pytest.mark.parametrize(
+    ("output", "said"),
+    [
+        ("file", "file: this is not a folder. Name another with -o."),
+        ("file/data", "Not a directory"),
+        ("long" * 100, "File name too long"),
+        ("file/deep/data", "Not a directory"),
+    ],
+)
+def test_a_place_that_cannot_be_is_refused(tmp_path, capsys, output, said):
+    (tmp_path / "file").write_bytes(b"a file")
+
+    assert said in refused(capsys, spec(tmp_path), "-o", tmp_path / output)
+    assert (tmp_path / "file").read_bytes() == b"a file"
+
+
+def test_a_folder_that_nobody_may_write_to_is_refused(tmp_path, capsys):
+    said = refused(capsys, spec(tmp_path), "-o", "/proc/data", "--key", tmp_path / "key.json")
+
+    assert "/proc/data: cannot be written (" in said
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["spec.toml"]
+
+
+def test_a_key_that_cannot_be_written_is_refused_before_a_log_is_made(tmp_path, capsys):
+    said = refused(
+        capsys, spec(tmp_path), "-o", tmp_path / "data", "--key", tmp_path / "none" / "key.json"
+    )
+
+    assert "key.json: the key cannot be written (No such file or directory)." in said
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["spec.toml"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        (("-o", "data", "--key", "data/key.json"), "data/key.json: the key lies in the folder"),
+        (("-o", "."), "spec.toml: the spec lies in the folder of the data"),
+    ],
+)
+def test_the_truth_never_lies_among_the_data(tmp_path, monkeypatch, capsys, arguments, what):
+    spec(tmp_path, DAMAGED)
+    monkeypatch.chdir(tmp_path)
+
+    assert what in refused(capsys, "spec.toml", *arguments)
+    assert not (tmp_path / "data").exists()
+
+
+def test_the_secret_never_lies_among_the_data(tmp_path, capsys):
+    path = spec(tmp_path, DAMAGED.replace("class.secret", "data/class.secret"), secret="")
+
+    assert "class.secret: the secret lies in the folder" in refused(
+        capsys, path, "-o", tmp_path / "data"
+    )
+
+
+def test_a_folder_is_needed(tmp_path, capsys):
+    assert "Missing option '-o': a folder for the logs." in refused(capsys, spec(tmp_path))
+
+
+def check(path, folder, capsys):
+    """Exit code and lines of --check."""
+    capsys.readouterr()
+    code = sysid("dataset", path, "-o", folder, "--check")
+    shown = capsys.readouterr()
+    return code, (shown.out or shown.err).splitlines()
+
+
+def test_what_is_as_it_was_made_passes_the_check(tmp_path, capsys):
+    path = spec(tmp_path, DAMAGED)
+    folder = make(path)
+
+    assert check(path, folder, capsys) == (
+        0,
+        [f"{folder}: 8 logs, all as they were made; the seal is whole."],
+    )
+
+
+def test_every_change_to_the_data_is_noticed(tmp_path, capsys):
+    path = spec(tmp_path, DAMAGED)
+    folder = make(path)
+    changed = folder / "ann" / "log-01.csv"
+    changed.write_bytes(changed.read_bytes().replace(b"1", b"2", 1))
+    (folder / "bo" / "log-02.wpilog").unlink()
+    shutil.copy(folder / "bo" / "log-03.csv", folder / "bo" / "log-99.csv")
+
+    assert check(path, folder, capsys) == (
+        1,
+        ["changed: ann/log-01.csv", "missing: bo/log-02.wpilog", "in no key: bo/log-99.csv"],
+    )
+
+
+def test_another_spec_is_noticed(tmp_path, capsys):
+    folder = make(spec(tmp_path, DAMAGED))
+    more = DAMAGED.replace('["ann"', '["zoe", "ann"').replace("1.5]", "1.6]")
+
+    code, lines = check(spec(tmp_path, more), folder, capsys)
+
+    assert code == 1
+    assert "not made yet: zoe/log-01.wpilog" in lines
+    assert sum(line.startswith("of another spec: ann/") for line in lines) == 4  # two logs twice
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        pytest.param(lambda logs: logs[0]["gains"].update(kV=2.5), id="a gain"),
+        pytest.param(lambda logs: logs[0]["files"].update({"ann/log-01.csv": "0" * 64}), id="hash"),
+        pytest.param(lambda logs: logs.pop(), id="a log less"),
+        pytest.param(lambda logs: logs[0].update(student="Bo"), id="another student"),
+    ],
+)
+def test_every_change_to_the_key_is_noticed(tmp_path, capsys, change):
+    path = spec(tmp_path, DAMAGED)
+    folder = make(path)
+    content = key(folder)
+    change(content["logs"])
+    (tmp_path / "data.key.json").write_text(json.dumps(content), encoding="utf-8")
+
+    assert "data.key.json: the seal of the key is broken" in refused(
+        capsys, path, "-o", folder, "--check"
+    )
+    assert "the seal of the key is broken" in refused(capsys, path, "-o", folder)
+
+
+@pytest.mark.parametrize("content", ["", "{", "[]", "{}", '{"logs": [], "seal": 7}'])
+def test_a_key_that_is_none_is_refused(tmp_path, capsys, content):
+    path = spec(tmp_path)
+    folder = make(path)
+    (tmp_path / "data.key.json").write_text(content, encoding="utf-8")
+
+    assert "the seal of the key is broken" in refused(capsys, path, "-o", folder, "--check")
+
+
+def test_a_key_that_is_only_printed_another_way_is_whole(tmp_path, capsys):
+    path = spec(tmp_path, DAMAGED)
+    folder = make(path)
+    content = json.dumps(key(folder), indent=4, sort_keys=True)
+    (tmp_path / "data.key.json").write_text(content, encoding="utf-8")
+
+    assert check(path, folder, capsys)[0] == 0
+
+
+def test_another_secret_does_not_open_the_seal(tmp_path, capsys):
+    path = spec(tmp_path, DAMAGED)
+    folder = make(path)
+    (tmp_path / "class.secret").write_text(SECRET + "!", encoding="utf-8")
+
+    assert "made with another secret" in refused(capsys, path, "-o", folder, "--check")
+    (tmp_path / "class.secret").unlink()
+    assert "made with another secret" in refused(capsys, path, "-o", folder)
+    assert not (tmp_path / "class.secret").exists()  # none is made in place of the lost one
+    assert "the secret is not there" in refused(capsys, path, "-o", folder, "--check")
+
+
+def test_there_is_nothing_to_check_before_there_is_a_key(tmp_path, capsys):
+    said = refused(capsys, spec(tmp_path), "-o", tmp_path / "data", "--check")
+
+    assert "data.key.json: there is no key. Make the dataset to its end" in said
+
+
+def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):
+    make(spec(tmp_path, DAMAGED, secret=""))
+
+    for name in ("data.key.json", "class.secret"):
+        path = tmp_path / name
+        assert path.stat().st_mode & 0o077 == 0 or path.drive  # a drive letter: Windows
