@@ -1,40 +1,58 @@
 """Run a mechanism under a routine and record what its sensor says.
 
-    kA·v' = V - kV·v - kS·sgn(v)          at rest it stays at rest while |V| ≤ kS
+    kA·v' = u - kV·v - kS·sgn(v) - gravity - hidden effects
 
-The voltage is held between two loops, so each stretch has an exact solution, and friction's change
-of sign is met at its exact time: no step is too long.
+A test begins at rest: where there are stops, a forward test at the lower one and a reverse test
+near the upper one, as someone who drives it back between tests would have it. Someone at the
+controller also ends a test shortly before the end of the travel.
 """
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
+from sim.engine import State, Track, move
 from sim.errors import BadRequest
 from sim.log import Array, Log, Run
-from sim.mechanism import Mechanism, Sensor
+from sim.mechanism import Mechanism
+from sim.model import Model
+from sim.replay import rest
 from sim.routine import LOOPS_BEFORE_DRIVE, Routine
+from sim.sensing import read
+
+__all__ = ["motion", "read", "simulate"]
 
 PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
 FASTEST, SLOWEST = 0.0005, 0.5  # [s] loop periods that make sense
 FEWEST = 10  # [samples] a shorter test has nothing to say
+MARGIN = 0.04  # [share of the travel] before a stop at which someone ends the test
 
 
 def simulate(
-    mechanism: Mechanism, routine: Routine, *, rng: np.random.Generator, period: float = 0.02
+    mechanism: Mechanism,
+    routine: Routine,
+    *,
+    rng: np.random.Generator,
+    period: float = 0.02,
+    duty_cycle: bool = False,
+    electrical: bool = False,
 ) -> Log:
     """Run the tests of a routine one after another.
 
     Args:
-        mechanism: what is tested. A test stops early where its travel ends, as a person at the
-            controller would stop it.
+        mechanism: what is tested.
         routine: which voltages.
         rng: the source of noise and jitter; the same state gives the same log.
         period: [s] of the robot program's loop.
+        duty_cycle: the program asks for a share of the battery, ``set(volts / 12)``, and nothing
+            makes up for what the battery has; without, for a voltage.
+        electrical: record one motor's current and the battery's voltage, too.
 
     Returns:
-        The log, in the unit the mechanism's team thinks in.
+        The log, in the unit the mechanism's team thinks in, with the voltage that reached the
+        motors.
 
     Raises:
         BadRequest: a period no robot has, or a test that is over before it has moved.
@@ -44,26 +62,55 @@ def simulate(
             f"a period of {period:g} s",
             advice=f"Choose {FASTEST:g} to {SLOWEST:g} s; a robot program loops every 0.02 s.",
         )
-    runs = []
-    start, position = PAUSE, 0.0
+    model, wires = mechanism.model, connected(mechanism, duty_cycle=duty_cycle)
+    runs: list[Run] = []
+    state, start, last = State(), PAUSE, 0.0
     for test in routine.tests:
         time = _loops(routine.timeout, period=period, jitter=mechanism.sensor.jitter, rng=rng)
         voltage = np.array([routine.voltage(test, t) for t in time.tolist()])
-        moved, velocity = motion(mechanism.gains, time=time, voltage=voltage)
-        end = _end_of_travel(moved, travel=mechanism.travel)
+        begun = replace(state, memory=state.memory.copy())
+        begun.body = State.at(_begin(mechanism, test, last)).body
+        state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
+        track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+        end = _end(track, mechanism, test=test)
         if end < FEWEST:
             raise BadRequest(
-                f"{test} lasts {end} loops", advice="Ask for a longer timeout or a shorter period."
+                f"{test} lasts {end} loops",
+                advice="Ask for a longer timeout, a shorter period or a smaller step.",
             )
-        time, voltage, moved, velocity = time[:end], voltage[:end], moved[:end], velocity[:end]
-        seen = read(mechanism.sensor, position=position + moved, velocity=velocity, rng=rng)
-        runs.append(Run(test, start + time, voltage, *seen))
-        start, position = start + float(time[-1]) + PAUSE, position + float(moved[-1])
+        if end < time.size:  # nothing that someone ended goes on to warm a motor
+            time, voltage, state = time[:end], voltage[:end], begun
+            track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+        seen = read(
+            mechanism.sensor, position=track.position, velocity=track.seen, time=time, rng=rng
+        )
+        extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
+        runs.append(Run(test, start + time, track.applied, *seen, **extra))
+        state.clock += PAUSE
+        rest(state, model, PAUSE)
+        start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     return Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
 
 
+def connected(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
+    """(9,) the wires of a mechanism, in the order of ``sim.engine.wires``."""
+    return np.array(
+        [
+            mechanism.battery.rest,
+            mechanism.battery.resistance,
+            mechanism.motor_count,
+            mechanism.motor.resistance,
+            mechanism.motor.back_emf * mechanism.ratio / mechanism.radius,
+            mechanism.stator,
+            mechanism.supply,
+            mechanism.brownout,
+            float(duty_cycle),
+        ]
+    )
+
+
 def motion(gains: Mapping[str, float], *, time: Array, voltage: Array) -> tuple[Array, Array]:
-    """Move from rest at zero.
+    """Move from rest at zero, with friction, back-EMF and inertia alone.
 
     Args:
         gains: kS [V], kV [V·s/unit], kA [V·s²/unit].
@@ -73,32 +120,8 @@ def motion(gains: Mapping[str, float], *, time: Array, voltage: Array) -> tuple[
     Returns:
         Position (n,) and velocity (n,), before the sensor.
     """
-    x = v = 0.0
-    positions, velocities = [x], [v]
-    for dt, volts in zip(np.diff(time).tolist(), voltage.tolist(), strict=False):
-        x, v = _glide(x, v, volts=volts, dt=dt, gains=gains)
-        positions.append(x)
-        velocities.append(v)
-    return np.array(positions), np.array(velocities)
-
-
-def read(
-    sensor: Sensor, *, position: Array, velocity: Array, rng: np.random.Generator
-) -> tuple[Array, Array]:
-    """What a sensor says of a motion.
-
-    Args:
-        sensor: the sensor.
-        position: (n,) [m or rad].
-        velocity: (n,) [m/s or rad/s].
-        rng: the source of noise.
-
-    Returns:
-        Position (n,) in steps of the resolution, and velocity (n,) with noise unless at rest.
-    """
-    noise = sensor.velocity_noise * -np.expm1(-np.abs(velocity) / sensor.noise_speed)
-    noisy = velocity + noise * rng.standard_normal(velocity.size)
-    return np.round(position / sensor.resolution) * sensor.resolution, noisy
+    track = move(Model("simple", gains), time=time, voltage=voltage, state=State())
+    return track.position, track.velocity
 
 
 def _loops(timeout: float, *, period: float, jitter: float, rng: np.random.Generator) -> Array:
@@ -113,31 +136,26 @@ def _loops(timeout: float, *, period: float, jitter: float, rng: np.random.Gener
     return np.asarray((np.arange(count) + LOOPS_BEFORE_DRIVE) * period + late)
 
 
-def _end_of_travel(moved: Array, *, travel: float | None) -> int:
-    """How many samples are within the travel."""
-    beyond = np.abs(moved) > (math.inf if travel is None else travel)
-    return int(np.argmax(beyond)) if beyond.any() else int(moved.size)
+def _begin(mechanism: Mechanism, test: str, last: float) -> float:
+    """[m or rad] where a test begins: at its end of the travel, or where the last one ended."""
+    if mechanism.stops is None:
+        return last
+    low, high = mechanism.stops
+    return low if test.endswith("forward") else high - 0.5 * MARGIN * (high - low)
 
 
-def _glide(
-    x: float, v: float, *, volts: float, dt: float, gains: Mapping[str, float]
-) -> tuple[float, float]:
-    """Position and velocity after a time under a constant voltage, turning points included."""
-    ks, kv, ka = gains["kS"], gains["kV"], gains["kA"]
-    rate = kv / ka
-    while dt > 0.0:
-        if v == 0.0:
-            if abs(volts) <= ks:
-                return x, v
-            sign = math.copysign(1.0, volts)
-        else:
-            sign = math.copysign(1.0, v)
-        toward = (volts - sign * ks) / kv  # the speed at which this stretch would end
-        turns = v != 0.0 and toward * sign < 0.0
-        until = math.log1p(-v / toward) / rate if turns else math.inf
-        step = min(dt, until)
-        decay = math.exp(-rate * step)
-        x += toward * step + (v - toward) * (1.0 - decay) / rate
-        v = 0.0 if until <= dt else toward + (v - toward) * decay
-        dt -= step
-    return x, v
+def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
+    """How many samples there are before someone ends the test."""
+    if mechanism.travel is None:
+        return int(track.position.size)
+    if mechanism.stops is None:
+        beyond = np.abs(track.position - track.position[0]) > mechanism.travel
+    else:
+        low, high = mechanism.stops
+        margin = MARGIN * (high - low)
+        far, near = (track.position > high - margin), (track.position < low + margin)
+        if test.endswith("reverse"):
+            far, near = near, far
+        left = np.maximum.accumulate(~near)  # back where it began, after it had left
+        beyond = far | (near & left)
+    return int(np.argmax(beyond)) if beyond.any() else int(beyond.size)

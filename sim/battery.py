@@ -1,0 +1,45 @@
+"""The battery under load, and the robot controller that takes the motors off when it sinks too low.
+
+Thresholds are WPILib's, per controller; a brownout ends when the battery is back above ``RESUME``,
+which it is as soon as no motor draws from it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from sim.errors import BadRequest
+
+FLATTEST, FULLEST = 9.0, 14.0  # [V] at rest: outside of this a robot does not start a test
+WORST = 0.1  # [Ω] of a battery that still turns a motor
+RESUME = 7.5  # [V] above which the motors are enabled again
+
+BROWNOUT: Mapping[str, float] = {
+    "roborio1": 6.3,  # fixed in its FPGA
+    "roborio2": 6.75,  # default; RobotController.setBrownoutVoltage changes it
+    "systemcore": 6.75,  # default; 2027's RobotController sets both thresholds
+}
+"""Robot controller -> [V] below which it disables the motors."""
+
+
+@dataclass(frozen=True)
+class Battery:
+    """A battery under load.
+
+    Args:
+        rest: [V] with nothing drawn from it.
+        resistance: [Ω] of battery and wires together.
+
+    Raises:
+        BadRequest: no battery a robot would start with.
+    """
+
+    rest: float = 12.6
+    resistance: float = 0.020
+
+    def __post_init__(self) -> None:
+        if not (FLATTEST <= self.rest <= FULLEST and 0.0 <= self.resistance <= WORST):
+            raise BadRequest(
+                f"a battery of {self.rest:g} V with {self.resistance:g} Ω",
+                advice=f"Choose {FLATTEST:g} to {FULLEST:g} V, and 0 to {WORST:g} Ω. "
+                "A good one has 12.6 V and 0.02 Ω.",
+            )

@@ -1,0 +1,67 @@
+"""Backlash: free play between motor and load.
+
+    the motor pushes the load only after it has crossed the slack
+
+Gear lash, a loose hex shaft, a chain with slack: at every start and every turn the motor first runs
+free with its own inertia (``share`` of kA), then the teeth meet.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.effect import Effect, Parameter, Scale
+from sim.evidence import Evidence
+
+CONTACT_PACE = 0.0055  # [s] of teeth that meet: 1.4/(2π·40 Hz), see sim/engine/stepping.py
+
+
+def slack(slack: float) -> float:
+    """[unit] from tooth to tooth."""
+    return slack
+
+
+def share(share: float) -> float:
+    """[1] of the inertia on the motor's side."""
+    return share
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """A sixtieth of the travel, with a quarter of the inertia before it, for size 1."""
+    return {"slack": scale.reach / 60.0 * size, "share": 0.25}
+
+
+def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+    """[s] of the contact, or of the motor running free if that is faster."""
+    free = values["share"] * gains["kA"] / max(gains["kV"], 1e-9)
+    return min(CONTACT_PACE, free)
+
+
+def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+    """Shares of the way that was gone, each with a light and with a heavy motor."""
+    length = float(np.ptp(seen.position)) if seen.position.size else 1.0
+    for part in (0.02, 0.005):
+        for own in (0.15, 0.5):
+            yield {"slack": part * length, "share": own}
+
+
+EFFECT = Effect(
+    name="backlash",
+    kind="two-body",
+    summary="free play between motor and load (gear lash, loose chain)",
+    formula="motor and load meet only where they are slack/2 apart",
+    parameters=(
+        Parameter("slack", "way from tooth to tooth", "{u}", power=-1, most=1e3),
+        Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.25),
+    ),
+    fingerprint="After every start and turn the velocity shoots up, drops, and goes on as usual.",
+    inspect="Gears, hex shafts and chains: turn the mechanism by hand with the motor held.",
+    apart={
+        "compliance": "Turn at two sizes of step, logged at 5 ms: play stays, a spring gives more.",
+        "stribeck": "A triangle: play shows at each turn, Stribeck friction at each start.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"slack": slack, "share": share},
+    pace=pace,
+)

@@ -1,0 +1,88 @@
+"""Cogging: a force that comes back every so often along the way.
+
+    V = ... + cosine·cos(turns·x) + sine·sin(turns·x)
+
+Magnets that pass iron, a sprocket out of round, a bent shaft, a belt that skips a tooth's worth.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.effect import Effect, Parameter, Scale
+from sim.evidence import Evidence
+
+FEWEST, MOST = 2.0, 80.0  # [1] times that it comes back within what a log covers
+SHOWN = 3  # peaks of the spectrum that are worth a start
+
+
+def pull(x: float, cosine: float, sine: float, turns: float) -> float:
+    """[V] toward negative positions."""
+    return cosine * math.cos(turns * x) + sine * math.sin(turns * x)
+
+
+def stored(x: float, cosine: float, sine: float, turns: float) -> float:
+    """[V·unit] held at a place."""
+    return (cosine * math.sin(turns * x) - sine * math.cos(turns * x)) / turns
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """A fifth of a volt, twelve times along the travel, for size 1."""
+    turns = 2.0 * math.pi * 12.0 / scale.reach
+    return {"cosine": 0.16 * size, "sine": 0.12 * size, "turns": turns}
+
+
+def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+    """[s] in which one period passes at the speed of 6 V, over 2π."""
+    return gains["kV"] / (6.0 * max(values["turns"], 1e-9))
+
+
+def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+    """The strongest lines in the spectrum of what is missing over position."""
+    length = float(np.ptp(seen.position)) if seen.position.size else 0.0
+    if length <= 0.0:
+        return
+    tried = 2.0 * math.pi * np.arange(FEWEST, MOST, 0.25) / length
+    power, weights = [], []
+    for turns in tried:
+        columns = np.cos(turns * seen.position), np.sin(turns * seen.position)
+        pair = seen.share(*columns)
+        weights.append(pair)
+        power.append(float(np.hypot(*pair)))
+    left = np.array(power)
+    for _ in range(SHOWN):
+        best = int(np.argmax(left))
+        yield {
+            "cosine": float(weights[best][0]),
+            "sine": float(weights[best][1]),
+            "turns": float(tried[best]),
+        }
+        left[max(best - 3, 0) : best + 4] = 0.0
+
+
+EFFECT = Effect(
+    name="cogging",
+    kind="term",
+    summary="a force that repeats along the way (magnets, a sprocket out of round)",
+    formula="cosine·cos(turns·x) + sine·sin(turns·x)",
+    parameters=(
+        Parameter("cosine", "its cosine part", "V", least=-12.0, most=12.0),
+        Parameter("sine", "its sine part", "V", least=-12.0, most=12.0),
+        Parameter(
+            "turns", "angle of the wave per position", "rad/{u}", power=1, least=1e-6, neutral=1.0
+        ),
+    ),
+    fingerprint="What is missing comes and goes with position, at the same places in every run.",
+    inspect="A sprocket or pulley out of round, a bent shaft, a wheel with a flat, motor magnets.",
+    apart={
+        "compliance": "Run at another speed: cogging keeps its places, a vibration its times.",
+        "gravity-cosine": "Use the full travel: gravity has one wave per turn of the arm.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"pull": pull},
+    symmetric=False,
+    stores=stored,
+    pace=pace,
+)

@@ -1,0 +1,77 @@
+"""Compliance: what joins motor and load gives way and swings back.
+
+    push = (x_motor - x_load)/softness
+
+A belt, a long shaft, an arm that bends: the motor's encoder sees the load swing after every change
+of voltage. ``share`` of kA is on the motor's side.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.effect import Effect, Parameter, Scale
+from sim.evidence import Evidence
+
+TRIED = (3.0, 6.0, 12.0, 20.0)  # [Hz] of swings that a log at 20 ms can show
+
+
+def softness(softness: float) -> float:
+    """[unit/V] that it gives."""
+    return softness
+
+
+def share(share: float) -> float:
+    """[1] of the inertia on the motor's side."""
+    return share
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """The load swings at 5 Hz on a motor that is held, for size 1; slower for more."""
+    stiff = 0.7 * scale.ka * (2.0 * math.pi * 5.0) ** 2
+    return {"softness": size / stiff, "share": 0.3}
+
+
+def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+    """[s] of the swing of motor against load, over 2π; or of the motor alone."""
+    own = values["share"]
+    reduced = own * (1.0 - own) * gains["kA"]
+    swing = math.sqrt(max(values["softness"], 1e-12) * reduced)
+    return min(1.4 * swing, own * gains["kA"] / max(gains["kV"], 1e-9))
+
+
+def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+    """The swing that is strongest in what is missing from the steps, then others to try."""
+    power = []
+    since, missing = seen.since, seen.missing
+    for swing in TRIED:
+        turn = 2.0 * math.pi * swing * since
+        fade = np.exp(-2.0 * since)
+        power.append(float(np.hypot(*seen.share(fade * np.cos(turn), fade * np.sin(turn))))
+                     if missing.size else 0.0)  # fmt: skip
+    for best in np.argsort(power)[::-1][:3]:
+        stiff = 0.7 * abs(seen.gains["kA"]) * (2.0 * math.pi * TRIED[int(best)]) ** 2
+        yield {"softness": 1.0 / max(stiff, 1e-9), "share": 0.3}
+
+
+EFFECT = Effect(
+    name="compliance",
+    kind="two-body",
+    summary="a soft joint between motor and load (belt, long shaft, bending arm)",
+    formula="push = (x_motor - x_load)/softness",
+    parameters=(
+        Parameter("softness", "way it gives per volt", "{u}/V", power=-1, most=1e6),
+        Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.3),
+    ),
+    fingerprint="After every change of voltage the velocity swings, always at the same rate.",
+    inspect="Belts, chains and long shafts: push the load with the motor held and watch it spring.",
+    apart={
+        "backlash": "Turn at two sizes of step, logged at 5 ms: a spring gives more, play stays.",
+        "cogging": "Run at another speed: a vibration keeps its times, cogging its places.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"softness": softness, "share": share},
+    pace=pace,
+)

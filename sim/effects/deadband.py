@@ -1,0 +1,56 @@
+"""Deadband: the controller ignores small commands.
+
+    u = 0 where |u| < band
+
+Phoenix calls it the neutral deadband (4 % by default, 0.48 V of 12); it hides friction below it.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.effect import Effect, Parameter, Scale
+from sim.evidence import Evidence
+
+STARTED = 0.02  # [share of the top speed] at which a run has begun to move
+
+
+def passes(u: float, band: float) -> float:
+    """[V] at the motor."""
+    return u if abs(u) >= band else 0.0
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """A third of a volt beyond what friction holds anyway, for size 1."""
+    return {"band": scale.ks + 0.33 * size}
+
+
+def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+    """The voltages at which the ramps began to move: it acts by a threshold, so a grid is due."""
+    onset = [
+        abs(float(run.voltage[np.argmax(np.abs(run.velocity) > STARTED * seen.speed)]))
+        for run in seen.log.runs
+        if run.kind == "quasistatic" and len(run)
+    ]
+    around = float(np.median(onset)) if onset else 0.4
+    for part in (1.0, 0.92, 0.84, 0.76, 0.68, 0.6, 1.1):
+        yield {"band": max(part * around, 0.02)}
+
+
+EFFECT = Effect(
+    name="deadband",
+    kind="path",
+    summary="small commands that the motor controller ignores",
+    formula="u = 0 where |u| < band",
+    parameters=(Parameter("band", "smallest voltage that is applied", "V", most=12.0),),
+    fingerprint="Ramps start late and then at once at speed; below one voltage it coasts.",
+    inspect="The neutral deadband in the motor controller's configuration.",
+    apart={
+        "stribeck": "Let the voltage fall (triangle, coast): a deadband cuts it off.",
+        "delay": "Compare two ramps: a deadband starts at one voltage, a delay after one time.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"passes": passes},
+    order=1,
+)

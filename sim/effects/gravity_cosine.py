@@ -1,0 +1,64 @@
+"""Gravity on something that turns: most when level, nothing when upright.
+
+    V = ... + level·cos x + upright·sin x
+
+The two together allow for an angle whose zero is not level: level = kG·cos φ, upright = -kG·sin φ.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.effect import Effect, Parameter, Scale
+from sim.evidence import Evidence
+
+
+def pull(x: float, level: float, upright: float) -> float:
+    """[V] toward negative angles."""
+    return level * math.cos(x) + upright * math.sin(x)
+
+
+def stored(x: float, level: float, upright: float) -> float:
+    """[V·rad] of lifting it."""
+    return level * math.sin(x) - upright * math.cos(x)
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """A seventh of the step when level, with the zero a little off, for size 1."""
+    return {"level": 0.14 * scale.step * size, "upright": 0.04 * scale.step * size}
+
+
+def only_angles(scale: Scale) -> str:
+    """Positions in meters have no cosine."""
+    return "" if scale.angular else "its positions are lengths, not angles"
+
+
+def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+    """The shares of cos x and sin x in what is missing."""
+    level, upright = seen.share(np.cos(seen.position), np.sin(seen.position))
+    yield {"level": float(level), "upright": float(upright)}
+
+
+EFFECT = Effect(
+    name="gravity-cosine",
+    kind="term",
+    summary="gravity on an arm: most when level, none when upright",
+    formula="level·cos x + upright·sin x",
+    parameters=(
+        Parameter("level", "voltage that holds it level", "V", least=-12.0, most=12.0),
+        Parameter("upright", "the same at 90 degrees", "V", least=-12.0, most=12.0),
+    ),
+    fingerprint="What is missing follows the angle like a cosine, at every speed.",
+    inspect="An arm fitted as simple, an angle whose zero is not level, a turret on a slope.",
+    apart={
+        "spring": "Use the full travel, or start elsewhere: a cosine bends, a spring does not.",
+        "constant-load": "Use the full travel: a constant load does not change with the angle.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"pull": pull},
+    symmetric=False,
+    stores=stored,
+    cannot=only_angles,
+)

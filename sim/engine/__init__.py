@@ -1,0 +1,173 @@
+"""The stepping engine: one compiled kernel for the bench, the fit and the search.
+
+It is composed from the effects of the catalogue when first used: about ten seconds once, from the
+cache on disk within a second after that.
+"""
+
+import math
+import sys
+from dataclasses import dataclass, field
+from functools import cache
+from types import ModuleType
+
+import numpy as np
+
+from sim.effects import EFFECTS
+from sim.engine.compose import HOOKS, compose, is_compiled, places
+from sim.engine.stepping import (
+    APPLIED,
+    BUS,
+    CURRENT,
+    LOAD_POSITION,
+    POSITION,
+    SEEN,
+    VELOCITY,
+    empty,
+)
+from sim.log import Array
+from sim.model import Model
+
+__all__ = ["COARSEST", "NO_WIRES", "State", "Track", "finest", "move", "ready"]
+
+COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
+# middle rule is then far below a thousandth for anything slower than 10 ms
+SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
+NO_WIRES: Array = np.zeros(9)
+PLACES = places(EFFECTS)
+ORDER = {name: place for place, name in enumerate(EFFECTS)}
+
+
+@dataclass(eq=False)
+class State:
+    """Where a mechanism stands; goes on from one run to the next.
+
+    Args:
+        body: (5,) position and velocity of the motor, then of the load, and the end of a cut.
+        memory: (effects,) what effects remember.
+        clock: [s] since the log began.
+    """
+
+    body: Array = field(default_factory=lambda: np.zeros(5))
+    memory: Array = field(default_factory=lambda: np.zeros(len(EFFECTS)))
+    clock: float = 0.0
+
+    @classmethod
+    def at(cls, position: float, velocity: float = 0.0) -> "State":
+        """A cold mechanism at a place [m or rad] and a velocity [m/s or rad/s]."""
+        return cls(np.array([position, velocity, position, velocity, 0.0]))
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """A motion, sample by sample, before the sensor's own noise.
+
+    Args:
+        position: (n,) [m or rad] at the motor, which is what a sensor there reads.
+        velocity: (n,) the same, [m/s or rad/s].
+        load_position: (n,) [m or rad]; the same as ``position`` where there is one body.
+        applied: (n,) [V] at the motor, before hidden paths.
+        bus: (n,) [V] of the battery; 0 where there are no wires.
+        current: (n,) [A] of one motor; 0 where there are no wires.
+        seen: (n,) [m/s or rad/s] the velocity that the sensor reports.
+    """
+
+    position: Array
+    velocity: Array
+    load_position: Array
+    applied: Array
+    bus: Array
+    current: Array
+    seen: Array
+
+
+def move(
+    model: Model,
+    *,
+    time: Array,
+    voltage: Array,
+    state: State,
+    wires: Array = NO_WIRES,
+    step: float | None = None,
+    plain: bool = False,
+) -> Track:
+    """Move a model along a voltage.
+
+    Args:
+        model: what moves.
+        time: (n,) [s], increasing.
+        voltage: (n,) [V], each held until the next.
+        state: where it begins; afterward, where it ended.
+        wires: (9,) battery and limits, see ``sim.engine.wires``; none is an ideal source.
+        step: [s] the longest; None chooses.
+        plain: in uncompiled Python, for comparison.
+    """
+    on, parameters = arrays(model)
+    out = empty(time.size)
+    simple = not model.parts and not wires.any() and model.type != "arm"
+    longest = step or (math.inf if simple else finest(model))
+    kernel = _plain() if plain else ready()
+    kernel.move(
+        np.ascontiguousarray(time), np.ascontiguousarray(voltage), state.body, constants(model),
+        wires, on, parameters, state.memory, state.clock, longest, simple, out,
+    )  # fmt: skip
+    state.clock += float(time[-1] - time[0])
+    return Track(
+        out[:, POSITION], out[:, VELOCITY], out[:, LOAD_POSITION], out[:, APPLIED], out[:, BUS],
+        out[:, CURRENT], out[:, SEEN],
+    )  # fmt: skip
+
+
+def constants(model: Model) -> Array:
+    """(8,) what the engine knows of the base model, in the order of ``sim.engine.stepping``."""
+    gains = model.gains
+    level = gains.get("kG", 0.0)
+    low, high = model.travel or (-math.inf, math.inf)
+    return np.array(
+        [
+            gains["kS"],
+            gains["kV"],
+            gains["kA"],
+            level if model.type == "elevator" else 0.0,
+            level if model.type == "arm" else 0.0,
+            gains.get("offset_rad", 0.0),
+            low,
+            high,
+        ]
+    )
+
+
+def arrays(model: Model) -> tuple[Array, Array]:
+    """Which effects are on, then which hooks are needed; and the parameters of all effects."""
+    on = np.zeros(len(EFFECTS) + len(HOOKS) + 1)
+    parameters = np.concatenate([[0.0], *(list(e.neutral.values()) for e in EFFECTS.values())])[1:]
+    for part in model.parts:
+        on[ORDER[part.effect]] = 1.0
+        for hook in EFFECTS[part.effect].acts:
+            on[len(EFFECTS) + (*HOOKS, "remembers").index(hook)] = 1.0
+        parameters[PLACES[part.effect]] = [part.parameters[n] for n in EFFECTS[part.effect].names]
+    return on, parameters
+
+
+def finest(model: Model) -> float:
+    """[s] the step that the fastest of a model's effects asks for."""
+    fastest = model.gains["kA"] / max(model.gains["kV"], 1e-9)
+    paces = [fastest]
+    for part in model.parts:
+        pace = EFFECTS[part.effect].pace
+        if pace is not None:
+            paces.append(pace(part.parameters, model.gains))
+    return max(min(COARSEST, SHARE_OF_PACE * min(paces)), 5e-5)
+
+
+@cache
+def ready() -> ModuleType:
+    """The compiled engine; says so on a terminal when it has to be compiled first."""
+    fresh = not is_compiled(EFFECTS)
+    if fresh and sys.stderr.isatty():
+        sys.stderr.write("Compiling the simulation, once; this takes about ten seconds…\n")
+    return compose(EFFECTS)
+
+
+@cache
+def _plain() -> ModuleType:
+    return compose(EFFECTS, compiled=False)

@@ -1,0 +1,224 @@
+"""Compose the engine: the effects' own small functions and the stepping, compiled as one.
+
+The text of one module is written: functions that ask every effect that is on (in place of
+``hooks.py``), then ``wires.py`` and ``stepping.py`` as they are. It stands in a folder of the
+user's cache under a name made of its own content, so that a changed or a new effect is a new
+module, and Numba keeps the compiled code beside it.
+"""
+
+import hashlib
+import importlib.util
+import inspect
+import os
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from pathlib import Path
+from types import ModuleType
+from uuid import uuid4
+
+import platformdirs
+
+import sim.engine.hooks
+import sim.engine.stepping
+import sim.engine.wires
+from sim.effect import Effect
+from sim.errors import BadRequest
+
+CACHE = "SYSID_CACHE"  # environment variable: another folder for what was compiled
+KEPT = 4  # engines of other versions that stay in the cache
+COMPILED = ("move",)  # what is called from outside, and kept compiled on disk
+
+HOOKS: Mapping[str, tuple[str, str, str]] = {
+    # hook: arguments of the composed function, value to begin with, how an effect's answer joins
+    "late": ("on, p", "0.0", "{0} + {1}"),
+    "passes": ("on, p, memory, u, v, kv", "u", "{1}"),
+    "pull": ("on, p, x, v", "0.0", "{0} + {1}"),
+    "grip": ("on, p, v, way", "0.0", "{0} + {1}"),
+    "heft": ("on, p, clock", "0.0", "{0} + {1}"),
+    "slack": ("on, p", "0.0", "{0} + {1}"),
+    "softness": ("on, p", "0.0", "{0} + {1}"),
+    "share": ("on, p", "0.0", "max({0}, {1})"),
+    "sees": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
+}
+RUNNING = {"passes": "u", "sees": "seen"}  # a chain: each effect changes what the last one left
+
+
+def places(effects: Mapping[str, Effect]) -> dict[str, slice]:
+    """Where the parameters of each effect stand in the engine's one array of parameters."""
+    found, at = {}, 0
+    for name, effect in effects.items():
+        found[name] = slice(at, at + len(effect.parameters))
+        at += len(effect.parameters)
+    return found
+
+
+def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> ModuleType:
+    """The engine for these effects, as a module with ``move``.
+
+    Args:
+        effects: the catalogue.
+        compiled: False leaves plain Python: some hundred times slower, for comparison.
+
+    Raises:
+        BadRequest: an effect is written wrongly; the message says which, and what is wrong.
+    """
+    for name, effect in effects.items():
+        if wrong := effect.faults():
+            raise BadRequest(
+                wrong[0],
+                where=f"effect {name}",
+                advice="Compare with sim/effects/drag.py, and with ASKS in sim/effect.py.",
+            )
+    text = "\n".join(_text(effects, compiled=compiled))
+    if not compiled:
+        module = ModuleType("plain_engine")
+        exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
+        return module
+    sources = [inspect.getsource(sys.modules[act.__module__]) for act in _functions(effects)]
+    seal = hashlib.sha256("\n".join([text, *sources]).encode()).hexdigest()[:20]
+    return _load(text, name=f"sysid_engine_{seal}")
+
+
+def is_compiled(effects: Mapping[str, Effect]) -> bool:
+    """Whether an engine for these effects waits in the cache."""
+    text = "\n".join(_text(effects, compiled=True))
+    sources = [inspect.getsource(sys.modules[act.__module__]) for act in _functions(effects)]
+    seal = hashlib.sha256("\n".join([text, *sources]).encode()).hexdigest()[:20]
+    return any((folder() / "__pycache__").glob(f"sysid_engine_{seal}.move-*.nbc"))
+
+
+def folder() -> Path:
+    """Where engines are kept."""
+    asked = os.environ.get(CACHE)
+    return (
+        Path(asked) if asked else Path(platformdirs.user_cache_dir("sysid-course", appauthor=False))
+    )
+
+
+def _functions(effects: Mapping[str, Effect]) -> list[object]:
+    return [act for effect in effects.values() for act in effect.acts.values()]
+
+
+def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
+    """The lines of the module."""
+    yield '"""Composed by sim/engine/compose.py; a cache, safe to delete."""'
+    yield "from __future__ import annotations"
+    yield "import math"
+    yield "import numpy as np"
+    if compiled:
+        yield "from numba import njit"
+        yield "step = njit(error_model='numpy', forceinline=True)"
+        yield "entry = njit(error_model='numpy', cache=True, nogil=True)"
+    else:
+        yield "step = entry = lambda function: function"
+    for effect in effects.values():
+        for hook, act in effect.acts.items():
+            yield f"import {act.__module__}"
+            yield f"{_alias(effect, hook)} = step({act.__module__}.{act.__name__})"
+    at = places(effects)
+    for hook, (arguments, first, joins) in HOOKS.items():
+        yield from _chain(hook, arguments, first, joins, effects, at)
+    yield from _memories(effects, at)
+    yield from _body(sim.engine.wires)
+    yield from _body(sim.engine.stepping)
+
+
+def _chain(
+    hook: str,
+    arguments: str,
+    first: str,
+    joins: str,
+    effects: Mapping[str, Effect],
+    at: Mapping[str, slice],
+) -> Iterator[str]:
+    """One function that asks every effect that is on."""
+    yield "@step"
+    yield f"def {hook}({arguments}):"
+    running = RUNNING.get(hook, "total")
+    yield f"    {running} = {first}"
+    order = list(effects)
+    yield f"    if on[{len(order) + list(HOOKS).index(hook)}] == 0.0:"
+    yield f"        return {running}"
+    for name in sorted(effects, key=lambda name: effects[name].order):
+        effect = effects[name]
+        if hook in effect.acts:
+            answer = _call(effect, hook, at[name], order.index(name))
+            yield f"    if on[{order.index(name)}] != 0.0:"
+            yield f"        {running} = {joins.format(running, answer)}"
+    yield f"    return {running}"
+
+
+def _memories(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
+    yield "@step"
+    yield "def remembers(on, p, memory, dt, u, v, kv):"
+    yield f"    if on[{len(effects) + len(HOOKS)}] == 0.0:"
+    yield "        return"
+    for place, (name, effect) in enumerate(effects.items()):
+        if "remembers" in effect.acts:
+            yield f"    if on[{place}] != 0.0:"
+            yield f"        memory[{place}] = {_call(effect, 'remembers', at[name], place)}"
+
+
+def _call(effect: Effect, hook: str, at: slice, place: int) -> str:
+    """The call of an effect's function, with what it asks for."""
+    given = {name: f"p[{at.start + n}]" for n, name in enumerate(effect.names)}
+    given["memory"] = f"memory[{place}]"
+    asked = inspect.signature(effect.acts[hook]).parameters
+    return f"{_alias(effect, hook)}({', '.join(given.get(name, name) for name in asked)})"
+
+
+def _alias(effect: Effect, hook: str) -> str:
+    return f"_{effect.name.replace('-', '_')}_{hook}"
+
+
+def _body(module: ModuleType) -> Iterator[str]:
+    """A module's text without its imports, each function made a compiled one."""
+    lines = inspect.getsource(module).splitlines()
+    ends = [n for n, line in enumerate(lines) if line.endswith("# composed: end")]
+    imports = [n for n, line in enumerate(lines) if line.startswith(("import ", "from "))]
+    for line in lines[max([*ends, *imports]) + 1 :]:
+        if line.startswith("def "):
+            yield "@entry" if line[4:].partition("(")[0] in COMPILED else "@step"
+            yield "def " + line[4:]
+        else:
+            yield line
+
+
+def _load(text: str, *, name: str) -> ModuleType:
+    """Import the text as a module from the cache, or from a passing folder if there is none."""
+    if name in sys.modules:
+        return sys.modules[name]
+    try:
+        path = _written(folder(), text, name=name)
+    except OSError:  # a home that cannot be written to: compiled anew each time
+        path = _written(Path(tempfile.mkdtemp(prefix="sysid-")), text, name=name)
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise ImportError(path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def _written(where: Path, text: str, *, name: str) -> Path:
+    """The module's file, whole."""
+    where.mkdir(parents=True, exist_ok=True)
+    path = where / f"{name}.py"
+    if not path.exists():
+        _forget_old(where)
+        part = where / f"{name}.{uuid4().hex}.part"
+        part.write_text(text + "\n", encoding="utf-8")
+        part.replace(path)
+    return path
+
+
+def _forget_old(where: Path) -> None:
+    """Leave the newest few engines, with what was compiled for them."""
+    engines = sorted(where.glob("sysid_engine_*.py"), key=lambda file: file.stat().st_mtime)
+    for old in engines[:-KEPT]:
+        for file in (old, *(where / "__pycache__").glob(f"{old.stem}.*")):
+            with suppress(OSError):  # another process uses or removes it
+                file.unlink()

@@ -1,0 +1,288 @@
+"""Move a mechanism along a voltage: the one engine of the bench.
+
+    kA·v' = u - kV·v - gravity - pull(x, v) - (kS + grip)·sgn(v)
+
+The linear part has an exact solution (an exponential), so the base model is exact whatever the
+step. What an effect pulls is taken at the middle of each step, and friction's change of sign is met
+at its exact time: a step that ends at rest stays there until friction gives way. With two bodies, a
+motor with its share of the inertia pushes the load through what joins them, free play first.
+
+Plain functions of numbers: ``sim/engine/compose.py`` compiles them together with the effects'.
+"""
+
+import math
+
+import numpy as np
+
+from sim.engine.hooks import (  # composed: begin
+    grip,
+    heft,
+    late,
+    passes,
+    pull,
+    remembers,
+    sees,
+    share,
+    slack,
+    softness,
+)
+from sim.engine.wires import CUT, EMF, OHM, REST, STOP, bus_at, reaches
+from sim.log import Array  # composed: end
+
+KS, KV, KA, LOAD, LEVEL, ANGLE, LOW, HIGH = range(8)
+"""Places in ``c``: kS [V], kV, kA, constant gravity [V], gravity of an arm that is level [V],
+angle [rad] added to the position of an arm, lower and upper end of the travel."""
+
+X, V, Y, W, OFF_UNTIL = range(5)
+"""Places in a state: position and velocity of the motor, then of the load, and [s] of the clock
+until which a brownout keeps the motors off. With one body, motor and load are the same."""
+
+POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, SEEN = range(7)
+"""Columns of what is recorded."""
+
+CONTACT = 40.0  # [Hz] at which motor and load bounce on each other's teeth: stiff, but not endless
+DAMPING = 0.3  # [1] of critical, of that contact: steel teeth in grease
+MOMENT = 1e-6  # [s] a shorter part of a step is not worth a step of its own
+LOOSE_DAMPING = 0.05  # [1] of critical, of a belt, a chain or an arm that bends
+
+
+def slides(c: Array, on: Array, p: Array, v: float, way: float) -> float:
+    """[V] of dry friction toward ``way``, never below none."""
+    return float(max(c[KS] + grip(on, p, v, way), 0.0))
+
+
+def glide(
+    c: Array, on: Array, p: Array, x: float, v: float, v_mid: float, drive: float,
+    kv: float, ka: float, dt: float, part: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Position and velocity after ``dt`` under a constant drive [V], turning points included.
+
+    Friction while it slides is that at ``v_mid``, of which ``part`` is this body's; at rest it is
+    whatever the drive is, up to a bound.
+    """
+    rate = kv / ka
+    while dt > 0.0:
+        if v == 0.0:
+            way = math.copysign(1.0, drive)
+            hold = part * slides(c, on, p, 0.0, way)
+            slide = part * slides(c, on, p, v_mid, way)
+            if abs(drive) <= max(hold, slide):
+                return x, v
+        else:
+            way = math.copysign(1.0, v)
+            slide = part * slides(c, on, p, v_mid, way)
+        push = (drive - way * slide) / ka
+        until = math.inf
+        if v != 0.0 and push * way < 0.0:  # it slows down, and may turn
+            inside = -v * rate / push
+            if abs(inside) < 1e-9:
+                until = -v / push
+            elif inside > -1.0:
+                until = math.log1p(inside) / rate
+        step = min(dt, until)
+        lost = -math.expm1(-rate * step)
+        reach = step if abs(rate * step) < 1e-9 else lost / rate
+        rest = 0.5 * step * step if abs(rate * step) < 1e-5 else (step - reach) / rate
+        x += v * reach + push * rest
+        v = 0.0 if until <= dt else v * (1.0 - lost) + push * reach
+        dt -= step
+    return x, v
+
+
+def gravity(c: Array, x: float) -> float:
+    """[V] that gravity takes."""
+    if c[LEVEL] == 0.0:
+        return float(c[LOAD])
+    return float(c[LOAD] + c[LEVEL] * math.cos(x + c[ANGLE]))
+
+
+def through(
+    c: Array, w: Array, on: Array, p: Array, memory: Array, asked: float, v: float, off: bool
+) -> float:
+    """[V] at the motor, after the wires and then the paths."""
+    u = 0.0 if off else reaches(w, asked, v)
+    return passes(on, p, memory, u, v, c[KV])
+
+
+def within(c: Array, x: float, v: float) -> tuple[float, float]:
+    """Stop at the ends of the travel, without a bounce."""
+    if x < c[LOW]:
+        return c[LOW], max(v, 0.0)
+    if x > c[HIGH]:
+        return c[HIGH], min(v, 0.0)
+    return x, v
+
+
+def single(
+    state: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
+    asked: float, off: bool, ka: float, dt: float, plain: bool,
+) -> float:  # fmt: skip
+    """One step of one body; returns the voltage [V] at the motor in its middle."""
+    x, v = state[X], state[V]
+    u = through(c, w, on, p, memory, asked, v, off)
+    if not plain:
+        drive = u - gravity(c, x) - pull(on, p, x, v)
+        half, v_half = glide(c, on, p, x, v, v, drive, c[KV], ka, 0.5 * dt, 1.0)
+        u = through(c, w, on, p, memory, asked, v_half, off)
+        drive = u - gravity(c, half) - pull(on, p, half, v_half)
+        x, v = glide(c, on, p, x, v, v_half, drive, c[KV], ka, dt, 1.0)
+    else:
+        x, v = glide(c, on, p, x, v, v, u - c[LOAD], c[KV], ka, dt, 1.0)
+    x, v = within(c, x, v)
+    state[X] = state[Y] = x
+    state[V] = state[W] = v
+    return u
+
+
+def joint(play: float, soft: float, reduced: float, gap: float, rush: float) -> float:
+    """[V] with which the motor pushes the load, from how far and how fast it is ahead."""
+    into = abs(gap) - 0.5 * play
+    if into <= 0.0:
+        return 0.0
+    way = math.copysign(1.0, gap)
+    stiff = reduced * (2.0 * math.pi * CONTACT) ** 2
+    damping = DAMPING
+    if soft > 0.0:
+        stiff = 1.0 / soft
+        damping = LOOSE_DAMPING
+    force = stiff * into + 2.0 * damping * math.sqrt(stiff * reduced) * rush * way
+    if play > 0.0:  # teeth push and never pull
+        force = max(force, 0.0)
+    return force * way
+
+
+def double(
+    state: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
+    asked: float, off: bool, ka: float, dt: float,
+) -> float:  # fmt: skip
+    """One step of a motor and its load; returns the voltage [V] at the motor in its middle.
+
+    A step in which teeth meet or part is taken in two, on both sides of that moment.
+    """
+    play = slack(on, p)
+    u = 0.0
+    while dt > 0.0:
+        x, v, y, z = state[X], state[V], state[Y], state[W]
+        u = pair(state, c, w, on, p, memory, asked, off, ka, dt)
+        if play == 0.0:
+            return u
+        before = abs(x - y) - 0.5 * play
+        after = abs(state[X] - state[Y]) - 0.5 * play
+        if before * after >= 0.0:
+            return u
+        first = dt * before / (before - after)
+        if first < MOMENT or dt - first < MOMENT:
+            return u
+        state[X], state[V], state[Y], state[W] = x, v, y, z
+        pair(state, c, w, on, p, memory, asked, off, ka, first + 0.5 * MOMENT)
+        dt -= first + 0.5 * MOMENT
+    return u
+
+
+def pair(
+    state: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
+    asked: float, off: bool, ka: float, dt: float,
+) -> float:  # fmt: skip
+    """One step of two bodies, as ``double``, whatever happens in it."""
+    part = share(on, p)
+    play, soft = slack(on, p), softness(on, p)
+    own, other = part * ka, (1.0 - part) * ka
+    reduced = own * other / ka
+    x, v, y, z = state[X], state[V], state[Y], state[W]
+
+    u = through(c, w, on, p, memory, asked, v, off)
+    push = joint(play, soft, reduced, x - y, v - z)
+    x_half, v_half = glide(c, on, p, x, v, v, u - push, c[KV], own, 0.5 * dt, part)
+    drive = push - gravity(c, y) - pull(on, p, y, z)
+    y_half, z_half = glide(c, on, p, y, z, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
+
+    u = through(c, w, on, p, memory, asked, v_half, off)
+    push = joint(play, soft, reduced, x_half - y_half, v_half - z_half)
+    x, v = glide(c, on, p, x, v, v_half, u - push, c[KV], own, dt, part)
+    drive = push - gravity(c, y_half) - pull(on, p, y_half, z_half)
+    y, z = glide(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
+    state[X], state[V] = x, v
+    state[Y], state[W] = within(c, y, z)
+    return u
+
+
+def advance(
+    state: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
+    asked: float, clock: float, dt: float, plain: bool, ka: float,
+) -> float:  # fmt: skip
+    """One step; returns the inertia [V·s²/unit] after it.
+
+    Inertia that joins on the way was at rest: the momentum is shared. Inertia that leaves takes its
+    own momentum along.
+    """
+    after = c[KA] + heft(on, p, clock)
+    if after > ka:
+        state[V] *= ka / after
+        state[W] *= ka / after
+    off = clock < state[OFF_UNTIL]
+    if w[REST] != 0.0 and not off:
+        u = reaches(w, asked, state[V])
+        bus = bus_at(w, u, (u - w[EMF] * state[V]) / w[OHM])
+        if bus < w[STOP]:
+            state[OFF_UNTIL] = clock + CUT
+            off = True
+    if share(on, p) > 0.0:
+        u = double(state, c, w, on, p, memory, asked, off, after, dt)
+    else:
+        u = single(state, c, w, on, p, memory, asked, off, after, dt, plain)
+    remembers(on, p, memory, dt, u, state[V], c[KV])
+    return float(after)
+
+
+def record(out: Array, k: int, state: Array, w: Array, asked: float, clock: float) -> None:
+    """Write down what is true at sample ``k``, but for what the sensor says."""
+    out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
+    out[k, LOAD_POSITION] = state[Y]
+    off = clock < state[OFF_UNTIL]
+    u = 0.0 if off else reaches(w, asked, state[V])
+    out[k, APPLIED] = u
+    if w[REST] != 0.0:
+        current = (u - w[EMF] * state[V]) / w[OHM]
+        out[k, BUS] = bus_at(w, u, current)
+        out[k, CURRENT] = current
+
+
+def move(
+    time: Array, asked: Array, state: Array, c: Array, w: Array, on: Array, p: Array,
+    memory: Array, began: float, finest: float, plain: bool, out: Array,
+) -> None:  # fmt: skip
+    """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
+
+    A command holds from its sample until the next, later by what the effects delay it; before the
+    first there is none.
+    """
+    lag = late(on, p)
+    n = time.size
+    command = -1  # the last one that has arrived
+    ka = c[KA] + heft(on, p, began)
+    for k in range(n):
+        now = time[k]
+        while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
+            command += 1
+        record(out, k, state, w, asked[command] if command >= 0 else 0.0, began + now - time[0])
+        out[k, SEEN] = sees(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
+        if k == n - 1:
+            break
+        while now < time[k + 1] - 1e-12:
+            after = time[k + 1]
+            if command + 1 < n:
+                after = min(after, time[command + 1] + lag)
+            volts = asked[command] if command >= 0 else 0.0
+            count = max(math.ceil((after - now) / finest - 1e-9), 1)
+            dt = (after - now) / count
+            for i in range(count):
+                clock = began + now + (i + 0.5) * dt - time[0]
+                ka = advance(state, c, w, on, p, memory, volts, clock, dt, plain, ka)
+            now = after
+            while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
+                command += 1
+
+
+def empty(n: int) -> Array:
+    """Room for what ``move`` writes about ``n`` samples."""
+    return np.zeros((n, 7))
