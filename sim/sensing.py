@@ -1,4 +1,4 @@
-"""What a sensor says of a motion: filtered, late, in frames, in steps, with noise unless at rest."""
+"""What a sensor says of a motion: filtered, late, in frames, in steps, noisy unless at rest."""
 
 from typing import NamedTuple
 

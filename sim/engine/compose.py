@@ -92,9 +92,7 @@ def is_compiled(effects: Mapping[str, Effect]) -> bool:
 def folder() -> Path:
     """Where engines are kept."""
     asked = os.environ.get(CACHE)
-    return (
-        Path(asked) if asked else Path(platformdirs.user_cache_dir("sysid-course", appauthor=False))
-    )
+    return Path(asked or platformdirs.user_cache_dir("sysid-course", appauthor=False))
 
 
 def _functions(effects: Mapping[str, Effect]) -> list[object]:
@@ -118,22 +116,16 @@ def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
             yield f"import {act.__module__}"
             yield f"{_alias(effect, hook)} = step({act.__module__}.{act.__name__})"
     at = places(effects)
-    for hook, (arguments, first, joins) in HOOKS.items():
-        yield from _chain(hook, arguments, first, joins, effects, at)
+    for hook in HOOKS:
+        yield from _chain(hook, effects, at)
     yield from _memories(effects, at)
     yield from _body(sim.engine.wires)
     yield from _body(sim.engine.stepping)
 
 
-def _chain(
-    hook: str,
-    arguments: str,
-    first: str,
-    joins: str,
-    effects: Mapping[str, Effect],
-    at: Mapping[str, slice],
-) -> Iterator[str]:
+def _chain(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
     """One function that asks every effect that is on."""
+    arguments, first, joins = HOOKS[hook]
     yield "@step"
     yield f"def {hook}({arguments}):"
     running = RUNNING.get(hook, "total")
