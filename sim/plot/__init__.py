@@ -7,20 +7,27 @@
 Nothing here needs a screen, and nothing here keeps a state: a picture is made, and that is all.
 """
 
+from sim.plot.acceleration import acceleration_velocity
+from sim.plot.analyzer import velocity_time
 from sim.plot.charts import choices, curves, misses
+from sim.plot.clock import timesteps
 from sim.plot.live import live
-from sim.plot.logs import Line, time_series, voltage_velocity
+from sim.plot.logs import time_series
 from sim.plot.picture import Picture
+from sim.plot.ramp import Line, voltage_velocity
 from sim.plot.table import Table
 
 __all__ = [
     "Line",
     "Picture",
     "Table",
+    "acceleration_velocity",
     "choices",
     "curves",
     "live",
     "misses",
     "time_series",
+    "timesteps",
+    "velocity_time",
     "voltage_velocity",
 ]

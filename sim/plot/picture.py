@@ -3,6 +3,7 @@
 import base64
 import io
 import os
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from html import escape
@@ -11,6 +12,7 @@ from typing import TypeAlias
 from uuid import uuid4
 
 from matplotlib import rc_context
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -135,3 +137,29 @@ def panels(
         axes.spines[["top", "right"]].set_visible(False)
         axes.tick_params(colors=INK, labelsize=9)
     return figure, [list(row) for row in grid]
+
+
+def legend(
+    figure: Figure, axes: Sequence[Axes], *, columns: int = 3, extra: Sequence[Artist] = ()
+) -> None:
+    """One legend below all panels, each name once.
+
+    Args:
+        figure: where it goes.
+        axes: the panels whose labels it lists.
+        columns: at most so many names side by side.
+        extra: further labeled entries.
+    """
+    entries: dict[str, Artist] = {}
+    for panel in axes:
+        handles, names = panel.get_legend_handles_labels()
+        entries |= dict(zip(names, handles, strict=True))
+    figure.legend(
+        handles=[*entries.values(), *extra],
+        fontsize=9,
+        labelcolor=INK,
+        loc="outside lower center",
+        ncols=columns,
+        frameon=False,
+        handleheight=1.2 if extra else None,
+    )

@@ -1,0 +1,158 @@
+"""Acceleration over velocity, as SysId draws it: what back-EMF takes off, and the fit's line.
+
+Source: WPILib SysId 2026, ``view/AnalyzerPlot.cpp``, "Acceleration vs. Velocity".
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from sim.errors import BadRequest
+from sim.log import FOUR_TESTS, Array, Log
+from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.table import Table, shown
+from sim.plot.thin import cloud
+from sim.prepare import Rows, prepare
+from sim.units import Unit, unit
+
+MOST = 300  # samples of a test that are drawn
+FEWEST = 3  # samples that a straight line can miss
+
+
+def acceleration_velocity(
+    log: Log, *, gains: Mapping[str, float] | None = None, median: int = 1
+) -> Picture:
+    """Acceleration over velocity of the rows that SysId's regression uses.
+
+    With gains it is SysId's "Acceleration vs. Velocity": of each acceleration, what voltage,
+    friction and gravity account for is taken off, so that back-EMF alone is left, and the fit is a
+    straight line through the origin:
+
+        a - (V - kS·sgn(v) - kG)/kA   against   -kV/kA · v
+
+    with kG·cos(θ + offset) for an arm. SysId itself (at least until 2026) takes kG/kA off where it
+    should be added, and leaves an arm's offset out, so its dots of an elevator lie beside its line;
+    its gains are not concerned. Here they lie on it.
+
+    Without gains it is the acceleration itself: under a constant voltage it falls on a straight
+    line, too, because a step approaches its end exponentially. A stretch at one height is what a
+    current limit or a slipping wheel looks like.
+
+    Args:
+        log: with the four tests.
+        gains: kS [V], kV [V·s/unit], kA [V·s²/unit], kG [V], offset_rad [rad] in SI, as ``Fit`` and
+            ``Mechanism`` have them.
+        median: [samples] window of SysId's median filter.
+
+    Raises:
+        BadRequest: kS, kV or kA is missing, kA is zero, or SysId offers no such window.
+        NotIdentifiable: SysId's recipe cannot use this log.
+    """
+    if gains is not None:
+        _checked(gains)
+    per = unit(log.units)
+    rows = prepare(log, median=median).rows
+    speeds = {test: rows[test].velocity / per.si for test in FOUR_TESTS}
+    heights = {test: _height(rows[test], gains, type=log.type) / per.si for test in FOUR_TESTS}
+    figure, ((axes,),) = panels(1, 1, height=3.8)
+    for index, test in enumerate(FOUR_TESTS):
+        kept = cloud(speeds[test], heights[test], most=MOST)
+        axes.plot(
+            speeds[test][kept],
+            heights[test][kept],
+            MARKERS[index],
+            color=COLORS[index],
+            markersize=3.0 if test.startswith("quasi") else 5.0,
+            alpha=0.7,
+            label=test,
+        )
+    if gains is not None:
+        every = np.concatenate([*speeds.values()])
+        ends = np.array([every.min(), every.max()])
+        fall = -gains["kV"] / gains["kA"]
+        axes.plot(ends, fall * ends, color=REFERENCE, linewidth=1.6, label="fit: −kV/kA · v")
+    what = "acceleration" if gains is None else "acceleration by back-EMF"
+    axes.set_xlabel(f"velocity [{per.symbol}/s]", color=INK)
+    axes.set_ylabel(f"{what} [{per.symbol}/s²]", color=INK)
+    legend(figure, [axes])
+    table = _table(speeds, heights, gains, per)
+    return Picture(figure, _words(table, gains, per), table)
+
+
+def _height(rows: Rows, gains: Mapping[str, float] | None, *, type: str) -> Array:  # noqa: A002 - SysId's word
+    """(n,) [m/s² or rad/s²] the acceleration, less what is not due to the velocity."""
+    if gains is None:
+        return rows.acceleration
+    push = rows.voltage - np.copysign(gains["kS"], rows.velocity)
+    swings = type == "arm" or "offset_rad" in gains
+    lean = np.cos(rows.position + gains.get("offset_rad", 0.0)) if swings else 1.0
+    return np.asarray(rows.acceleration - (push - gains.get("kG", 0.0) * lean) / gains["kA"])
+
+
+def _checked(gains: Mapping[str, float]) -> None:
+    missing = [name for name in ("kS", "kV", "kA") if name not in gains]
+    if missing:
+        raise BadRequest(
+            f"gains without {' and '.join(missing)}", advice="Give kS, kV and kA, as a fit does."
+        )
+    if not all(np.isfinite(value) for value in gains.values()) or gains["kA"] == 0.0:
+        raise BadRequest(
+            "gains that are not finite, or a kA of zero", advice="Give the gains of a fit."
+        )
+
+
+def _line(speed: Array, height: Array) -> tuple[float, float] | None:
+    """The straight line that the samples themselves suggest: at standstill, and its slope."""
+    if speed.size < FEWEST or not np.ptp(speed) > 0.0:
+        return None
+    across, up = speed - speed.mean(), height - height.mean()
+    slope = float(across @ up) / float(across @ across)
+    return float(height.mean() - slope * speed.mean()), slope
+
+
+def _table(
+    speeds: Mapping[str, Array],
+    heights: Mapping[str, Array],
+    gains: Mapping[str, float] | None,
+    per: Unit,
+) -> Table:
+    lines = []
+    for test in FOUR_TESTS:
+        speed, height = speeds[test], heights[test]
+        ends = (float(speed.min()), float(speed.max()))
+        if gains is None:
+            fit = _line(speed, height)
+            rest: tuple[str | float, ...] = ("–", "–") if fit is None else fit
+        else:
+            off = height + gains["kV"] / gains["kA"] * speed
+            rest = (float(off.mean()), float(np.sqrt(np.mean(off**2))))
+        lines.append((test, speed.size, *ends, *rest))
+    symbol = f"{per.symbol}/s"
+    last = (
+        (f"at standstill [{symbol}²]", "slope [1/s]")
+        if gains is None
+        else (f"mean off the line [{symbol}²]", f"typical miss [{symbol}²]")
+    )
+    header = ("test", "samples", f"slowest [{symbol}]", f"fastest [{symbol}]", *last)
+    return Table(header, tuple(lines), caption="Acceleration over velocity, the rows of the fit")
+
+
+def _words(table: Table, gains: Mapping[str, float] | None, per: Unit) -> str:
+    """What the picture shows; the numbers are those of the table."""
+    square, said = f"{per.symbol}/s²", "Acceleration over velocity, "
+    if gains is None:
+        said += "as recorded and filtered."
+    else:
+        said += "less what voltage, friction and gravity account for. A black line through the "
+        said += f"origin, −kV/kA · v, has the slope {shown(-gains['kV'] / gains['kA'])} per second."
+    for test, samples, slowest, fastest, first, second in table.rows:
+        said += f" {test}: {samples} samples from {shown(slowest)} to {shown(fastest)} "
+        said += f"{per.symbol}/s"
+        if gains is not None:
+            said += f" miss the line by {shown(second)} {square}, their mean by {shown(first)}."
+        elif isinstance(second, str):
+            said += ", too few for a line."
+        else:
+            said += f" lie about a line from {shown(first)} {square} at standstill with the slope "
+            said += f"{shown(second)} per second."
+    return said

@@ -1,0 +1,47 @@
+"""Tables: three digits, true minus signs, and a header for every row and column."""
+
+import pytest
+from html_tags import Tags
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sim.plot import Table
+from sim.plot.table import shown
+
+
+@pytest.mark.parametrize(
+    ("cell", "text"),
+    [
+        (0.15, "0.150"),
+        (2.52384, "2.52"),
+        (-0.0921, "−0.0921"),
+        (27.01, "27.0"),
+        (499, "499"),
+        (-3, "−3"),
+        (12345.6, "12346"),
+        (1.5e7, "1.5e+07"),
+        (0.0, "0"),
+        (float("inf"), "inf"),
+        ("kS", "kS"),
+    ],
+)
+def test_a_cell_has_three_digits(cell, text):
+    assert shown(cell) == text
+
+
+@given(st.floats(min_value=1e-6, max_value=9e4))
+def test_a_shown_number_is_within_half_a_percent(value):
+    assert float(shown(value)) == pytest.approx(value, rel=0.005)
+
+
+def test_a_table_names_its_rows_and_columns_for_a_screen_reader():
+    tags = Tags(Table(("gain", "value"), (("kS", 0.15), ("<kV>", 2.5)), caption="A & B").html)
+    assert [attrs["scope"] for attrs in tags.all("th")] == ["col", "col", "row", "row"]
+    html = Table(("gain",), (("<kV>",),), caption="A & B").html
+    assert "&lt;kV&gt;" in html
+    assert "A &amp; B" in html
+
+
+def test_a_table_lines_up_in_a_terminal():
+    text = str(Table(("gain", "value"), (("kS", 0.15), ("kV", 12.0)), caption="Gains"))
+    assert text.splitlines() == ["Gains", "gain  value", "kS    0.150", "kV     12.0"]
