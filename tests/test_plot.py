@@ -70,17 +70,17 @@ each_picture = pytest.mark.parametrize("name", PICTURES)
 def drawn(name):
     """Each picture is drawn once for all the questions about it."""
     picture = PICTURES[name]()
-    return picture, picture.svg
+    return picture, picture.svg, picture._repr_mimebundle_()
 
 
 @each_picture
 def test_a_picture_is_drawn_and_says_in_words_what_it_shows(name):
-    picture, svg = drawn(name)
+    picture, svg, bundle = drawn(name)
     assert len(picture.alt) > 40
     assert picture.alt.endswith(".")
     root = ET.fromstring(svg)  # noqa: S314 - our own drawing
     assert root.tag.endswith("svg")
-    tags = Tags(picture.html)
+    tags = Tags(bundle["text/html"])
     assert tags.open == []
     (image,) = tags.all("img")
     assert image["alt"] == picture.alt
@@ -89,8 +89,8 @@ def test_a_picture_is_drawn_and_says_in_words_what_it_shows(name):
 
 @each_picture
 def test_a_picture_reaches_for_nothing_outside(name):
-    picture, svg = drawn(name)
-    assert "http" not in picture.html
+    _, svg, bundle = drawn(name)
+    assert "http" not in bundle["text/html"]
     for element in ET.fromstring(svg).iter():  # noqa: S314 - our own drawing
         for key, value in element.attrib.items():
             assert not (key.endswith("href") and not value.startswith("#"))
@@ -103,8 +103,7 @@ def test_the_same_picture_is_the_same_text(name):
 
 @each_picture
 def test_a_notebook_gets_words_and_picture_and_a_terminal_gets_words(name):
-    picture, _ = drawn(name)
-    bundle = picture._repr_mimebundle_()
+    picture, _, bundle = drawn(name)
     assert set(bundle) == {"text/plain", "text/html"}
     assert bundle["text/plain"].startswith(picture.alt)
     assert picture.alt in str(picture)
