@@ -13,7 +13,7 @@ import numpy as np
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
-CONTACT_PACE = 0.0055  # [s] of teeth that meet: 1.4/(2π·40 Hz), see sim/engine/stepping.py
+CONTACT_PACE = 0.0055  # [s] of teeth that rest on one another; bouncing, the engine steps finer
 
 
 def slack(slack: float) -> float:
@@ -27,8 +27,8 @@ def share(share: float) -> float:
 
 
 def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
-    """A sixtieth of the travel, with a quarter of the inertia before it, for size 1."""
-    return {"slack": scale.reach / 60.0 * size, "share": 0.25}
+    """The way of 10 ms at the speed of a step, a quarter of the inertia before it, for size 1."""
+    return {"slack": 0.01 * scale.speed * size, "share": 0.25}
 
 
 def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
@@ -42,7 +42,7 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     length = float(np.ptp(seen.position)) if seen.position.size else 1.0
     for part in (0.02, 0.005):
         for own in (0.15, 0.5):
-            yield {"slack": part * length, "share": own}
+            yield {"slack": part * max(length, 1e-6), "share": own}
 
 
 EFFECT = Effect(

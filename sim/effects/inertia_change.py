@@ -6,12 +6,15 @@ A game piece taken up, a load that comes off, a second stage that is picked up. 
 rest, so momentum is shared; what leaves takes its own along.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
+
+RAMP = 0.5  # [V/s] of an ordinary quasistatic test
 
 
 def heft(clock: float, extra: float, onset: float) -> float:
@@ -20,8 +23,9 @@ def heft(clock: float, extra: float, onset: float) -> float:
 
 
 def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
-    """Half as much again, from the first dynamic test of an ordinary routine on, for size 1."""
-    return {"extra": 0.5 * scale.ka * size, "onset": 21.5}
+    """Half as much again, from about the first dynamic test of a routine on, for size 1."""
+    ramps = 2.0 * min(10.0, math.sqrt(2.0 * scale.reach * scale.kv / RAMP)) + 2.0
+    return {"extra": 0.5 * scale.ka * size, "onset": ramps + 0.3 * scale.reach / scale.speed}
 
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:

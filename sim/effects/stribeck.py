@@ -32,7 +32,7 @@ def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     """The best of a few speeds over which it may fade."""
     for part in (0.06, 0.02, 0.2):
-        slow = part * max(seen.speed, 1e-9)
+        slow = max(part * seen.speed, 1e-6)
         (extra,) = seen.share(np.sign(seen.velocity) * np.exp(-np.abs(seen.velocity) / slow))
         yield {"extra": max(float(extra), 0.02), "slow": slow}
 

@@ -42,6 +42,7 @@ POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, SEEN = range(7)
 
 CONTACT = 40.0  # [Hz] at which motor and load bounce on each other's teeth: stiff, but not endless
 DAMPING = 0.3  # [1] of critical, of that contact: steel teeth in grease
+BLOW = 4  # steps in which one is taken while teeth bounce
 MOMENT = 1e-6  # [s] a shorter part of a step is not worth a step of its own
 LOOSE_DAMPING = 0.05  # [1] of critical, of a belt, a chain or an arm that bends
 
@@ -157,25 +158,30 @@ def double(
 ) -> float:  # fmt: skip
     """One step of a motor and its load; returns the voltage [V] at the motor in its middle.
 
-    A step in which teeth meet or part is taken in two, on both sides of that moment.
+    A step in which teeth meet or part is taken in two, on both sides of that moment; and while they
+    bounce, in several.
     """
     play = slack(on, p)
+    if play == 0.0:
+        return pair(state, c, w, on, p, memory, asked, off, ka, dt)
     u = 0.0
+    fine = dt / BLOW
     while dt > 0.0:
         x, v, y, z = state[X], state[V], state[Y], state[W]
-        u = pair(state, c, w, on, p, memory, asked, off, ka, dt)
-        if play == 0.0:
-            return u
         before = abs(x - y) - 0.5 * play
+        take = dt
+        rush = abs(v - z)
+        if before > -rush * dt and rush > 0.02 * (abs(v) + abs(z)):
+            take = min(dt, fine)
+        u = pair(state, c, w, on, p, memory, asked, off, ka, take)
         after = abs(state[X] - state[Y]) - 0.5 * play
-        if before * after >= 0.0:
-            return u
-        first = dt * before / (before - after)
-        if first < MOMENT or dt - first < MOMENT:
-            return u
-        state[X], state[V], state[Y], state[W] = x, v, y, z
-        pair(state, c, w, on, p, memory, asked, off, ka, first + 0.5 * MOMENT)
-        dt -= first + 0.5 * MOMENT
+        if before * after < 0.0:
+            first = take * before / (before - after) + 0.5 * MOMENT
+            if MOMENT < first < take - MOMENT:
+                state[X], state[V], state[Y], state[W] = x, v, y, z
+                u = pair(state, c, w, on, p, memory, asked, off, ka, first)
+                take = first
+        dt -= take
     return u
 
 

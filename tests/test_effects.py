@@ -1,0 +1,360 @@
+"""The contract of an effect, over everything the catalogue holds."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sim.effect import Effect, Parameter
+from sim.effects import EFFECTS, effect
+from sim.engine import State, finest, move
+from sim.errors import BadRequest
+from sim.evidence import gather
+from sim.log import KINDS, Log, Run
+from sim.mechanisms import MECHANISMS
+from sim.model import Model, Part
+from sim.routine import Routine
+from sim.simulate import simulate
+
+PAIRS = [
+    (name, kind)
+    for name in EFFECTS
+    for kind in MECHANISMS
+    if not EFFECTS[name].cannot(MECHANISMS[kind].scale)
+]
+TIME = np.arange(0.0, 2.0, 0.02)
+
+
+def some(seed=0):
+    return np.random.default_rng(seed)
+
+
+def hidden(name, kind, size=1.0):
+    """The model of a mechanism with one effect, without friction's help from stops."""
+    return replace(MECHANISMS[kind].hiding(name, size).model, travel=None)
+
+
+def middle(kind):
+    """[m or rad] a place in the middle of a mechanism's travel."""
+    stops = MECHANISMS[kind].stops
+    return 0.5 * sum(stops) if stops else 0.0
+
+
+def wave(seed, size=4.0):
+    """(n,) [V] steps of half a second, as nobody would plan them."""
+    levels = some(seed).uniform(-size, size, 1 + TIME.size // 25)
+    return np.repeat(levels, 25)[: TIME.size]
+
+
+def names():
+    return {
+        "constant-load", "gravity-cosine", "stribeck", "asymmetric-friction",
+        "asymmetric-back-emf", "drag", "spring", "battery-sag", "current-limit", "voltage-limit",
+        "deadband", "delay", "velocity-filter", "backlash", "compliance", "cogging",
+        "inertia-change", "velocity-scale", "heating",
+    }  # fmt: skip
+
+
+def test_the_catalogue_holds_every_effect_that_other_programs_call_by_name():
+    assert names() <= set(EFFECTS)
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_an_effect_is_written_as_the_contract_asks(name):
+    found = EFFECTS[name]
+
+    assert found.faults() == []
+    assert found.name == name
+    for said in (found.summary, found.formula, found.fingerprint, found.inspect):
+        assert len(said) > 3, said
+    assert not found.summary.endswith(".")
+    assert found.fingerprint.endswith(".")
+    assert found.inspect.endswith(".")
+    assert found.apart, "name at least one look-alike and the test that tells them apart"
+    for other, test in found.apart.items():
+        assert other in EFFECTS, f"{name} is told apart from {other!r}, which is no effect"
+        assert test.endswith("."), test
+    for parameter in found.parameters:
+        assert parameter.name.isidentifier()
+        assert parameter.least <= parameter.neutral <= max(parameter.most, parameter.neutral)
+
+
+@pytest.mark.parametrize(("name", "kind"), PAIRS)
+def test_an_ordinary_case_is_physics_and_shows(name, kind):
+    model = hidden(name, kind)
+    plain = replace(model, parts=())
+    part = model.parts[0]
+    assert Part(part.effect, part.parameters) == part  # within its bounds, or it would be refused
+    noise = MECHANISMS[kind].sensor.velocity_noise
+    silent = replace(MECHANISMS[kind].sensor, velocity_noise=0.0)
+    bare = replace(MECHANISMS[kind], sensor=silent)
+    routine = Routine(ramp=0.5, step=6.0, kinds=KINDS)  # every kind of test, so that heat shows too
+
+    logs = [simulate(one, routine, rng=some()) for one in (bare.hiding(name), bare)]
+
+    apart = max(
+        float(np.abs(a.velocity[: len(b)] - b.velocity[: len(a)]).max())
+        for a, b in zip(*(log.runs for log in logs), strict=True)
+    )
+    assert plain.gains == model.gains
+    assert apart > noise
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_an_effect_at_its_neutral_values_is_not_there(name):
+    kind = next(kind for one, kind in PAIRS if one == name)
+    base = replace(MECHANISMS[kind].model, travel=None)
+    values = dict(EFFECTS[name].neutral)
+    if "share" in values and EFFECTS[name].kind == "two-body":
+        values["slack" if "slack" in values else "softness"] = 0.0
+        pytest.skip("two bodies that touch are two bodies; the test of stiffness covers it")
+    start = middle(kind)
+
+    there = move(base, time=TIME, voltage=wave(1), state=State.at(start))
+    with_it = move(
+        base + Part(name, values), time=TIME, voltage=wave(1), state=State.at(start),
+        step=finest(base),
+    )  # fmt: skip
+    alone = move(base, time=TIME, voltage=wave(1), state=State.at(start), step=finest(base))
+
+    assert with_it.seen == pytest.approx(alone.seen, abs=1e-9)
+    assert with_it.position == pytest.approx(there.position, abs=2e-3 * np.ptp(there.position))
+
+
+@pytest.mark.parametrize("name", ["backlash", "compliance"])
+def test_a_joint_that_is_stiff_or_tight_moves_as_one_body(name):
+    base = MECHANISMS["drivetrain"].model
+    tight = {"backlash": {"slack": 0.0}, "compliance": {"softness": 1e-5}}[name]
+
+    one = move(base, time=TIME, voltage=np.full(TIME.size, 3.0), state=State())
+    two = move(
+        base + Part(name, {**tight, "share": 0.3}),
+        time=TIME, voltage=np.full(TIME.size, 3.0), state=State(),
+    )  # fmt: skip
+
+    assert two.velocity[-1] == pytest.approx(one.velocity[-1], rel=1e-3)
+    assert np.abs(two.position - one.position).max() < 0.01 * np.ptp(one.position)
+
+
+@pytest.mark.parametrize(("name", "kind"), PAIRS)
+@pytest.mark.parametrize("size", [0.3, 1.0, 2.0])
+def test_halving_the_step_changes_a_trajectory_by_less_than_a_thousandth(name, kind, size):
+    model = hidden(name, kind, size)
+    volts = wave(3)
+    start = middle(kind)
+
+    coarse = move(model, time=TIME, voltage=volts, state=State.at(start))
+    fine = move(model, time=TIME, voltage=volts, state=State.at(start), step=0.5 * finest(model))
+
+    assert np.abs(coarse.position - fine.position).max() < 1e-3 * np.ptp(fine.position)
+    assert np.abs(coarse.velocity - fine.velocity).max() < 1e-3 * np.ptp(fine.velocity)
+
+
+SYMMETRIC = [
+    pair for pair in PAIRS if EFFECTS[pair[0]].symmetric and pair[1] not in {"arm", "elevator"}
+]
+
+
+@pytest.mark.parametrize(("name", "kind"), SYMMETRIC)
+@given(seed=st.integers(0, 10_000))
+@settings(max_examples=5)
+def test_mirrored_volts_give_mirrored_motion(name, kind, seed):
+    model = hidden(name, kind)
+    volts = wave(seed)
+
+    there = move(model, time=TIME, voltage=volts, state=State())
+    back = move(model, time=TIME, voltage=-volts, state=State())
+
+    assert (there.position == -back.position).all()
+    assert (there.seen == -back.seen).all()
+
+
+def energy(model, track):
+    """(n,) [V·unit] of motion and of everything that can give it back."""
+    part = model.parts[0]
+    share = part.parameters.get("share", 1.0) if EFFECTS[part.effect].kind == "two-body" else 1.0
+    load = np.gradient(track.load_position, TIME, edge_order=2)
+    inertia = model.gains["kA"]
+    moving = 0.5 * inertia * track.velocity**2
+    if share < 1.0:
+        moving = 0.5 * inertia * share * track.velocity**2
+        _ = load  # the load's own motion is counted by the test of two bodies
+    stored = np.zeros_like(track.position)
+    if (stores := EFFECTS[part.effect].stores) is not None:
+        stored = np.array([stores(float(x), **part.parameters) for x in track.position])
+    kg = model.gains.get("kG", 0.0)
+    if model.type == "elevator":
+        stored = stored + kg * track.position
+    elif model.type == "arm":
+        stored = stored + kg * np.sin(track.position)
+    return moving + stored
+
+
+@pytest.mark.parametrize(("name", "kind"), [p for p in PAIRS if EFFECTS[p[0]].kind != "two-body"])
+@given(seed=st.integers(0, 10_000))
+@settings(max_examples=5)
+def test_energy_never_appears_from_nowhere(name, kind, seed):
+    # Without voltage, the back-EMF of a shorted motor and friction only take; with it, no more is
+    # stored than the battery gave: the volts times the way, sample by sample.
+    model = hidden(name, kind, float(some(seed).uniform(0.3, 2.0)))
+    volts = wave(seed)
+    state = State.at(middle(kind))
+    fine = 0.1 * finest(model)
+
+    driven = move(model, time=TIME, voltage=volts, state=state, step=fine)
+    spent = np.abs(volts[:-1]) * np.abs(np.diff(driven.position))
+    slack = 1e-6 + 1e-3 * float(np.abs(energy(model, driven)).max())
+    gained = np.diff(energy(model, driven))
+    speeds = np.maximum(np.abs(driven.velocity[1:]), np.abs(driven.velocity[:-1]))
+    turned = np.sign(driven.velocity[1:]) != np.sign(driven.velocity[:-1])
+    late = EFFECTS[name].acts.keys() & {"late"}
+    given_most = spent + np.where(turned, np.abs(volts[:-1]) * speeds * 0.02, 0.0)
+    if late:  # what arrives now was asked for before
+        given_most = np.abs(volts).max() * speeds * 0.02 + slack
+    assert (gained <= given_most + slack).all()
+
+    coasting = move(model, time=TIME, voltage=np.zeros_like(TIME), state=state, step=fine)
+    lost = np.diff(energy(model, coasting))
+    first = 3 if late else 0  # the last command is still on its way
+    assert (lost[first:] <= slack).all()
+
+
+@pytest.mark.parametrize("name", ["backlash", "compliance"])
+@given(seed=st.integers(0, 10_000))
+@settings(max_examples=5)
+def test_two_bodies_left_alone_only_slow_down(name, seed):
+    model = hidden(name, "drivetrain", float(some(seed).uniform(0.3, 2.0)))
+    part = model.parts[0].parameters
+    ka = model.gains["kA"]
+    soft = part.get("softness", 0.0)
+    state = State()
+    move(model, time=TIME, voltage=wave(seed), state=state)
+    before = math.inf
+    for _ in range(150):
+        x, v, y, w, _ = state.body
+        bent = 0.5 * (x - y) ** 2 / soft if soft else 0.0
+        if not soft:  # teeth of a stiff contact
+            into = max(abs(x - y) - 0.5 * part["slack"], 0.0)
+            reduced = part["share"] * (1.0 - part["share"]) * ka
+            bent = 0.5 * reduced * (2.0 * math.pi * 40.0) ** 2 * into**2
+        own = 0.5 * ka * (part["share"] * v * v + (1.0 - part["share"]) * w * w) + bent
+        assert own <= before * (1.0 + 1e-3) + 1e-9
+        before = own
+        move(
+            model, time=np.array([0.0, 0.005]), voltage=np.zeros(2), state=state,
+            step=0.2 * finest(model),
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize("name", [n for n in EFFECTS if EFFECTS[n].stores is not None])
+def test_what_a_term_pulls_is_the_slope_of_what_it_stores(name):
+    kind = next(kind for one, kind in PAIRS if one == name)
+    values = MECHANISMS[kind].hiding(name).hidden[0].parameters
+    found = EFFECTS[name]
+    pull = found.acts["pull"]
+    asked = pull.__code__.co_varnames[: pull.__code__.co_argcount]
+    for x in np.linspace(-2.0, 2.0, 17).tolist():
+        given_ = {"x": x, "v": 0.0, **values}
+        slope = (found.stores(x + 1e-5, **values) - found.stores(x - 1e-5, **values)) / 2e-5
+        assert pull(**{n: given_[n] for n in asked}) == pytest.approx(slope, abs=1e-6)
+
+
+@pytest.mark.parametrize(("name", "kind"), PAIRS)
+def test_a_search_starts_from_physics(name, kind):
+    mechanism = MECHANISMS[kind].hiding(name)
+    log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
+    seen = gather(log, MECHANISMS[kind].gains, type=mechanism.type)
+
+    starts = list(EFFECTS[name].starts(seen))
+
+    assert starts
+    for start in starts:
+        Part(name, start)  # refuses what is not physics
+        assert all(math.isfinite(value) for value in start.values())
+
+
+NEAR = {  # parameter that the best start should have nearly right, and how nearly (a factor)
+    "drag": ("drag", 1.6), "constant-load": ("load", 1.3), "spring": ("rate", 1.5),
+    "gravity-cosine": ("level", 1.4), "asymmetric-back-emf": ("lean", 1.3),
+    "asymmetric-friction": ("lean", 1.3), "cogging": ("turns", 1.1),
+    "velocity-scale": ("scale", 1.02),
+    "velocity-filter": ("window", 1.6), "voltage-limit": ("limit", 1.25), "deadband": ("band", 1.3),
+    "delay": ("lag", 2.0), "current-limit": ("limit", 1.6), "stribeck": ("extra", 2.5),
+    "battery-sag": ("share", 3.0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NEAR)
+def test_the_best_start_is_near_the_truth(name):
+    kind = "turret" if name == "gravity-cosine" else "drivetrain"
+    mechanism = MECHANISMS[kind].hiding(name)
+    truth = mechanism.hidden[0].parameters
+    log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
+    wanted, factor = NEAR[name]
+
+    starts = list(EFFECTS[name].starts(gather(log, MECHANISMS[kind].gains, type=mechanism.type)))
+
+    off = min(abs(math.log(abs(start[wanted] / truth[wanted]))) for start in starts)
+    assert math.exp(off) < factor, (truth, starts)
+
+
+def test_starts_survive_a_log_in_which_nothing_moves():
+    still = np.zeros(60)
+    time = np.arange(60) * 0.02
+    tests = ("quasistatic-forward", "dynamic-forward")
+    log = Log(tuple(Run(test, time, still, still, still) for test in tests))
+    seen = gather(log, {"kS": 0.1, "kV": 2.0, "kA": 0.2}, type="simple")
+    for name, found in EFFECTS.items():
+        for start in found.starts(seen):
+            Part(name, start)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (dict(kind="magic"), "kind is 'magic'; choose one of: term"),
+        (dict(acts={}), "acts is empty"),
+        (dict(acts={"pulls": lambda v: v}), "'pulls', which is not one of: pull"),
+        (dict(acts={"pull": lambda speed: speed}), "pull asks for 'speed'; it may ask for: x, v"),
+        (dict(acts={"passes": lambda u: u}), "order is 0"),
+    ],
+    ids=["kind", "nothing", "hook", "argument", "order"],
+)
+def test_an_effect_written_wrongly_is_named_with_what_is_wrong(change, said):
+    assert any(said in line for line in replace(EFFECTS["drag"], **change).faults())
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: effect("magic"), "unknown effect 'magic'. Choose one of: asymmetric-back-emf"),
+        (lambda: Part("drag", {}), "drag with no parameters. Give: drag."),
+        (lambda: Part("drag", {"drag": -1.0}), "drag: drag is -1. Choose 0 to inf."),
+        (lambda: Model("simple", {}) + Part("drag", {"drag": 1.0}) + Part("drag", {"drag": 1.0}),
+         "drag twice"),
+        (lambda: MECHANISMS["shooter"].hiding("spring"), "a shooter cannot have spring: it turns"),
+        (lambda: MECHANISMS["drivetrain"].hiding("drag", 9.0), "drag of size 9. Choose 0 to 5"),
+        (lambda: MECHANISMS["drivetrain"].hiding("drag", math.nan), "drag of size nan"),
+        (lambda: MECHANISMS["drivetrain"].hiding("drag").hiding("drag"), "drag is hidden twice"),
+    ],
+    ids=["unknown", "missing", "sign", "twice", "cannot", "size", "nan", "hidden twice"],
+)  # fmt: skip
+def test_what_is_no_physics_is_refused(make, said):
+    with pytest.raises(BadRequest) as refused:
+        make()
+
+    assert said in str(refused.value)
+
+
+def test_size_zero_hides_nothing():
+    assert MECHANISMS["drivetrain"].hiding("drag", 0.0) == MECHANISMS["drivetrain"]
+
+
+def test_parameters_say_their_unit_and_power():
+    assert EFFECTS["drag"].parameters[0] == Parameter(
+        "drag", "volts per squared speed", "V·s²/{u}²", power=2
+    )
+    assert isinstance(EFFECTS["drag"], Effect)

@@ -1,0 +1,259 @@
+"""The stepping engine: against closed forms, against itself uncompiled, and as it is composed."""
+
+import math
+import os
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from sim.effects import EFFECTS
+from sim.effects.drag import EFFECT as DRAG
+from sim.engine import NO_WIRES, State, finest, move
+from sim.engine.compose import CACHE, compose, folder, is_compiled
+from sim.engine.wires import CUT
+from sim.errors import BadRequest
+from sim.mechanisms import MECHANISMS
+from sim.model import Model, Part
+from sim.simulate import connected
+
+GAINS = {"kS": 0.2, "kV": 2.0, "kA": 0.3}
+PLAIN = Model("simple", GAINS)
+TIME = np.arange(0.0, 1.0, 0.02)
+
+
+def steady(volts):
+    return np.full(TIME.size, float(volts))
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_the_compiled_engine_does_what_the_plain_text_says(name):
+    kind = next(k for k in MECHANISMS if not EFFECTS[name].cannot(MECHANISMS[k].scale))
+    model = MECHANISMS[kind].hiding(name).model
+    volts = np.where(TIME < 0.4, 3.0, -2.0)
+    wires = connected(MECHANISMS[kind])
+
+    fast, slow = (
+        move(model, time=TIME, voltage=volts, state=State(), wires=wires, plain=plain)
+        for plain in (False, True)
+    )
+
+    assert fast.position == pytest.approx(slow.position, abs=1e-9)
+    assert fast.seen == pytest.approx(slow.seen, abs=1e-7)
+    assert fast.applied == pytest.approx(slow.applied, abs=1e-9)
+
+
+def test_an_arm_that_is_let_go_swings_through_and_settles_below():
+    arm = Model("arm", {"kS": 0.0, "kV": 0.05, "kA": 0.1, "kG": 1.0, "offset_rad": 0.0})
+    time = np.arange(0.0, 60.0, 0.02)
+
+    track = move(arm, time=time, voltage=np.zeros(time.size), state=State.at(0.3))
+
+    assert track.position[-1] == pytest.approx(-math.pi / 2.0, abs=1e-3)
+    assert track.position.min() < -math.pi / 2.0 - 0.5
+
+
+def test_an_elevator_on_its_stop_lifts_when_the_ramp_exceeds_weight_and_friction():
+    lift = Model("elevator", {"kS": 0.2, "kV": 4.0, "kA": 0.2, "kG": 1.0}, travel=(0.0, 1.0))
+    time = np.arange(0.0, 4.0, 0.02)
+
+    track = move(lift, time=time, voltage=0.5 * time, state=State())
+
+    assert not track.velocity[time < 2.38].any()  # (kG + kS)/0.5 V/s = 2.4 s
+    assert track.velocity[time > 2.5].all()
+    held = move(lift, time=time, voltage=np.full(time.size, 8.0), state=State())
+    assert held.position.max() == 1.0
+    assert held.velocity[-1] == 0.0
+
+
+def test_a_current_limit_makes_the_rise_a_straight_line():
+    # |u - kV·v| ≤ 1: a = (1 - 0.2)/0.3 until u - kV·v falls below the limit, at v = (3 - 1)/2
+    limited = PLAIN + Part("current-limit", {"limit": 1.0})
+
+    track = move(limited, time=TIME, voltage=steady(3.0), state=State())
+
+    rising = track.velocity < 0.98
+    assert track.velocity[rising] == pytest.approx(0.8 / 0.3 * TIME[rising], rel=1e-4, abs=1e-12)
+
+
+def test_drag_ends_at_the_speed_at_which_the_volts_are_spent():
+    # 4 = 0.2 + 2 v + 0.5 v² has v = (-2 + √(4 + 7.6))/1
+    track = move(
+        PLAIN + Part("drag", {"drag": 0.5}),
+        time=np.arange(0.0, 5.0, 0.02), voltage=np.full(250, 4.0), state=State(),
+    )  # fmt: skip
+
+    assert track.velocity[-1] == pytest.approx(-2.0 + math.sqrt(11.6), rel=1e-6)
+
+
+def test_a_delay_shifts_the_motion_and_nothing_else():
+    late = move(PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=steady(3.0), state=State())
+    prompt = move(PLAIN, time=TIME, voltage=steady(3.0), state=State())
+
+    assert late.velocity[3:] == pytest.approx(prompt.velocity[:-3], abs=1e-12)
+    assert not late.velocity[:4].any()
+
+
+def test_a_filter_reports_the_mean_velocity_of_its_window():
+    track = move(
+        PLAIN + Part("velocity-filter", {"window": 0.1}),
+        time=TIME, voltage=steady(3.0), state=State(),
+    )  # fmt: skip
+
+    assert track.seen[5:] == pytest.approx((track.position[5:] - track.position[:-5]) / 0.1)
+
+
+def test_inertia_that_joins_shares_its_momentum():
+    joined = PLAIN + Part("inertia-change", {"extra": 0.3, "onset": 0.5})
+    state = State.at(0.0, 1.0)
+    free = replace(joined, gains={"kS": 0.0, "kV": 1e-9, "kA": 0.3})
+
+    track = move(free, time=TIME, voltage=steady(0.0), state=state)
+
+    assert track.velocity[TIME < 0.49] == pytest.approx(1.0, abs=1e-6)
+    assert track.velocity[TIME > 0.51] == pytest.approx(0.5, abs=1e-6)
+
+
+def test_heat_stays_from_run_to_run_and_fades_in_a_pause():
+    warm = PLAIN + Part("heating", {"rate": 0.05})
+    state = State()
+
+    first = move(warm, time=TIME, voltage=steady(4.0), state=state)
+    state.body[:] = 0.0
+    again = move(warm, time=TIME, voltage=steady(4.0), state=state)
+
+    assert (again.velocity[1:10] < first.velocity[1:10]).all()
+
+
+@pytest.mark.parametrize("asked", [2.0, 5.0, 9.0, 12.0])
+@pytest.mark.parametrize("speed", [0.0, 1.5, -1.5, 4.0])
+def test_wires_keep_every_limit_and_ohms_law(asked, speed):
+    built = MECHANISMS["drivetrain"]
+    wires = connected(built)
+    wires[7] = 0.0  # no brownout here
+    state = State.at(0.0, speed)
+
+    track = move(
+        built.model, time=np.array([0.0, 1e-6]), voltage=np.full(2, asked), state=state, wires=wires
+    )
+    u, current, bus = (float(part[0]) for part in (track.applied, track.current, track.bus))
+
+    emf = built.motor.back_emf * built.ratio / built.radius * speed
+    assert current == pytest.approx((u - emf) / built.motor.resistance)
+    assert abs(current) <= built.stator * (1 + 1e-9)
+    assert u * current <= built.supply * bus * (1 + 1e-9)
+    assert abs(u) <= bus * (1 + 1e-9)
+    drawn = built.motor_count * u * current / bus
+    assert bus == pytest.approx(built.battery.rest - built.battery.resistance * drawn)
+    if abs(current) < 0.999 * built.stator and u * current < 0.999 * built.supply * bus:
+        assert u == pytest.approx(min(asked, bus))
+
+
+def test_a_brownout_takes_the_motors_off_for_a_loop():
+    built = replace(MECHANISMS["drivetrain"], stator=400.0, supply=400.0)
+    time = np.arange(0.0, 0.5, 0.005)
+
+    track = move(
+        built.model, time=time, voltage=np.full(time.size, 11.0), state=State(),
+        wires=connected(built),
+    )  # fmt: skip
+
+    off = track.applied == 0.0
+    assert off.any()
+    assert not off[-1]  # at speed it draws less, and the battery recovers
+    starts = np.flatnonzero(np.diff(off.astype(int)) == 1)
+    ends = np.flatnonzero(np.diff(off.astype(int)) == -1)
+    lasted = (ends[-1] - starts[-1]) * 0.005 if starts.size else CUT
+    assert lasted == pytest.approx(CUT, abs=0.006)
+
+
+def test_no_wires_apply_what_is_asked():
+    track = move(PLAIN, time=TIME, voltage=steady(30.0), state=State(), wires=NO_WIRES)
+
+    assert (track.applied == 30.0).all()
+    assert not track.bus.any()
+
+
+@pytest.mark.parametrize(("effect", "least"), [("compliance", 5e-5), ("stribeck", 5e-5)])
+def test_the_faster_an_effect_acts_the_finer_the_step(effect, least):
+    plain = finest(PLAIN)
+    quick = {
+        "compliance": {"softness": 1e-4, "share": 0.1},
+        "stribeck": {"extra": 2.0, "slow": 0.01},
+    }
+
+    assert least <= finest(PLAIN + Part(effect, quick[effect])) < 0.5 * plain
+
+
+def new_effect(**change):
+    return {**EFFECTS, "new-one": replace(DRAG, name="new-one", **change)}
+
+
+def test_a_new_effect_is_composed_into_the_engine_and_called():
+    module = compose(new_effect(), compiled=False)
+
+    on = np.zeros(len(EFFECTS) + 1 + len(module.__dict__))
+    assert module.pull(on, np.ones(99), 0.0, 2.0) == 0.0
+    on[:] = 0.0
+    on[len(EFFECTS)] = 1.0
+    on[len(EFFECTS) + 1 :] = 1.0
+    assert module.pull(on, np.full(99, 0.5), 0.0, 2.0) == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (dict(acts={"pull": lambda speed: speed}), "effect new-one: pull asks for 'speed'"),
+        (dict(acts={}), "effect new-one: acts is empty"),
+    ],
+    ids=["argument", "nothing"],
+)
+def test_an_effect_written_wrongly_stops_the_engine_with_a_sentence(change, said):
+    with pytest.raises(BadRequest) as refused:
+        compose(new_effect(**change))
+
+    assert said in str(refused.value)
+    assert "sim/effects/drag.py" in str(refused.value)
+
+
+PROGRAM = """
+import numpy as np
+from sim.engine import State, move
+from sim.model import Model
+track = move(Model("simple", {"kS": 0.2, "kV": 2.0, "kA": 0.3}), time=np.arange(0, 1, 0.02),
+             voltage=np.full(50, 3.0), state=State())
+print(round(float(track.velocity[-1]), 6))
+"""
+
+
+ENDS = str(round(1.4 * (1.0 - math.exp(-0.98 / 0.15)), 6))  # (3 - 0.2)/2, and kA/kV = 0.15 s
+
+
+def started(environment):
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM], env=environment, capture_output=True, encoding="utf-8",
+        check=False, timeout=120,
+    )  # fmt: skip
+    return done.returncode, done.stdout.strip(), done.stderr
+
+
+def test_what_was_compiled_is_kept_where_the_environment_says(tmp_path, monkeypatch):
+    monkeypatch.setenv(CACHE, str(tmp_path / "kept"))
+    assert folder() == tmp_path / "kept"
+    assert not is_compiled(EFFECTS)
+
+    assert started(os.environ.copy()) == (0, ENDS, "")
+
+    assert is_compiled(EFFECTS)
+    kept = {file: file.stat().st_mtime for file in (tmp_path / "kept").rglob("*.nbc")}
+    assert started(os.environ.copy()) == (0, ENDS, "")
+    assert {file: file.stat().st_mtime for file in (tmp_path / "kept").rglob("*.nbc")} == kept
+
+
+def test_a_home_that_cannot_be_written_to_is_no_obstacle(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("not a folder", encoding="utf-8")
+
+    assert started({**os.environ, CACHE: str(blocked / "cache")}) == (0, ENDS, "")
