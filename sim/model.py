@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from sim.effects import effect as find
 from sim.errors import BadRequest
 from sim.log import TYPES
+from sim.units import Unit
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,20 @@ class Part:
                     f"{self.effect}: {parameter.name} is {value:g}",
                     advice=f"Choose {parameter.least:g} to {parameter.most:g}.",
                 )
+
+    def said(self, per: Unit) -> dict[str, dict[str, float | str]]:
+        """The parameters in the owner's unit: name -> its value and its unit, for JSON.
+
+        Args:
+            per: the unit of position.
+        """
+        return {
+            parameter.name: {
+                "value": self.parameters[parameter.name] * per.si**parameter.power,
+                "unit": parameter.unit.format(u=per.symbol),
+            }
+            for parameter in find(self.effect).parameters
+        }
 
 
 @dataclass(frozen=True)

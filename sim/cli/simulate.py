@@ -1,11 +1,21 @@
 """``sysid simulate``."""
 
+from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from sim.cli.options import FILE
-from sim.errors import Refusal
+from sim.errors import BadRequest, Refusal
+from sim.vocabulary import KINDS
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from sim.fault import Stretch
+    from sim.log import Log
+    from sim.mechanism import Mechanism
 
 
 @click.command()
@@ -15,8 +25,30 @@ from sim.errors import Refusal
 @click.option("--step", default=3.5, show_default=True, help="Dynamic step [V].")
 @click.option("--timeout", default=10.0, show_default=True, help="End of a test [s].")
 @click.option("--period", default=0.02, show_default=True, help="Loop of the robot program [s].")
+@click.option(
+    "--tests",
+    metavar="KIND,…",
+    default=",".join(KINDS[:2]),
+    show_default=True,
+    help=f"Kinds of test: {', '.join(KINDS)}.",
+)
+@click.option(
+    "--hide",
+    multiple=True,
+    metavar="EFFECT[:SIZE]",
+    help="Physics that the model will not have; once for each. `sysid effects` lists them.",
+)
+@click.option(
+    "--fault",
+    "faults",
+    multiple=True,
+    metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
+    help="Damage to the record; once for each. `sysid faults` lists them.",
+)
+@click.option("--vary", is_flag=True, help="Draw another mechanism of its kind.")
+@click.option("--electrical", is_flag=True, help="Record current and battery voltage, too.")
 @click.option("--seed", type=int, help="Same seed, same log; a new log every time without.")
-@click.option("--truth", type=FILE, help="Also write the true gains to this JSON file.")
+@click.option("--truth", type=FILE, help="Also write what is true to this JSON file.")
 def simulate(  # noqa: PLR0917 - click passes options by name
     mechanism: str,
     output: Path,
@@ -24,12 +56,17 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     step: float,
     timeout: float,
     period: float,
+    tests: str,
+    hide: tuple[str, ...],
+    faults: tuple[str, ...],
+    vary: bool,  # noqa: FBT001 - click passes it by name
+    electrical: bool,  # noqa: FBT001 - the same
     seed: int | None,
     truth: Path | None,
 ) -> None:
     """Run the four tests on a simulated MECHANISM and write the log a robot would.
 
-    For example: sysid simulate drivetrain --seed 1 -o drive.wpilog
+    For example: sysid simulate drivetrain --hide drag --fault encoder-slip --seed 1 -o drive.wpilog
     """
     import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
 
@@ -41,11 +78,16 @@ def simulate(  # noqa: PLR0917 - click passes options by name
 
     if seed is not None and seed < 0:
         raise click.BadParameter("a seed is zero or more.", param_hint="'--seed'")
+    kinds = tuple(kind.strip() for kind in tests.split(",") if kind.strip())
+    routine = Routine(ramp=ramp, step=step, timeout=timeout, kinds=kinds)
+    # chance has a stream for each thing it decides, so that a fault leaves the motion as it was
+    motion, damage, another = np.random.default_rng(seed), *np.random.default_rng(seed).spawn(2)
     built = find(mechanism)
-    routine = Routine(ramp=ramp, step=step, timeout=timeout)
-    log = record(built, routine, rng=np.random.default_rng(seed), period=period)
+    built = _hiding(built.draw(another) if vary else built, hide)
+    log = record(built, routine, rng=motion, period=period, electrical=electrical)
+    log, where = _damaged(log, faults, damage)
     if truth:
-        write_truth(built, routine, path=truth)
+        write_truth(built, routine, path=truth, faults=where)
     try:
         write(log, output)
     except Refusal:
@@ -53,4 +95,34 @@ def simulate(  # noqa: PLR0917 - click passes options by name
             truth.unlink()
         raise
     samples = sum(len(part) for part in log.runs)
-    click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: sysid fit {output}")
+    after = "inspect" if faults else "fit"
+    click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: sysid {after} {output}")
+
+
+def _hiding(mechanism: "Mechanism", asked: Iterable[str]) -> "Mechanism":
+    """The mechanism with effects that are asked for as ``NAME`` or ``NAME:SIZE``."""
+    for text in asked:
+        name, colon, size = text.partition(":")
+        try:
+            mechanism = mechanism.hiding(name.strip(), float(size) if colon else 1.0)
+        except ValueError:
+            raise BadRequest(
+                f"{text!r}: {size!r} is not a size", advice="Write EFFECT[:SIZE], as drag:0.5."
+            ) from None
+    return mechanism
+
+
+def _damaged(
+    log: "Log", asked: Iterable[str], rng: "np.random.Generator"
+) -> "tuple[Log, list[tuple[str, float, Stretch]]]":
+    """The log with the faults that are asked for, and where each is."""
+    from sim.contaminate import contaminate, parse_blow  # noqa: PLC0415 - only with --fault
+
+    where = []
+    for one in [parse_blow(text) for text in asked]:
+        spoilt = contaminate(
+            log, one.name, severity=one.severity, test=one.test, at=one.at, rng=rng
+        )
+        log = spoilt.log
+        where += [(one.name, one.severity, stretch) for stretch in spoilt.where]
+    return log, where

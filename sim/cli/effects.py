@@ -1,0 +1,35 @@
+"""``sysid effects``."""
+
+import click
+
+from sim.cli.options import as_json, list_catalogue
+
+
+@click.command()
+@as_json
+def effects(*, as_json: bool) -> None:
+    """List the effects that a mechanism can hide, and that a model may need."""
+    from sim.effects import EFFECTS  # noqa: PLC0415 - --help must not wait for it
+
+    list_catalogue(
+        (
+            {
+                "name": name,
+                "summary": found.summary,
+                "kind": found.kind,
+                "formula": found.formula,
+                "parameters": {
+                    parameter.name: {
+                        "what": parameter.what,
+                        "unit": parameter.unit.format(u="unit"),
+                    }
+                    for parameter in found.parameters
+                },
+                "fingerprint": found.fingerprint,
+                "inspect": found.inspect,
+                "apart": dict(found.apart),
+            }
+            for name, found in EFFECTS.items()
+        ),
+        as_json=as_json,
+    )
