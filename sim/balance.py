@@ -43,6 +43,11 @@ class Balance:
     load: Array
     spread: float
 
+    def top_speed(self, run: Run) -> Array:
+        """(n,) [m/s or rad/s] where each voltage of a run would take it, given time."""
+        pull = run.voltage - self.gravity(run.position)
+        return np.asarray(np.sign(pull) * np.maximum(np.abs(pull) - self.ks, 0.0) / self.kv)
+
     def replay(self, run: Run, *, voltage: Array, first: int, last: int, velocity: float) -> Array:
         """The velocity that a voltage would bring about, friction and load included.
 

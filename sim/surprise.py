@@ -6,7 +6,7 @@ surprise. Each fault that could be behind it draws the shape it would leave, and
 surprise that the shape explains is how much it is believed.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +17,8 @@ from sim.log import Array, Run
 WITHIN = 0.1  # [V] a linear model of a real mechanism strays this far anyway,
 SHARE = 0.1  # [share of the back-EMF] and this much more with speed,
 ONSET, SETTLED = 0.35, 0.6  # [V, s] and this much just after it begins to move: friction is no line
+LATE = 0.03  # [s] a reading may be this old, and the mechanism no worse for it
+STARTING = 1.5, 0.06  # [timescales, s] after its first motion a run says little about accidents
 SIGMAS = 3.0  # [standard deviations of the averaged noise]
 AVERAGE = 0.04  # [s] over which noise is averaged, at least two samples
 SHORTEST = 0.03  # [s] a shorter surprise is noise, at least two samples
@@ -39,6 +41,7 @@ class Surprise:
         left: (end - begin,) [m/s or rad/s] seen minus expected, what it strays by anyway taken off.
         expected: (end - begin,) [m/s or rad/s] the velocity as replayed, brought to what was seen
             before and after.
+        starting: it begins with the motion, where delays and limits of current look like accidents.
         again: another run has one at the same place, or as long after its start: that is how the
             mechanism is, and no accident.
     """
@@ -50,21 +53,32 @@ class Surprise:
     end: int
     left: Array
     expected: Array
+    starting: bool
     again: bool = False
 
-    def spans(self, *, slack: int) -> Iterator[tuple[int, int]]:
-        """Where it may have begun and ended: samples within ``begin`` and ``end``, near its own.
+    def spans(self, *, slack: int) -> list[tuple[int, int]]:
+        """Where it may have begun, and ended: samples within ``begin`` and ``end``.
 
         Args:
             slack: [samples] how far from its own first and last sample to look.
         """
-        inside = self.end - self.begin
         stride = max(1, slack // 3)
-        for first in range(self.first - slack, self.first + slack + 1, stride):
-            for last in range(self.last + 1 - slack, self.last + 2 + slack, stride):
-                span = first - self.begin, last - self.begin
-                if 0 <= span[0] < span[1] <= inside:
-                    yield span
+        return self._within(self.first, self.last + 1, reach=slack, stride=stride)
+
+    def spans_near(self, span: tuple[int, int], *, slack: int) -> list[tuple[int, int]]:
+        """The same, to the sample, about the best of ``spans``."""
+        first, last = span
+        return self._within(
+            self.begin + first, self.begin + last, reach=max(1, slack // 3) - 1, stride=1
+        )
+
+    def _within(self, first: int, last: int, *, reach: int, stride: int) -> list[tuple[int, int]]:
+        return [
+            (begin - self.begin, end - self.begin)
+            for begin in range(first - reach, first + reach + 1, stride)
+            for end in range(last - reach, last + reach + 1, stride)
+            if self.begin <= begin < end <= self.end
+        ]
 
     def explained(self, shape: Array) -> float:
         """The share of what is left that a shape (end - begin,) explains; below 0 it is worse."""
@@ -121,7 +135,8 @@ def surprises(
         begin = first_motion(run, still=still)
         since = run.time - run.time[begin]
         early = ONSET * (since < SETTLED)
-        within = (WITHIN + early) / balance.kv + SHARE * np.abs(expected[index]) + sigma
+        late = LATE * np.abs(np.gradient(expected[index], run.time))
+        within = (WITHIN + early) / balance.kv + SHARE * np.abs(expected[index]) + late + sigma
         stray = run.velocity - expected[index]
         stray -= _slow(stray, within)
         far = np.abs(_average(stray, wide)) > within
@@ -134,7 +149,14 @@ def surprises(
             part = slice(max(first - around, begin), min(last + around + 1, len(run)))
             found.append(
                 Surprise(
-                    index, first, last, part.start, part.stop, stray[part], expected[index][part]
+                    index,
+                    first,
+                    last,
+                    part.start,
+                    part.stop,
+                    stray[part],
+                    expected[index][part],
+                    starting=bool(since[first] < STARTING[0] * balance.timescale + STARTING[1]),
                 )
             )
     return tuple(

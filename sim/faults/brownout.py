@@ -24,8 +24,11 @@ CUT = 0.3  # [s] without motors at severity 1
 DIP = 6.0  # [V] of the bus while it lasts: below every controller's threshold
 RECOVERED = 7.5  # [V] where a controller lets the motors go on
 SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
+MOVED = 5  # [samples] before a cut in which it was on its way
 ENDS = 12  # ends of the cut that are tried at first
 BELIEVED = 0.7  # [share explained] less is something else
+FREE = 4.0  # a shape without a size to choose counts this much more than one that has it
+SURE = 0.9  # [share explained] at the start of a run, where current limits look alike
 FASTEST = 1.2  # [times the usual speed] a cut can make what falls go, before the model is in doubt
 
 
@@ -34,7 +37,8 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     clues = Clues(log)
     run = log.runs[blow.run]
     start = float(run.time[0]) + blow.start
-    end = min(start + CUT * blow.severity * rng.uniform(0.9, 1.1), float(run.time[-1]))
+    lasts = CUT * blow.severity * rng.uniform(0.9, 1.1)
+    end = start + min(lasts, (float(run.time[-1]) - start) / 2.0)
     cut = (run.time >= start) & (run.time < end)
     if clues.balance is None or not cut.any():
         return Spoilt(log, ())
@@ -62,18 +66,21 @@ def detect(clues: Clues) -> Iterable[Damage]:
         if surprise.again:
             continue
         share, first, last = _best(clues, surprise)
-        if share < BELIEVED:
-            continue
         run = clues.log.runs[surprise.run]
+        before = np.abs(run.velocity[max(first - MOVED, 0) : first])
+        moved = before.size > 0 and float(np.median(before)) > clues.still
+        if share < (SURE if surprise.starting else BELIEVED) or not moved:
+            continue
         start = float(run.time[first])
         end = float(run.time[min(last, len(run) - 1)])
+        back = last < len(run) - 1  # a stop it has run into would not let it go on
         bus = None if run.bus_voltage is None else float(run.bus_voltage[first:last].min())
         seen = bus is not None and bus < RECOVERED
         said = f"; the bus is down to {bus:.1f} V" if seen else ""
         yield Damage(
             fault="brownout",
             where=Stretch(surprise.run, run.test, start, end),
-            confidence=1.0 - (1.0 - share) * (0.5 if seen else 1.0),
+            confidence=1.0 - (1.0 - share) / (FREE if back else 1.0) / (1.0 + seen),
             evidence=f"For {end - start:.2f} s it moves as if no voltage were applied, while the "
             f"log tells {abs(float(np.median(run.voltage[first:last]))):.1f} V{said}.",
             advice="Charge or change the battery, set supply current limits, and run this test "

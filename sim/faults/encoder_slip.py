@@ -30,7 +30,7 @@ SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
 BRIEF = 0.15  # [s] a longer surprise that swells and fades is no slip
 LEAST = 0.15  # [share of the speed] a smaller loss is not told from an effect
 BACK = 2  # [samples] that read right again before the run ends
-BELIEVED = 0.7  # [share explained] less is something else
+BELIEVED = 0.92  # [share explained] less is something else
 
 
 def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
@@ -55,7 +55,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
 def detect(clues: Clues) -> Iterable[Damage]:
     """Find surprises that a share of the speed explains, which goes and comes back at once."""
     for surprise in clues.surprises:
-        if surprise.again:
+        if surprise.again or surprise.starting:
             continue
         share, loss, first, last = _best(surprise, clues.period)
         run = clues.log.runs[surprise.run]
@@ -76,19 +76,42 @@ def detect(clues: Clues) -> Iterable[Damage]:
 
 
 def _best(surprise: Surprise, period: float) -> tuple[float, float, int, int]:
-    """Share explained, share of the speed lost, first sample and the one behind the last."""
+    """Share explained, share of the speed lost, first sample and the one behind the last.
+
+    What swells and fades over a longer time is no slip, whatever share of it a slip explains.
+    """
+    sudden, swelling = (
+        _over_spans(surprise, swells=swells, slack=max(3, round(SLACK / period)))
+        for swells in (False, True)
+    )
+    if swelling[0] <= sudden[0]:
+        return sudden
+    brief = (swelling[3] - swelling[2]) * period <= BRIEF
+    return swelling if brief else (0.0, *sudden[1:])
+
+
+def _over_spans(surprise: Surprise, *, swells: bool, slack: int) -> tuple[float, float, int, int]:
+    """The same over all spans, for one of the two shapes."""
     best = (0.0, 0.0, 0, 1)
-    for first, last in surprise.spans(slack=max(3, round(SLACK / period))):
-        brief = (last - first) * period <= BRIEF
-        for window in (np.ones(last - first), np.hanning(last - first + 2)[1:-1])[: 1 + brief]:
-            shape = np.zeros(surprise.left.size)
-            shape[first:last] = window * surprise.expected[first:last]
-            size = float(shape @ shape)
-            loss = -float(shape @ surprise.left) / size if size > 0.0 else 0.0
-            share = surprise.explained(-loss * shape)
-            if share > best[0]:
-                best = (share, loss, first, last)
+    for span in surprise.spans(slack=slack):
+        best = max(best, _loss(surprise, span, swells=swells))
+    for span in surprise.spans_near(best[2:], slack=slack):
+        best = max(best, _loss(surprise, span, swells=swells))
     return best
+
+
+def _loss(
+    surprise: Surprise, span: tuple[int, int], *, swells: bool
+) -> tuple[float, float, int, int]:
+    """The same for one span: all at once, or swelling and fading."""
+    first, last = span
+    shape = np.zeros(surprise.left.size)
+    shape[first:last] = surprise.expected[first:last]
+    if swells:
+        shape[first:last] *= np.hanning(last - first + 2)[1:-1]
+    size = float(shape @ shape)
+    loss = -float(shape @ surprise.left) / size if size > 0.0 else 0.0
+    return (surprise.explained(-loss * shape), loss, first, last)
 
 
 FAULT = Fault(
