@@ -22,6 +22,9 @@ DRIVEN = 0.05  # [share of a run's largest voltage] less is the time before and 
 AGREED = 0.6  # [mean of the signs] where 4 of 5 samples agree, a run has that sign
 RISEN = 0.632  # [share of the top speed] that one timescale brings
 MOVING = 0.1  # [share of a run's top speed] slower samples say little about how it moves
+STEPS, CREEP = 1.5, 1e-4  # [smallest steps of the position, share of its way] within: it stands
+PARTS = 10  # of a run's motion, judged one by one: a slip or a stop bends one or two of them
+FAR = 0.1  # [share of the longest part's distance] what a part must go to be judged
 Flags: TypeAlias = NDArray[np.bool_]
 Counts: TypeAlias = NDArray[np.intp]
 
@@ -73,6 +76,20 @@ class Clues:
         and motion disagree, and everything about a test that is neither a ramp nor a step.
         """
         return tuple(_seems(run) for run in self.log.runs)
+
+    @cached_property
+    def standing(self) -> tuple[int, ...]:
+        """Per run, how many samples its position stands from the start; 0 if it never leaves."""
+        return tuple(_standing(run, step=self.position_step) for run in self.log.runs)
+
+    @cached_property
+    def scales(self) -> tuple[float, ...]:
+        """Per run, the distance its velocities sum up to over what its position changes.
+
+        1 where a run moves too little to tell.
+        """
+        both = zip(self.log.runs, self.moving, strict=True)
+        return tuple(_scale(run, moving) for run, moving in both)
 
     @cached_property
     def noise(self) -> float:
@@ -173,6 +190,27 @@ def _seems(run: Run) -> str:
     if pushed * moved <= 0:
         return f"{kind}-{run.direction}"
     return f"{kind}-{'forward' if pushed > 0 else 'reverse'}"
+
+
+def _standing(run: Run, *, step: float) -> int:
+    band = max(STEPS * step, CREEP * float(np.ptp(run.position))) if len(run) else 0.0
+    away = np.abs(run.position - run.position[:1]) > band
+    return int(np.argmax(away)) if away.any() else 0
+
+
+def _scale(run: Run, moving: Flags) -> float:
+    """By the usual part of the motion: single slopes of a stale or coarse position mislead."""
+    motion = np.flatnonzero(moving)
+    if motion.size < 2 * PARTS:
+        return 1.0
+    ends = np.linspace(motion[0], motion[-1], PARTS + 1).astype(int)
+    steps = np.diff(run.time) * 0.5 * (run.velocity[1:] + run.velocity[:-1])
+    summed = np.diff(np.concatenate(([0.0], np.cumsum(steps)))[ends])
+    changed = np.diff(run.position[ends])
+    far = np.abs(changed) > FAR * np.abs(changed).max()
+    if far.sum() < PARTS // 2:
+        return 1.0
+    return float(np.median(np.abs(summed[far] / changed[far])))
 
 
 def _rise(run: Run) -> float:

@@ -19,35 +19,34 @@ import numpy as np
 from sim.clues import Clues, top_speed
 from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
 from sim.log import Array, Log, Run
-from sim.prepare import NOISE_WINDOW, noise_floor
+from sim.prepare import noise_floor
 
 ORDINARY = 0.06  # [share of the log's top speed] standard deviation at severity 1
 LOUD = 0.014  # [share of the log's top speed] less is a doubt rather than a fault
 FEWEST = 8  # [samples] standing; fewer do no harm
 ADDED = 0.8  # [s] of standstill put before a test that starts in motion; the log pauses for longer
-CREEP = 1e-4  # [share of a run's way] within which it stands
-STEPS = 1.5  # [smallest steps of the position] the same, for a coarse encoder
 HERE = 0.3  # [share of the log's noise at rest] that a run must have to be named
 SURE = 3.0  # [times LOUD] at which the confidence is 0.95
 
 
 def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     """Let the velocity tremble while the mechanism stands, in every quasistatic test."""
-    step = Clues(log).position_step
+    ramps = [i for i, run in enumerate(log.runs) if run.kind == "quasistatic"]
+    still = Clues(log).standing
+    if all(still[i] < FEWEST for i in ramps):
+        rested = (_with_rest(run) if i in ramps else run for i, run in enumerate(log.runs))
+        log = replace(log, runs=tuple(rested))
+        still = Clues(log).standing
     runs = list(log.runs)
-    ramps = [i for i, run in enumerate(runs) if run.kind == "quasistatic"]
-    if all(standing(runs[i], step=step) < FEWEST for i in ramps):
-        runs = [_with_rest(run) if i in ramps else run for i, run in enumerate(runs)]
     size = ORDINARY * blow.severity * max(map(top_speed, runs))
     where = []
     for index in ramps:
         run = runs[index]
-        still = standing(run, step=step)
-        if still >= FEWEST:
+        if still[index] >= FEWEST:
             velocity = run.velocity.copy()
-            velocity[:still] += size * rng.standard_normal(still)
+            velocity[: still[index]] += size * rng.standard_normal(still[index])
             runs[index] = replace(run, velocity=velocity)
-            where.append(_stretch(index, run, still))
+            where.append(_stretch(index, run, still[index]))
     return Spoilt(replace(log, runs=tuple(runs)), tuple(where))
 
 
@@ -56,7 +55,7 @@ def detect(clues: Clues) -> Iterable[Damage]:
     top = max(map(top_speed, clues.log.runs), default=0.0)
     rests = {}
     for index, run in enumerate(clues.log.runs):
-        still = standing(run, step=clues.position_step) if run.kind == "quasistatic" else 0
+        still = clues.standing[index] if run.kind == "quasistatic" else 0
         if still >= FEWEST:
             rests[index] = run.velocity[:still]
     noise = _noise(list(rests.values()))
@@ -72,15 +71,6 @@ def _noise(rests: list[Array]) -> float:
     """[m/s or rad/s] standard deviation of what trembles, whatever drifts; 0 if nothing stands."""
     steps = np.concatenate([np.diff(rest) for rest in rests] or [np.zeros(1)])
     return float(np.sqrt(np.mean(steps**2) / 2.0))
-
-
-def standing(run: Run, *, step: float) -> int:
-    """How many samples the position stands from the start; ``step`` [m or rad] is its smallest."""
-    if len(run) <= NOISE_WINDOW:
-        return 0
-    band = max(STEPS * step, CREEP * float(np.ptp(run.position)))
-    away = np.abs(run.position - run.position[0]) > band
-    return int(np.argmax(away)) if away.any() else 0
 
 
 def _with_rest(run: Run) -> Run:

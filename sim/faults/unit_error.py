@@ -17,15 +17,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues, Flags
+from sim.clues import Clues
 from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
 from sim.log import Log, Run
 
 TURN = 2.0 * math.pi
 NEAR = 0.05  # [share] how closely a factor must be met; slip and filters bend it less
 FAR = 1.8  # [times] a factor that is none of the known ones but too large to be a bent measurement
-PARTS = 10  # of a run's motion, judged one by one: a slip or a stop bends one or two of them
-FAR_ENOUGH = 0.1  # [share of the longest part's distance] what a part must go to be judged
 
 KNOWN: Mapping[str, float] = {
     "2π, radians for rotations": TURN,
@@ -55,8 +53,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
 
 def detect(clues: Clues) -> Iterable[Damage]:
     """Divide what the velocities sum up to by what the position changes, and look it up."""
-    for index, run in enumerate(clues.log.runs):
-        ratio = _ratio(run, clues.moving[index])
+    for index, (run, ratio) in enumerate(zip(clues.log.runs, clues.scales, strict=True)):
         said = _named(ratio)
         if said:
             yield Damage(
@@ -67,24 +64,6 @@ def detect(clues: Clues) -> Iterable[Damage]:
                 advice="Set both conversion factors of the encoder alike, and divide the recorded "
                 f"velocity by {ratio:.4g}.",
             )
-
-
-def _ratio(run: Run, moving: Flags) -> float:
-    """Distance by velocity over distance by position, in the usual part of the motion; else 1.
-
-    Distances of whole parts, because single slopes of a stale or coarse position mislead.
-    """
-    motion = np.flatnonzero(moving)
-    if motion.size < 2 * PARTS:
-        return 1.0
-    ends = np.linspace(motion[0], motion[-1], PARTS + 1).astype(int)
-    steps = np.diff(run.time) * 0.5 * (run.velocity[1:] + run.velocity[:-1])
-    summed = np.diff(np.concatenate(([0.0], np.cumsum(steps)))[ends])
-    changed = np.diff(run.position[ends])
-    far = np.abs(changed) > FAR_ENOUGH * np.abs(changed).max()
-    if far.sum() < PARTS // 2:
-        return 1.0
-    return float(np.median(np.abs(summed[far] / changed[far])))
 
 
 def _named(ratio: float) -> str:
