@@ -11,12 +11,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.log import Array, Run
 
 WINDOW = 0.1  # [s] a row of the balance; at least three samples
 ROWS = 150  # per run: more tell no more
-START = 0.6  # [s] after a step of voltage: where acceleration tells kA
+START, FADES = 0.6, 0.15  # [s] after a step of voltage its acceleration tells kA, first of all
+AGREES = 0.5  # [V] a row that is further off than this is not any further off
 STEP = 0.5  # [share of the largest voltage] a change this large within two samples is a step
 ROUNDS, GENTLE = 8, 3  # reweightings in all, and those that only lessen a far row's vote
 TUNING = 4.685  # [robust deviations] where Tukey's weight reaches zero
@@ -102,13 +104,16 @@ def weigh(runs: Sequence[Run], *, still: float, period: float) -> Balance | None
     """
     parts = [_rows(run, still=still, period=period) for run in runs]
     rows = np.concatenate([part for part in parts if part.size] or [np.zeros((0, 8))])
+    part = np.repeat(np.arange(len(parts)), [len(one) for one in parts])
     if len(rows) < FEWEST:
         return None
-    volts, terms, start = rows[:, 0], rows[:, 1:7], rows[:, 7] > 0.0
+    volts, terms, start = rows[:, 0], rows[:, 1:7], rows[:, 7]
     scale = np.maximum(np.sqrt(np.mean(terms**2, axis=0)), 1e-300)
     gains = _robust(terms / scale, volts) / scale
     for _ in range(3):  # kA by the starts of steps alone, where it shows; the rest without it
-        gains[1] = _acceleration(volts - np.delete(terms, 1, 1) @ np.delete(gains, 1), terms, start)
+        gains[1] = _acceleration(
+            volts - np.delete(terms, 1, 1) @ np.delete(gains, 1), terms, start, part
+        )
         if not np.isfinite(gains[1]):
             return None
         rest = np.delete(terms / scale, 1, 1)
@@ -124,7 +129,7 @@ def weigh(runs: Sequence[Run], *, still: float, period: float) -> Balance | None
 
 
 def _rows(run: Run, *, still: float, period: float) -> Array:
-    """(m, 8): volts, their six causes, and whether a step of voltage is just behind."""
+    """(m, 8): volts, their six causes, and how much a row tells of kA."""
     wide = max(3, round(WINDOW / period)) if period > 0.0 else 3
     last = len(run) - wide
     if last < 1:
@@ -162,7 +167,7 @@ def _rows(run: Run, *, still: float, period: float) -> Array:
 
 
 def _after_step(run: Run) -> Array:
-    """(n,) 1 where the voltage has made a step within the last moments, else 0."""
+    """(n,) what a sample tells of kA: 1 just after a step of the voltage, less later, then 0."""
     size = float(np.max(np.abs(run.voltage), initial=0.0))
     jump = np.abs(run.voltage - np.concatenate(([0.0, 0.0], run.voltage[:-2])))[: len(run)]
     at = np.flatnonzero(jump > STEP * size) if size > 0.0 else np.zeros(0, dtype=np.intp)
@@ -170,24 +175,35 @@ def _after_step(run: Run) -> Array:
     if at.size:
         latest = np.searchsorted(at, np.arange(len(run)), side="right") - 1
         ago = run.time - run.time[at[np.maximum(latest, 0)]]
-        after[(latest >= 0) & (ago < START)] = 1.0
+        soon = (latest >= 0) & (ago < START)
+        after[soon] = np.exp(-ago[soon] / FADES)
     return after
 
 
-def _acceleration(
-    left: Array, terms: Array, start: "np.ndarray[tuple[int], np.dtype[np.bool_]]"
-) -> float:
-    """KA as most rows that accelerate after a step want it: their weighted median."""
+def _acceleration(left: Array, terms: Array, start: Array, part: NDArray[np.int_]) -> float:
+    """KA as the rows after a step want it: of what each run wants, that which suits most of all."""
     change = terms[:, 1]
-    with_it = start & (np.sign(change) == np.sign(terms[:, 0])) & (change != 0.0)
-    if not with_it.any():
-        with_it = np.sign(change) == np.sign(terms[:, 0])
-    if not with_it.any():
-        return float("nan")
-    ratio, weight = left[with_it] / change[with_it], np.abs(change[with_it])
-    order = np.argsort(ratio)
-    share = np.cumsum(weight[order])
-    return float(ratio[order][np.searchsorted(share, 0.5 * share[-1])])
+    with_it = (np.sign(change) == np.sign(terms[:, 0])) & (change != 0.0)
+    if np.any(with_it & (start > 0.0)):
+        with_it &= start > 0.0
+    else:
+        start = np.ones(start.size)
+    left, change, start, part = left[with_it], change[with_it], start[with_it], part[with_it]
+    wanted = [
+        _weighted_median(left[mine] / change[mine], np.abs(change[mine]) * start[mine])
+        for mine in (part == one for one in np.unique(part))
+    ]
+    return min(
+        wanted,
+        key=lambda ka: float(start @ np.minimum(np.abs(left - ka * change), AGREES)),
+        default=float("nan"),
+    )
+
+
+def _weighted_median(values: Array, weights: Array) -> float:
+    order = np.argsort(values)
+    share = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(share, 0.5 * share[-1])])
 
 
 def _robust(terms: Array, volts: Array) -> Array:

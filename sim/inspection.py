@@ -3,9 +3,10 @@
     inspect(log).damages
 
 Each fault of ``sim/faults`` looks at the same clues. Where two of them explain the same moment, the
-more confident one is believed: a moment's damage has one cause.
+one that explains more of it is believed: a moment's damage has one cause.
 """
 
+import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -15,6 +16,8 @@ from sim.doubt import Doubt
 from sim.fault import Damage
 from sim.faults import FAULTS
 from sim.log import Log
+
+CERTAIN = 1e-3  # [1] nothing is surer than this, for all that two explanations are compared
 
 
 @dataclass(frozen=True)
@@ -72,15 +75,21 @@ def inspect(log: Log) -> Inspection:
 
 
 def _settled(found: Iterable[Damage]) -> list[Damage]:
-    """The damages without those whose moment a more confident one of another fault explains.
+    """The damages without those whose moment another fault explains better.
 
     What spoils whole runs, or the time, stands beside what happens to the motion in a moment.
     """
     kept: list[Damage] = []
-    for damage in sorted(found, key=lambda damage: -damage.confidence):
+    for damage in sorted(found, key=_weight, reverse=True):
         if not any(_rivals(damage, other) for other in kept):
             kept.append(damage)
     return kept
+
+
+def _weight(damage: Damage) -> float:
+    """How much a damage explains, as a likelihood counts: its length, and what it leaves over."""
+    left = max(1.0 - damage.confidence, CERTAIN)
+    return (damage.where.end - damage.where.start) * -math.log(left)
 
 
 def _rivals(one: Damage, other: Damage) -> bool:

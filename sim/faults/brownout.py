@@ -28,6 +28,7 @@ MOVED = 5  # [samples] before a cut in which it was on its way
 ENDS = 12  # ends of the cut that are tried at first
 BELIEVED = 0.7  # [share explained] less is something else
 FREE = 4.0  # a shape without a size to choose counts this much more than one that has it
+NOT_BACK = 0.9  # a cut that lasts to the end of the run may be a stop it has run into
 SURE = 0.9  # [share explained] at the start of a run, where current limits look alike
 FASTEST = 1.2  # [times the usual speed] a cut can make what falls go, before the model is in doubt
 
@@ -73,19 +74,26 @@ def detect(clues: Clues) -> Iterable[Damage]:
             continue
         start = float(run.time[first])
         end = float(run.time[min(last, len(run) - 1)])
-        back = last < len(run) - 1  # a stop it has run into would not let it go on
+        back = bool(np.any(np.abs(run.velocity[last:]) > 2.0 * clues.still))
         bus = None if run.bus_voltage is None else float(run.bus_voltage[first:last].min())
         seen = bus is not None and bus < RECOVERED
         said = f"; the bus is down to {bus:.1f} V" if seen else ""
         yield Damage(
             fault="brownout",
             where=Stretch(surprise.run, run.test, start, end),
-            confidence=1.0 - (1.0 - share) / (FREE if back else 1.0) / (1.0 + seen),
+            confidence=_confidence(share, back=back, seen=seen),
             evidence=f"For {end - start:.2f} s it moves as if no voltage were applied, while the "
             f"log tells {abs(float(np.median(run.voltage[first:last]))):.1f} V{said}.",
             advice="Charge or change the battery, set supply current limits, and run this test "
             "again; log the applied voltage, not the commanded one.",
         )
+
+
+def _confidence(share: float, *, back: bool, seen: bool) -> float:
+    """More than the share explained, as nothing was chosen to fit; less if it never came back."""
+    if not back and not seen:
+        return NOT_BACK * share
+    return 1.0 - (1.0 - share) / (FREE * (1.0 + seen))
 
 
 def _best(clues: Clues, surprise: Surprise) -> tuple[float, int, int]:

@@ -29,6 +29,8 @@ SKIP = 1.3  # [times the speed] that a tooth skipped at severity 1 takes off or 
 SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
 BRIEF = 0.15  # [s] a longer surprise that swells and fades is no slip
 LEAST = 0.15  # [share of the speed] a smaller loss is not told from an effect
+SURE = 0.97  # the same at the start of a run, and of a few samples, where less proves nothing
+FEWEST = 3  # [samples]
 BACK = 2  # [samples] that read right again before the run ends
 BELIEVED = 0.92  # [share explained] less is something else
 
@@ -55,12 +57,13 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
 def detect(clues: Clues) -> Iterable[Damage]:
     """Find surprises that a share of the speed explains, which goes and comes back at once."""
     for surprise in clues.surprises:
-        if surprise.again or surprise.starting:
+        if surprise.again:
             continue
         share, loss, first, last = _best(surprise, clues.period)
         run = clues.log.runs[surprise.run]
         back = surprise.begin + last <= len(run) - BACK
-        if share < BELIEVED or abs(loss) < LEAST or not back:
+        proof = SURE if surprise.starting or last - first < FEWEST else BELIEVED
+        if share < proof or abs(loss) < LEAST or not back:
             continue
         start, end = (float(run.time[surprise.begin + i]) for i in (first, last - 1))
         yield Damage(

@@ -31,7 +31,7 @@ HELD = 0.4  # [share of the step] that the tires hold at severity 1
 LIGHT = 0.1  # [share of kA] that is the wheels' and rotors' own
 SPIN = 8.0  # [times the plain speed] that wheels spin up to at most in a sample
 LIMITED = 0.9  # [share of the push] a step that never shows more starts under a current limit
-SHOWS = 2.5  # [samples] a shorter slip cannot be seen
+SHOWS = 5.0  # [samples] a shorter slip cannot be seen
 STARTS = 0.1  # [timescales] after which a plain rise is seen to move
 ALL = np.array((10.0,))  # [share of the step] tires that hold it all
 SOME = np.arange(0.05, 0.75, 0.05)  # the same, of tires that do not
@@ -41,6 +41,7 @@ LIMITS = (1.0, 0.8, 0.6, 0.45, 0.3)  # [share of the step] that current limits l
 FINE = 8  # steps per sample in which wheels are spun up
 ON = 0.3  # [share of the largest voltage] from here on a step has come
 LASTS = 6.0  # [timescales] after which a step has nothing more to say
+LEAST = 15  # [samples] of it that are looked at in any case
 SAMPLES = 60  # of a rise that are looked at; more tell no more
 FEWEST = 6  # [samples] of a rise; fewer cannot show a lull
 BELIEVED = 0.8  # [share explained] of what a plain rise leaves unexplained
@@ -101,7 +102,8 @@ def detect(clues: Clues) -> Iterable[Damage]:
         if run.kind != "dynamic" or len(run) < FEWEST:
             continue
         first = _step(run)
-        end = int(np.searchsorted(run.time, run.time[first] + LASTS * clues.balance.timescale))
+        lasts = max(LASTS * clues.balance.timescale, LEAST * clues.period)
+        end = int(np.searchsorted(run.time, run.time[first] + lasts))
         if end - first < FEWEST:
             continue
         part = slice(first, end, max(1, (end - first) // SAMPLES))
