@@ -24,6 +24,7 @@ RISEN = 0.632  # [share of the top speed] that one timescale brings
 MOVING = 0.1  # [share of a run's top speed] slower samples say little about how it moves
 STEPS, CREEP = 1.5, 1e-4  # [smallest steps of the position, share of its way] within: it stands
 PARTS = 10  # of a run's motion, judged one by one: a slip or a stop bends one or two of them
+TINY = 1e-12  # [times] no scale, for the logarithm of one
 FAR = 0.1  # [share of the longest part's distance] what a part must go to be judged
 Flags: TypeAlias = NDArray[np.bool_]
 Counts: TypeAlias = NDArray[np.intp]
@@ -210,7 +211,9 @@ def _scale(run: Run, moving: Flags) -> float:
     far = np.abs(changed) > FAR * np.abs(changed).max()
     if far.sum() < PARTS // 2:
         return 1.0
-    return float(np.median(np.abs(summed[far] / changed[far])))
+    usual = float(np.median(np.abs(summed[far] / changed[far])))
+    whole = float(np.abs(summed[far]).sum() / np.abs(changed[far]).sum())  # frames may be long
+    return min(usual, whole, key=lambda scale: abs(np.log(max(scale, TINY))))
 
 
 def _rise(run: Run) -> float:

@@ -60,20 +60,33 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:  # noqa: AR
 
 
 def detect(clues: Clues) -> Iterable[Damage]:
-    """Find perfect steps that the mechanism starts as if it did not get all of them."""
+    """Find perfect steps that the mechanism starts as if it did not get all of them.
+
+    A limit knows no direction: where only one of several steps starts like that, it had an accident
+    of its own.
+    """
+    found, judged = [], 0
     for index, run in enumerate(clues.log.runs):
         first = _step(run) if run.kind == "dynamic" else None
         start = None if first is None else _start(clues, index, first)
         if start is None:
             continue
-        free = _search(start, lacks=np.zeros(1))
-        if free.error < BENT * start.length:
-            continue
-        held = _search(start, lacks=np.linspace(0.0, 0.9, 10))
-        believed = held.lacks > FLAT and 1.0 / TRUE < held.scale < TRUE
-        left = (held.error / free.error) ** 2
-        if believed and left < BETTER:
-            yield _damage(index, run, held, left=left)
+        judged += 1
+        damage = _limited(index, run, start)
+        if damage is not None:
+            found.append(damage)
+    return found if len(found) >= min(judged, 2) else []
+
+
+def _limited(index: int, run: Run, start: "_Start") -> Damage | None:
+    """What a limit explains of a start, if it does."""
+    free = _search(start, lacks=np.zeros(1))
+    if free.error < BENT * start.length:
+        return None
+    held = _search(start, lacks=np.linspace(0.0, 0.9, 10))
+    left = (held.error / free.error) ** 2
+    believed = held.lacks > FLAT and 1.0 / TRUE < held.scale < TRUE
+    return _damage(index, run, held, left=left) if believed and left < BETTER else None
 
 
 @dataclass(frozen=True, eq=False)

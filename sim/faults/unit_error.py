@@ -23,7 +23,7 @@ from sim.log import Log, Run
 
 TURN = 2.0 * math.pi
 NEAR = 0.05  # [share] how closely a factor must be met; slip and filters bend it less
-FAR = 1.8  # [times] a factor that is none of the known ones but too large to be a bent measurement
+FAR = 2.5  # [times] a factor that is none of the known ones but too large to be a bent measurement
 
 KNOWN: Mapping[str, float] = {
     "2π, radians for rotations": TURN,

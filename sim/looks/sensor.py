@@ -21,7 +21,7 @@ PASSES = 0.1  # [share of a ramp's rows] that may stand and be taken for motion
 SCALE = 0.03  # [share] by which velocity and position may differ
 FASTEST = 60.0  # [m/s] nothing on a robot is faster
 FULL = 12.0  # [V]
-FAR = 1.8  # [times] what is this far off is a fault, not a look
+FAR = 2.5  # [times] what is this far off is a fault, not a look
 
 
 def lags(clues: Clues) -> list[Doubt]:
