@@ -13,6 +13,7 @@ from grader.foreground import INTERRUPTED, run
 from grader.report import overview
 from grader.terminal import line, show
 from sim.command import COULD_NOT, DONE
+from sim.engine import compiled, ready
 from sim.errors import BadRequest
 
 # Nothing leaves the machine: no news, no look for updates, no catalogue of extensions. And no chat.
@@ -43,6 +44,9 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     show([line("Welcome to the SysId course.", "bold"), line()])
     show([*overview(course, found, progress, student=student), line()])
     sys.stdout.flush()
+    if not compiled():
+        _say("Compiling the simulation, once; this takes about ten seconds…")
+        ready()
     for one in found:
         one.prepare(student, say=_say)
     command = "grade"

@@ -1,7 +1,7 @@
 """The battery under load, and the robot controller that takes the motors off when it sinks too low.
 
-Thresholds are WPILib's, per controller; a brownout ends when the battery is back above ``RESUME``,
-which it is as soon as no motor draws from it.
+A brownout ends when the battery is back above a second threshold, which it is as soon as no motor
+draws from it.
 """
 
 from collections.abc import Mapping
@@ -11,14 +11,33 @@ from sim.errors import BadRequest
 
 FLATTEST, FULLEST = 9.0, 14.0  # [V] at rest: outside of this a robot does not start a test
 WORST = 0.1  # [Ω] of a battery that still turns a motor
-RESUME = 7.5  # [V] above which the motors are enabled again
 
-BROWNOUT: Mapping[str, float] = {
-    "roborio1": 6.3,  # fixed in its FPGA
-    "roborio2": 6.75,  # default; RobotController.setBrownoutVoltage changes it
-    "systemcore": 6.75,  # default; 2027's RobotController sets both thresholds
+
+@dataclass(frozen=True)
+class Controller:
+    """A robot controller's thresholds.
+
+    Args:
+        name: as on the command line.
+        brownout: [V] below which it disables the motors.
+        resume: [V] above which it enables them again.
+        source: where the figures are from.
+    """
+
+    name: str
+    brownout: float
+    resume: float
+    source: str
+
+
+CONTROLLERS: Mapping[str, Controller] = {
+    found.name: found
+    for found in (
+        Controller("roborio1", 6.3, 7.5, "frc-docs, roboRIO brownouts: fixed"),
+        Controller("roborio2", 6.75, 7.5, "frc-docs: default of RobotController's setting"),
+        Controller("systemcore", 6.75, 7.25, "WPILib 2027's simulation: defaults of both settings"),
+    )
 }
-"""Robot controller -> [V] below which it disables the motors."""
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.battery import BROWNOUT, Battery
+from sim.battery import CONTROLLERS, Battery
 from sim.doubt import Doubt
 from sim.log import Log
 from sim.mechanism import Mechanism
@@ -22,7 +22,7 @@ from sim.simulate import simulate
 __all__ = ["Battery", "by_duty_cycle"]
 
 HEALTHY = Battery()
-LOWEST = BROWNOUT["roborio2"]  # [V]
+LOWEST = CONTROLLERS["roborio2"].brownout  # [V]
 
 
 def by_duty_cycle(

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from sim.battery import Battery
+from sim.battery import CONTROLLERS, Battery
 from sim.effect import Scale
 from sim.effects import effect as find
 from sim.errors import BadRequest
@@ -101,7 +101,7 @@ class Mechanism:
     battery: Battery = field(default=Battery())
     stator: float = 120.0  # Phoenix 6's default
     supply: float = 70.0  # the same
-    brownout: float = 6.75  # roboRIO 2's default
+    brownout: float = CONTROLLERS["roborio2"].brownout
     hidden: tuple[Part, ...] = field(default=())
 
     @property

@@ -1,11 +1,13 @@
 """``sysid simulate``."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from sim.battery import CONTROLLERS, Battery
 from sim.cli.options import FILE
 from sim.errors import BadRequest, Refusal
 from sim.vocabulary import KINDS
@@ -45,6 +47,18 @@ if TYPE_CHECKING:
     metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
     help="Damage to the record; once for each. `sysid faults` lists them.",
 )
+@click.option(
+    "--battery",
+    metavar="VOLTS[:OHMS]",
+    help="Voltage at rest and resistance, wires included.  [default: the mechanism's, 12.6:0.02]",
+)
+@click.option(
+    "--controller",
+    type=click.Choice(tuple(CONTROLLERS)),
+    default="roborio2",
+    show_default=True,
+    help="Whose brownout takes the motors off.",
+)
 @click.option("--vary", is_flag=True, help="Draw another mechanism of its kind.")
 @click.option("--electrical", is_flag=True, help="Record current and battery voltage, too.")
 @click.option("--seed", type=int, help="Same seed, same log; a new log every time without.")
@@ -59,6 +73,8 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     tests: str,
     hide: tuple[str, ...],
     faults: tuple[str, ...],
+    battery: str | None,
+    controller: str,
     vary: bool,  # noqa: FBT001 - click passes it by name
     electrical: bool,  # noqa: FBT001 - the same
     seed: int | None,
@@ -83,7 +99,8 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     # chance has a stream for each thing it decides, so that a fault leaves the motion as it was
     motion, damage, another = np.random.default_rng(seed), *np.random.default_rng(seed).spawn(2)
     built = find(mechanism)
-    built = _hiding(built.draw(another) if vary else built, hide)
+    built = _fed(built.draw(another) if vary else built, battery, controller)
+    built = _hiding(built, hide)
     log = record(built, routine, rng=motion, period=period, electrical=electrical)
     log, where = _damaged(log, faults, damage)
     if truth:
@@ -97,6 +114,21 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     samples = sum(len(part) for part in log.runs)
     after = "inspect" if faults else "fit"
     click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: sysid {after} {output}")
+
+
+def _fed(mechanism: "Mechanism", battery: str | None, controller: str) -> "Mechanism":
+    """The mechanism on a battery asked for as ``VOLTS`` or ``VOLTS:OHMS``."""
+    stop = CONTROLLERS[controller].brownout
+    if battery is None:
+        return replace(mechanism, brownout=stop)
+    rest, colon, ohms = battery.partition(":")
+    try:
+        fed = Battery(float(rest), float(ohms) if colon else mechanism.battery.resistance)
+    except ValueError:
+        raise BadRequest(
+            f"{battery!r} is no battery", advice="Write VOLTS[:OHMS], as 12.2:0.035."
+        ) from None
+    return replace(mechanism, battery=fed, brownout=stop)
 
 
 def _hiding(mechanism: "Mechanism", asked: Iterable[str]) -> "Mechanism":

@@ -27,7 +27,7 @@ from sim.engine.stepping import (
 from sim.log import Array
 from sim.model import Model
 
-__all__ = ["COARSEST", "NO_WIRES", "State", "Track", "finest", "move", "ready"]
+__all__ = ["COARSEST", "NO_WIRES", "State", "Track", "compiled", "finest", "move", "ready"]
 
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
 # middle rule is then far below a thousandth for anything slower than 10 ms
@@ -105,7 +105,7 @@ def move(
     out = empty(time.size)
     simple = not model.parts and not wires.any() and model.type != "arm"
     longest = step or (math.inf if simple else finest(model))
-    kernel = _plain() if plain else ready()
+    kernel = _plain() if plain else _compiled()
     kernel.move(
         np.ascontiguousarray(time), np.ascontiguousarray(voltage), state.body, constants(model),
         wires, on, parameters, state.memory, state.clock, longest, simple, out,
@@ -159,11 +159,21 @@ def finest(model: Model) -> float:
     return max(min(COARSEST, SHARE_OF_PACE * min(paces)), 5e-5)
 
 
+def compiled() -> bool:
+    """Whether the engine waits in the cache; if not, its first use takes about ten seconds."""
+    return is_compiled(EFFECTS)
+
+
+def ready() -> None:
+    """Compile the engine, or load it."""
+    gains = {"kS": 0.0, "kV": 1.0, "kA": 1.0}
+    move(Model("simple", gains), time=np.zeros(1), voltage=np.zeros(1), state=State())
+
+
 @cache
-def ready() -> ModuleType:
-    """The compiled engine; says so on a terminal when it has to be compiled first."""
-    fresh = not is_compiled(EFFECTS)
-    if fresh and sys.stderr.isatty():
+def _compiled() -> ModuleType:
+    """The compiled engine; a person at a terminal is told why the first time takes a while."""
+    if sys.stderr.isatty() and not compiled():
         sys.stderr.write("Compiling the simulation, once; this takes about ten seconds…\n")
     return compose(EFFECTS)
 

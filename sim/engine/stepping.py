@@ -229,9 +229,8 @@ def advance(
     if w[REST] != 0.0 and not off:
         u = reaches(w, asked, state[V])
         bus = bus_at(w, u, (u - w[EMF] * state[V]) / w[OHM])
-        if bus < w[STOP]:
-            state[OFF_UNTIL] = clock + CUT
-            off = True
+        if bus < w[STOP]:  # noticed now, acted on from the next step on
+            state[OFF_UNTIL] = clock + 0.5 * dt + CUT
     if share(on, p) > 0.0:
         u = double(state, c, w, on, p, memory, asked, off, after, dt)
     else:
