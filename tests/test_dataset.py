@@ -15,6 +15,7 @@ from sim.dataset.secret import Secret, find_secret
 from sim.dataset.spec import read_spec
 from sim.mechanisms import MECHANISMS
 from sim.simulate import simulate
+from sim.units import unit
 
 
 @pytest.fixture(autouse=True)
@@ -212,6 +213,36 @@ test = "quasistatic-forward"
     inside = (run.time >= overrun["start_s"] - 1e-6) & (run.time <= overrun["end_s"] + 1e-6)
     assert np.diff(run.time[inside]).max() > 1.5 * 0.02  # the gap is where the key says
     assert missing["run"] is None
+
+
+def test_a_log_holds_the_tests_that_are_asked_for(tmp_path):
+    tests = '["coast-reverse", "quasistatic-forward", "quasistatic-reverse"]'
+    text = PLAIN.replace("step = 3.0", f"step = 3.0\ntests = {tests}\nelectrical = true")
+
+    log = sim.read(make(spec(tmp_path, text)) / "log-01.wpilog")
+
+    assert [run.test for run in log.runs] == [
+        "quasistatic-forward", "quasistatic-reverse", "coast-reverse",
+    ]  # fmt: skip
+    assert all(run.current is not None and run.bus_voltage is not None for run in log.runs)
+
+
+def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
+    effect = '[[logs.effects]]\nname = ["drag", "stribeck"]\nsize = [1.5, 2.0]\n'
+    clean = files(make(spec(tmp_path), "clean"))
+
+    folder = make(spec(tmp_path, PLAIN + effect))
+
+    found = {}
+    for log in key(folder)["logs"]:
+        (hidden,) = log["hidden"]
+        built = replace(MECHANISMS[log["mechanism"]], **log["built"])
+        again = built.hiding(hidden["effect"], size=hidden["size"])
+        found[hidden["effect"]] = hidden["size"]
+        assert 1.5 <= hidden["size"] <= 2.0
+        assert again.hidden[0].said(unit(log["units"])) == hidden["parameters"]
+    assert set(found) == {"drag", "stribeck"}  # four logs with this seed draw both
+    assert not [name for name, data in files(folder).items() if clean[name] == data]
 
 
 def test_the_hash_in_the_key_is_that_of_the_file(tmp_path):

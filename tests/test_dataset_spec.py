@@ -57,7 +57,7 @@ def refusal(path):
             ", routine: a step of 13 V. Choose a number above 0, at most",
         ),
         ("step = 3.0", "period = 9.0", ", routine: period is 9.0. Give 0.0005 to 0.5 s"),
-        ("step = 3.0", "tests = 'coast'", ', routine: tests "coast" is unknown. '),
+        ("step = 3.0", "tests = 'wobble'", ', routine: tests "wobble" is unknown. '),
         ("count = 2", "count = 0", ", [[logs]] number 1: count is 0. Give a whole number from 1"),
         ("count = 2", "count = 2.5", ", [[logs]] number 1: count is 2.5. Give a whole number"),
         ("count = 2", "count = 90000", ": 180000 logs are asked for. Split it: one dataset has at"),
@@ -123,7 +123,10 @@ def test_the_second_of_a_kind_is_counted(tmp_path):
 @pytest.mark.parametrize(
     ("part", "said"),
     [
-        (EFFECT.replace("stribeck", "stribek"), "stribek"),
+        (EFFECT.replace("beck", "bek"), 'name "stribek" is unknown. Did you mean "stribeck"?'),
+        (EFFECT + "size = -1", "stribeck of size -1. Choose 0 to 5"),
+        (EFFECT + "size = 0", "size is 0. Leave the effect out"),
+        (EFFECT.replace("stribeck", "gravity-cosine"), "a drivetrain cannot have gravity-cosine: "),
         (EFFECT + "size = 'big'", 'size is "big". Give a number, or the two to draw between'),
         (EFFECT + "size = [2.0, 1.0]", "size is [2.0, 1.0]. Give a number, or the two"),
         (EFFECT + "severity = 1.0", 'unknown key "severity". Choose one of: name, size, chance'),
@@ -136,6 +139,14 @@ def test_an_impossible_effect_is_refused_before_anything_is_made(tmp_path, part,
 
     assert found.startswith(where)
     assert said in found
+
+
+def test_an_effect_cannot_be_hidden_twice_in_one_log(tmp_path):
+    second = EFFECT.replace('"stribeck"', '["drag", "stribeck"]\nchance = 0.1')
+
+    assert ", [[logs]] number 1: effect 'stribeck' might be hidden twice" in refusal(
+        spec(tmp_path, PLAIN + EFFECT + second)
+    )
 
 
 def test_a_spec_that_is_no_toml_says_in_which_line(tmp_path):
@@ -244,7 +255,11 @@ def test_logs_take_the_routine_of_the_top_but_for_what_they_change(tmp_path):
 
     (logs,) = read_spec(path).logs
 
-    assert (logs.routine.timeout, logs.routine.step, logs.period) == (1.0, 2.0, 0.01)
+    assert (logs.settings.routine.timeout, logs.settings.routine.step, logs.settings.period) == (
+        1.0,
+        2.0,
+        0.01,
+    )
 
 
 def test_a_number_is_fixed_or_drawn_between_two(tmp_path):

@@ -59,8 +59,16 @@ def make(job: Job) -> Made | Failed:
     """Make a log."""
     try:
         built = _built(job)
-        log = simulate(built, job.routine, rng=job.stream(RECORD), period=job.period)
-        kept = tuple(run for run in log.runs if run.test in job.tests)
+        asked = job.settings
+        log = simulate(
+            built,
+            asked.routine,
+            rng=job.stream(RECORD),
+            period=asked.period,
+            duty_cycle=asked.duty_cycle,
+            electrical=asked.electrical,
+        )
+        kept = tuple(run for run in log.runs if run.test in asked.tests)
         log, where = _spoil(_recorded(replace(log, runs=kept)), job)
         log = _recorded(log)
         return Made(job, _contents(log, job), _truth(built, job, log=log, where=where))
@@ -157,13 +165,13 @@ def _truth(
         "units": per.name,
         "gains": gains_per(built.gains, factor=per.si),
         "built": {name: getattr(built, name) for name in built.spread},
-        "effects": [
+        "hidden": [
             {
                 "effect": part.effect,
                 "size": sizes.get(part.effect),
-                "parameters": dict(part.parameters),
+                "parameters": part.said(per),
             }
-            for part in getattr(built, "hidden", ())
+            for part in built.hidden
         ],
         "faults": [
             {
@@ -173,9 +181,16 @@ def _truth(
             }
             for strike, found in zip(job.strikes, where, strict=True)
         ],
-        "routine": {**asdict(job.routine), "period": job.period, "tests": list(job.tests)},
+        "routine": _flat(asdict(job.settings)),
         "seed": f"{job.seed:064x}",
     }
+
+
+def _flat(settings: dict[str, Any]) -> dict[str, Any]:
+    """The settings as they stand in a spec, the routine's own numbers beside the others."""
+    routine = settings.pop("routine")
+    del routine["kinds"]  # the tests say it
+    return {**routine, **settings, "tests": list(settings["tests"])}
 
 
 def _stretch(found: Stretch, log: Log) -> dict[str, object]:

@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
+from sim.dataset.logs import Hiding, Logs, Settings, Spoiling
 from sim.dataset.secret import Secret, log_seed
-from sim.dataset.spec import Hiding, Logs, Spec, Spoiling
+from sim.dataset.spec import Spec
 from sim.dataset.table import Span
-from sim.routine import Routine
 from sim.student import folder_name
 
 EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # streams of chance, apart from one another
@@ -57,9 +57,7 @@ class Job:
         student: whose; empty if nobody's.
         mechanism: its name in the catalogue.
         drawn: the mechanism is another one like the catalogue's.
-        routine: the tests' settings.
-        tests: those that the log holds.
-        period: [s] of the robot program's loop.
+        settings: how the tests are run.
         effects: hidden in this order.
         strikes: made in this order.
         formats: it is written in each of these.
@@ -71,9 +69,7 @@ class Job:
     student: str
     mechanism: str
     drawn: bool
-    routine: Routine
-    tests: tuple[str, ...]
-    period: float
+    settings: Settings
     effects: tuple[Hidden, ...]
     strikes: tuple[Strike, ...]
     formats: tuple[str, ...]
@@ -143,9 +139,7 @@ def _numbered(found: list[tuple[int, Logs, str]], spec: Spec, student: str) -> I
             student=student,
             mechanism=mechanism,
             drawn=logs.drawn,
-            routine=logs.routine,
-            tests=logs.tests,
-            period=logs.period,
+            settings=logs.settings,
             effects=tuple(_effects(logs.effects, seed)),
             strikes=tuple(_strikes(logs.faults, seed)),
             formats=spec.formats,

@@ -31,7 +31,7 @@ severity = [0.5, 1.5]
 KINDS = {"plain": PLAIN, "effects and faults": PLAIN + DAMAGED}
 TARGET = 60.0  # [s] for 1,000 logs on two cores
 MOST = 1e9  # [bytes]
-LOOK = 0.02  # [s] between two looks at the memory
+LOOK = 0.2  # [s] between two looks at the memory
 
 
 def memory(process: psutil.Process) -> int:
