@@ -17,6 +17,7 @@ from sim.errors import BadRequest
 from sim.log import Array, Log, Run
 from sim.vocabulary import KINDS, TYPES
 
+ABOUT = ("motion", "time")  # what a fault can make odd
 MOST = 3.0  # [1] largest severity that makes sense; 1 is what one meets on an ordinary bad day
 
 
@@ -200,6 +201,7 @@ def _broken(fault: Fault, *, name: str, caption: str) -> list[str]:
         f"strikes kinds {fault.kinds}, which are not all tests": {*fault.kinds} <= {*KINDS},
         "strikes no kind of test": bool(fault.kinds),
         f"strikes types {fault.types}, which are not all types": {*fault.types} <= {*TYPES},
+        f"is about {fault.about!r}, which is neither motion nor time": fault.about in ABOUT,
         f"may start at {fault.when}, which are no shares in order": 0 <= earliest <= latest <= 1,
         "has a spoil that cannot be called": callable(fault.spoil),
         "has a detect that cannot be called": callable(fault.detect),

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.balance import Balance
-from sim.clues import Clues
+from sim.clues import Clues, Counts, holds
 from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, at_pace, with_run
 from sim.log import Array, Log, Run
 
@@ -32,17 +32,20 @@ LIGHT = 0.1  # [share of kA] that is the wheels' and rotors' own
 SPIN = 8.0  # [times the plain speed] that wheels spin up to at most in a sample
 LIMITED = 0.9  # [share of the push] a step that never shows more starts under a current limit
 SHOWS = 5.0  # [samples] a shorter slip cannot be seen
+SIZE = (0.7, 1.4)  # [1] top speed over what the rest of the log promises, in a sound log
 STARTS = 0.1  # [timescales] after which a plain rise is seen to move
 ALL = np.array((10.0,))  # [share of the step] tires that hold it all
 SOME = np.arange(0.05, 0.75, 0.05)  # the same, of tires that do not
 SCALES = np.geomspace(0.4, 2.5, 12)  # [times the timescale] that are tried
 DELAYS = np.arange(0.0, 0.045, 0.01)  # [s] between voltage and motion that are tried
 LIMITS = (1.0, 0.8, 0.6, 0.45, 0.3)  # [share of the step] that current limits let through
+SETTLED = 30.0  # [timescales] after which a slip is long over
 FINE = 8  # steps per sample in which wheels are spun up
 ON = 0.3  # [share of the largest voltage] from here on a step has come
 LASTS = 6.0  # [timescales] after which a step has nothing more to say
 LEAST = 15  # [samples] of it that are looked at in any case
 SAMPLES = 60  # of a rise that are looked at; more tell no more
+STALE = 2  # [samples] that a reading usually stands in a log of slow frames
 FEWEST = 6  # [samples] of a rise; fewer cannot show a lull
 BELIEVED = 0.8  # [share explained] of what a plain rise leaves unexplained
 CLEAR = 0.04  # [share of top speed] a plain rise misses by at least this much
@@ -63,7 +66,8 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     if not moves.any():
         return Spoilt(log, ())
     late = max(float(since[int(np.argmax(moves))]) - STARTS * balance.timescale, 0.0)
-    grid = np.linspace(0.0, float(since[-1]), FINE * len(run))
+    lasts = min(float(since[-1]), SETTLED * balance.timescale)
+    grid = np.arange(0.0, lasts, clues.period / FINE)
     push = _push(run, balance)
     limit = float(
         np.max(push - speed, initial=0.0)
@@ -83,12 +87,13 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
         return Spoilt(log, ())
     pace = np.ones(len(run))
     slipping = np.interp(since - late, grid, spun.speed[0])
+    moves &= since < lasts
     pace[moves] = np.clip(slipping[moves] / speed[moves], 0.0, SPIN)
     spoilt = at_pace(run, pace)
     if limited:  # faster wheels leave the limit sooner
         more = np.interp(since, grid, spun.push[0]) - push
-        sign = np.sign(run.voltage[first])
-        spoilt = replace(spoilt, voltage=run.voltage + sign * balance.kv * more * (since >= 0.0))
+        more *= np.sign(run.voltage[first]) * ((since >= 0.0) & (since < lasts))
+        spoilt = replace(spoilt, voltage=run.voltage + balance.kv * more)
     start = float(run.time[first])
     where = Stretch(blow.run, run.test, start, min(start + grips, float(run.time[-1])))
     return Spoilt(with_run(log, blow.run, spoilt), (where,))
@@ -106,7 +111,9 @@ def detect(clues: Clues) -> Iterable[Damage]:
         end = int(np.searchsorted(run.time, run.time[first] + lasts))
         if end - first < FEWEST:
             continue
-        part = slice(first, end, max(1, (end - first) // SAMPLES))
+        part = _fresh(run, first, end)
+        if part.size < FEWEST:
+            continue
         rise = _Rise(
             np.abs(run.velocity[part]),
             run.time[part] - run.time[first],
@@ -131,6 +138,14 @@ def detect(clues: Clues) -> Iterable[Damage]:
             advice=f"Run the dynamic tests again with a smaller step, at most {most:.1f} V, on the "
             "carpet it will drive on.",
         )
+
+
+def _fresh(run: Run, first: int, last: int) -> Counts:
+    """The samples to look at: not too many, and of frames that stand for long only the new ones."""
+    starts, lengths = holds(run.velocity[first:last])
+    if float(np.median(lengths)) < STALE:
+        starts = np.arange(last - first)
+    return first + starts[:: max(1, starts.size // SAMPLES)]
 
 
 def _push(run: Run, balance: Balance) -> Array:
@@ -228,9 +243,8 @@ class _Rise:
         )
         until = scale * (1.0 - share) / share
         later = 1.0 - share * np.exp(-(self.since - until) / scale)
-        return float(
-            np.min(self._misses(np.where(self.since < until, share * self.since / scale, later)))
-        )
+        rise = np.where(self.since < until, share * self.since / scale, later)
+        return float(np.min(self._misses(rise * float(self.push.max()))))
 
     def _misses(self, shapes: Array) -> Array:
         """(k,) the miss of each shape (k, n), at its best size and delay."""
@@ -240,7 +254,8 @@ class _Rise:
             moved = np.zeros_like(shapes)
             moved[:, late:] = shapes[:, : shapes.shape[1] - late]
             norms = np.maximum(np.sum(moved**2, axis=1), 1e-300)
-            left = self.speed - (moved @ self.speed / norms)[:, None] * moved
+            size = np.clip(moved @ self.speed / norms, *SIZE)
+            left = self.speed - size[:, None] * moved
             least = np.minimum(least, np.sqrt(np.mean(left**2, axis=1)))
         return least
 

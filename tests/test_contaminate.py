@@ -1,0 +1,260 @@
+"""Damage on purpose: asked for in words, refused in words, and written whole or not at all."""
+
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sim.contaminate import Asked, contaminate, parse_blow
+from sim.errors import BadRequest
+from sim.fault import MOST
+from sim.faults import FAULTS
+from sim.formats import read, write
+from sim.log import TESTS, Log, Run
+from sim.mechanisms import MECHANISMS
+from sim.routine import Routine
+from sim.simulate import simulate
+
+
+def rng(seed=0):
+    return np.random.default_rng(seed)
+
+
+@pytest.fixture(scope="module")
+def drive():
+    return simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=3.5), rng=rng())
+
+
+@pytest.fixture(scope="module")
+def elevator():
+    return simulate(MECHANISMS["elevator"], Routine(ramp=0.5, step=3.5), rng=rng())
+
+
+def sysid(*arguments, folder):
+    """Run the command as a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-c", "from sim.cli import main; main()", *map(str, arguments)],
+        cwd=folder,
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+        timeout=120,
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "asked"),
+    [
+        ("brownout", Asked("brownout")),
+        ("brownout:2", Asked("brownout", severity=2.0)),
+        ("brownout:1e-1", Asked("brownout", severity=0.1)),
+        ("brownout@dynamic-forward", Asked("brownout", test="dynamic-forward")),
+        (
+            "encoder-slip:0.5@dynamic-forward+0.4",
+            Asked("encoder-slip", severity=0.5, test="dynamic-forward", at=0.4),
+        ),
+        (" brownout : 2 @ dynamic-forward + 1 ", Asked("brownout", 2.0, "dynamic-forward", 1.0)),
+    ],
+)
+def test_what_is_asked_for_is_read(text, asked):
+    assert parse_blow(text) == asked
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "it has no name"),
+        (":2", "it has no name"),
+        ("@dynamic-forward", "it has no name"),
+        ("brownout:", "'' is not a number"),
+        ("brownout:lots", "'lots' is not a number"),
+        ("brownout@", "no test is named after @"),
+        ("brownout@+3", "no test is named after @"),
+        ("brownout@dynamic-forward+soon", "'soon' is not a number"),
+        ("brownout@dynamic-forward+", "'' is not a number"),
+    ],
+)
+def test_what_is_misspelled_is_one_line_with_the_right_spelling(text, said):
+    with pytest.raises(BadRequest) as refused:
+        parse_blow(text)
+
+    assert said in str(refused.value)
+    assert "encoder-slip:0.5@dynamic-forward+0.4" in str(refused.value)
+
+
+@given(st.text(max_size=40))
+def test_whatever_is_typed_is_read_or_refused(text):
+    try:
+        assert isinstance(parse_blow(text), Asked)
+    except BadRequest as refused:
+        assert refused.advice  # noqa: PT017 - either answer is right
+
+
+@pytest.mark.parametrize(
+    ("name", "how", "said"),
+    [
+        ("gremlin", {}, "unknown fault 'gremlin'. Choose one of: brownout, "),
+        ("brownout", {"severity": -0.1}, "brownout of severity -0.1. Choose 0 (nothing) to 3"),
+        ("brownout", {"severity": MOST + 0.01}, "brownout of severity 3.01"),
+        ("brownout", {"severity": math.nan}, "brownout of severity nan"),
+        ("brownout", {"severity": math.inf}, "brownout of severity inf"),
+        ("brownout", {"test": "static"}, "'static' is not the name of a test"),
+        ("brownout", {"test": "coast-forward"}, "there is no coast-forward test in this log. It"),
+        ("wheel-slip", {"test": "quasistatic-forward"}, "cannot strike a quasistatic-forward"),
+        ("brownout", {"test": "dynamic-forward", "at": 99.0}, "99 s is not within dynamic-forward"),
+        ("brownout", {"test": "dynamic-forward", "at": -1.0}, "-1 s is not within"),
+        ("brownout", {"test": "dynamic-forward", "at": math.nan}, "nan s is not within"),
+        ("brownout", {"test": "quasistatic-forward", "at": 0.0, "severity": 0.1}, "would not show"),
+    ],
+    ids=lambda value: str(value)[:50],
+)
+def test_impossible_damage_is_one_line_with_advice(drive, name, how, said):
+    with pytest.raises(BadRequest) as refused:
+        contaminate(drive, name, rng=rng(), **how)
+
+    assert said in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_an_elevator_has_no_wheels(elevator):
+    with pytest.raises(BadRequest, match="cannot strike a mechanism of type elevator"):
+        contaminate(elevator, "wheel-slip", rng=rng())
+
+
+def short(count, test="dynamic-forward"):
+    time = np.arange(count) * 0.02
+    return Log((Run(test, time, np.full(count, 3.0), time, np.ones(count)),))
+
+
+@pytest.mark.parametrize("name", FAULTS)
+@pytest.mark.parametrize(
+    "log",
+    [
+        Log(()),
+        short(0),
+        short(1),
+        short(2),
+        short(9),
+        short(10),
+        short(30),
+        short(30, "coast-forward"),
+    ],
+    ids=["no run", "empty run", "1", "2", "9", "10", "30 samples", "another test"],
+)
+def test_a_log_too_small_to_damage_is_damaged_or_refused_in_words(name, log):
+    try:
+        assert contaminate(log, name, rng=rng()).where
+    except BadRequest as refused:
+        assert refused.advice  # noqa: PT017 - either answer is right
+
+
+@given(
+    name=st.sampled_from(sorted(FAULTS)),
+    severity=st.floats(0.0, MOST),
+    test=st.sampled_from([None, *TESTS[:4]]),
+    share=st.one_of(st.none(), st.floats(0.0, 0.999)),
+    seed=st.integers(0, 10),
+)
+def test_whatever_is_asked_for_is_done_or_refused(drive, *, name, severity, test, share, seed):
+    at = None
+    if share is not None and test is not None:
+        run = drive.of(test)[0]
+        at = share * float(run.time[-1] - run.time[0])
+    try:
+        spoilt = contaminate(drive, name, severity=severity, test=test, at=at, rng=rng(seed))
+    except BadRequest as refused:
+        assert refused.advice  # noqa: PT017 - either answer is right
+        return
+    assert (spoilt.log is drive) == (severity == 0.0)
+
+
+def test_it_strikes_where_it_is_told(drive):
+    spoilt = contaminate(drive, "brownout", test="quasistatic-reverse", at=4.0, rng=rng())
+
+    (where,) = spoilt.where
+    assert (where.run, where.test) == (1, "quasistatic-reverse")
+    assert where.start == pytest.approx(drive.runs[1].time[0] + 4.0)
+    for index in (0, 2, 3):
+        assert np.array_equal(spoilt.log.runs[index].velocity, drive.runs[index].velocity)
+
+
+def test_left_to_chance_it_strikes_while_it_moves(elevator):
+    for seed in range(20):
+        (where,) = contaminate(elevator, "encoder-slip", rng=rng(seed)).where
+        run = elevator.runs[where.run]
+        speed = np.abs(run.velocity[np.searchsorted(run.time, where.start)])
+        assert speed > 0.05 * np.abs(run.velocity).max()
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".wpilog"])
+def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(tmp_path, drive, suffix):
+    write(drive, tmp_path / "drive.csv")
+
+    made = sysid(
+        "contaminate", "drive.csv", "--fault", "encoder-slip:1@dynamic-forward+0.5",
+        "--fault", "loop-overrun@quasistatic-reverse", "--seed", 3, "-o", f"bad{suffix}",
+        folder=tmp_path,
+    )  # fmt: skip
+
+    assert made.returncode == 0, made.stderr
+    slip, overrun, written = made.stdout.splitlines()
+    assert slip.startswith("encoder-slip: dynamic-forward")
+    assert overrun.startswith("loop-overrun: quasistatic-reverse")
+    assert written == f"bad{suffix}: written. Next: sysid inspect bad{suffix}"
+    bad = read(tmp_path / f"bad{suffix}")
+    assert [run.test for run in bad.runs] == [run.test for run in drive.runs]
+    assert len(bad.runs[1]) < len(drive.runs[1])
+
+
+def test_the_same_seed_gives_the_same_file(tmp_path, drive):
+    write(drive, tmp_path / "drive.csv")
+    for name in ("a.csv", "b.csv"):
+        sysid(
+            "contaminate", "drive.csv", "--fault", "brownout", "--seed", 1, "-o", name,
+            folder=tmp_path,
+        )  # fmt: skip
+
+    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["drive.csv", "--fault", "gremlin", "-o", "x.csv"], "unknown fault 'gremlin'"),
+        (["drive.csv", "--fault", "brownout:9", "-o", "x.csv"], "brownout of severity 9"),
+        (["drive.csv", "--fault", "brownout@chirp-forward", "-o", "x.csv"], "no chirp-forward"),
+        (["drive.csv", "--fault", "brownout", "-o", "no/x.csv"], "cannot be written"),
+        (["drive.csv", "--fault", "brownout", "-o", "x.xyz"], ".xyz"),
+        (["drive.csv", "-o", "x.csv"], "Missing option '--fault'"),
+        (["drive.csv", "--fault", "brownout"], "Missing option '-o'"),
+        (["drive.csv", "--fault", "brownout", "--seed", "-1", "-o", "x.csv"], "--seed"),
+        (["nowhere.csv", "--fault", "brownout", "-o", "x.csv"], "nowhere.csv"),
+    ],
+    ids=lambda value: " ".join(value)[:40] if isinstance(value, list) else "",
+)
+def test_what_cannot_be_done_is_one_line_and_nothing_is_written(tmp_path, drive, arguments, said):
+    write(drive, tmp_path / "drive.csv")
+
+    refused = sysid("contaminate", *arguments, folder=tmp_path)
+
+    assert refused.returncode == 2
+    assert refused.stdout == ""
+    assert refused.stderr.count("\n") == 1
+    assert said in refused.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["drive.csv"]
+
+
+def test_the_catalogue_is_listed_for_people_and_for_programs(tmp_path):
+    people = sysid("faults", folder=tmp_path)
+    programs = sysid("faults", "--json", folder=tmp_path)
+
+    assert [line.split()[0] for line in people.stdout.splitlines()] == list(FAULTS)
+    assert max(len(line) for line in people.stdout.splitlines()) <= 100
+    rows = json.loads(programs.stdout)
+    assert [row["name"] for row in rows] == list(FAULTS)
+    assert {"name", "summary", "ordinary", "kinds", "types", "whole"} == set(rows[0])
