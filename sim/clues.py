@@ -22,7 +22,7 @@ DRIVEN = 0.05  # [share of a run's largest voltage] less is the time before and 
 AGREED = 0.6  # [mean of the signs] where 4 of 5 samples agree, a run has that sign
 RISEN = 0.632  # [share of the top speed] that one timescale brings
 MOVING = 0.1  # [share of a run's top speed] slower samples say little about how it moves
-STEPS, CREEP = 1.5, 1e-4  # [smallest steps of the position, share of its way] within: it stands
+STEPS, CREEP = 1.5, 2e-5  # [smallest steps of the position, share of its way] within: it stands
 PARTS = 10  # of a run's motion, judged one by one: a slip or a stop bends one or two of them
 TINY = 1e-12  # [times] no scale, for the logarithm of one
 FAR = 0.1  # [share of the longest part's distance] what a part must go to be judged
@@ -166,7 +166,7 @@ def holds(values: Array) -> tuple[Counts, Counts]:
     Returns:
         Where each stretch starts, (m,), and how many samples it is long, (m,).
     """
-    starts = np.flatnonzero(np.concatenate(([True], np.diff(values) != 0.0)))
+    starts = np.flatnonzero(np.concatenate(([True], np.diff(values) != 0.0))[: values.size])
     return starts, np.diff(np.append(starts, values.size))
 
 

@@ -68,12 +68,13 @@ def detect(clues: Clues) -> Iterable[Damage]:
 
 def _named(ratio: float) -> str:
     """What a ratio is; empty if nothing is wrong."""
-    if 1.0 / FAR < ratio < FAR:
+    if 1.0 / FAR < ratio < FAR or not ratio > 0.0:
         return ""
-    for name, factor in KNOWN.items():
-        for sought, way in ((factor, "a factor of"), (1.0 / factor, "one over")):
-            if abs(ratio / sought - 1.0) < NEAR:
-                return f"{way} {name}"
+    sought = {f"a factor of {name}": factor for name, factor in KNOWN.items()}
+    sought |= {f"one over {name}": 1.0 / factor for name, factor in KNOWN.items()}
+    nearest = min(sought, key=lambda said: abs(np.log(ratio / sought[said])))
+    if abs(ratio / sought[nearest] - 1.0) < NEAR:
+        return nearest
     return "no unit's factor, so a gear ratio or a circumference that only one of them counts"
 
 
