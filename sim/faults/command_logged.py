@@ -29,7 +29,6 @@ from sim.log import Array, Log, Run
 
 KEEPS = 1.0 / 3.0  # [share] of its acceleration that a start keeps at severity 1; by the cube
 # root of the severity, because what costs less than half of the acceleration leaves no mark
-HALF = 0.5  # [share of the largest voltage] more than this is the step
 FINE = 10  # steps of the model to a sample
 PERFECT = 0.002  # [share of the step] within which a voltage is a command and no measurement
 ROUNDING = 0.0051  # [V] the same, for voltages written with two digits
@@ -141,16 +140,15 @@ class _Shape:
 def _clipped(clues: Clues, index: int, *, keeps: float) -> Run | None:
     """The run with a start that keeps a share of its acceleration; None if it has no step."""
     run, balance = clues.log.runs[index], clues.balance
-    driven = np.flatnonzero(np.abs(run.voltage) > HALF * np.abs(run.voltage).max(initial=0.0))
+    driven = np.flatnonzero(np.abs(run.voltage) > DRIVEN * np.abs(run.voltage).max(initial=0.0))
     if balance is None or driven.size < FEWEST:
         return None
     first, last = int(driven[0]), int(driven[-1]) + 1
     asked = float(np.median(run.voltage[first:last]))
     since = run.time[first:] - run.time[first]
-    free, held = (
-        _rise(since, asked, float(run.position[first]), balance, keeps=share)
-        for share in (1.0, keeps)
-    )
+    place, asks = float(run.position[first]), np.full(since.size, asked)
+    free = _rise(since, run.voltage[first:], place, balance, keeps=1.0)  # clipped, too, perhaps
+    held = _rise(since, asks, place, balance, keeps=keeps)
     moves = free > clues.still
     pace = np.ones(len(run))
     pace[first:][moves] = np.clip(held[moves] / free[moves], 0.0, 1.0)
@@ -163,12 +161,12 @@ def _clipped(clues: Clues, index: int, *, keeps: float) -> Run | None:
     return replace(spoilt, current=np.clip(run.current, -most, most))
 
 
-def _rise(since: Array, asked: float, place: float, balance: Balance, *, keeps: float) -> Array:
-    """(n,) [m/s or rad/s] from rest at a place under a step, in the step's own direction."""
-    way, volts = float(np.sign(asked)), abs(asked)
+def _rise(since: Array, voltage: Array, place: float, balance: Balance, *, keeps: float) -> Array:
+    """(n,) [m/s or rad/s] from rest at a place, in the direction of the voltage (n,) [V]."""
+    way = float(np.sign(np.median(voltage)))
     fine = np.linspace(0.0, since[-1], FINE * since.size)
     step, speed, speeds, most = fine[1], 0.0, [], np.inf
-    for _ in fine:
+    for volts in (way * np.interp(fine, since, voltage)).tolist():
         speeds.append(speed)
         steady = balance.ks + way * float(balance.gravity(np.array(place)))
         if most == np.inf and keeps < 1.0:
