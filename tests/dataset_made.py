@@ -44,6 +44,13 @@ name = ["missing-test", "sign-flip"]
 """
 """Eight short logs of two students, four of them damaged twice."""
 
+IN_FRONT = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell takes it from what runs behind
+from sim.cli import main
+main()
+"""
+
 SECRET = "a secret of more than sixteen letters"  # noqa: S105 - long enough, and no one's
 
 
@@ -85,7 +92,7 @@ def key(folder: Path) -> dict:
 def process(*arguments: object, folder: Path, stderr: int = subprocess.PIPE) -> subprocess.Popen:
     """The command as a process of its own, in a group of its own, with no terminal."""
     return subprocess.Popen(
-        [sys.executable, "-c", "from sim.cli import main; main()", *map(str, arguments)],
+        [sys.executable, "-c", IN_FRONT, *map(str, arguments)],
         cwd=folder,
         stdout=subprocess.PIPE,
         stderr=stderr,

@@ -28,7 +28,7 @@ def address():
     """The scheduler of a cluster with two workers, each a process of its own."""
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0"
     ) as found:
         yield found.scheduler_address
 
@@ -39,7 +39,7 @@ def test_a_cluster_makes_the_files_that_one_process_makes(tmp_path, address):
     here = make(path, "here", "--processes", 1)
 
     running = process("dataset", "spec.toml", "-o", "there", "--cluster", address, folder=tmp_path)
-    said = running.communicate(timeout=60)
+    said = running.communicate(timeout=100)
 
     assert running.returncode == 0, said
     assert said[1] == ""

@@ -85,6 +85,7 @@ def _make(
 ) -> int:
     """Make what is not there yet."""
     from sim.dataset.cluster import made_on_cluster  # noqa: PLC0415 - --help must not wait
+    from sim.dataset.interrupt import noted  # noqa: PLC0415 - the same
     from sim.dataset.run import finish, look, rehearse  # noqa: PLC0415 - the same
     from sim.dataset.workers import cores, made_here  # noqa: PLC0415 - the same
 
@@ -93,7 +94,12 @@ def _make(
     if secret.new:
         secret.keep()
         click.echo(f"{secret.new}: a new secret. Keep it, and keep it to yourself.", err=True)
-    with _bar(len(jobs), len(found.kept)) as (step, done):
+    with _bar(len(jobs), len(found.kept)) as (step, done), noted() as stop_if_noted:
+
+        def say() -> None:
+            step()
+            stop_if_noted()
+
         try:
             finish(
                 place,
@@ -106,7 +112,7 @@ def _make(
                 dataset=asked.name,
                 secret=secret,
                 overwrite=overwrite,
-                say=step,
+                say=say,
             )
         except KeyboardInterrupt:
             stopped = True

@@ -1,7 +1,8 @@
 """Make a dataset to its end, or as far as it goes: the next run goes on from there."""
 
 import hashlib
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,14 +49,6 @@ class Place:
                 )
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What a run came to."""
-
-    kept: int
-    made: int
-
-
 def look(place: Place, jobs: Sequence[Job], *, secret: Secret, overwrite: bool) -> Survey:
     """What is there already, or a refusal if something else is.
 
@@ -69,13 +62,15 @@ def look(place: Place, jobs: Sequence[Job], *, secret: Secret, overwrite: bool) 
         BadRequest: files, or a key, of something else are there.
     """
     try:
-        known = [*read_key(place.key, secret=secret), *Journal(place.key, secret=secret).read()]
+        with _needing(place.key):
+            known = [
+                *read_key(place.key, secret=secret),
+                *Journal(place.key, secret=secret).read(),
+            ]
     except BadRequest:
         if not overwrite:
             raise
         known = []
-    except OSError as error:
-        raise _no_key(error, place.key) from None
     found = survey(place.folder, jobs, known=known)
     if found.foreign and not overwrite:
         raise BadRequest(
@@ -118,7 +113,7 @@ def finish(
     secret: Secret,
     overwrite: bool,
     say: Callable[[], None],
-) -> Outcome:
+) -> None:
     """Make what is left, and write the key.
 
     Args:
@@ -128,7 +123,7 @@ def finish(
         dataset: its name.
         secret: what the key is sealed with.
         overwrite: replace what is not this dataset's.
-        say: called after each log.
+        say: called after each log; what it raises stops the run, with all files whole.
 
     Raises:
         BadRequest: a log cannot be made, or a file not be written.
@@ -138,28 +133,24 @@ def finish(
     shelf = Shelf(place.folder, mine=None if overwrite else _files(found.todo, place.folder))
     try:
         shelf.open()
-        try:
+        with _needing(place.key):
             journal.begin(entries)
-            for made in _each(maker(found.todo)):
-                entry = _entry(made)
+        for result in maker(found.todo):
+            made = _sound(result)
+            entry = _entry(made)
+            with _needing(place.key):
                 journal.add(entry)
-                shelf.put(made.contents)
-                entries.append(entry)
-                say()
-            if len(entries) != len(found.kept) + len(found.todo):
-                raise RuntimeError(f"{len(found.todo)} logs to make, and not all came back")
+            shelf.put(made.contents)
+            entries.append(entry)
+            say()
+        if len(entries) != len(found.kept) + len(found.todo):
+            raise RuntimeError(f"{len(found.todo)} logs to make, and not all came back")
+        with _needing(place.key):
             write_key(place.key, entries, dataset=dataset, secret=secret)
-        except OSError as error:
-            raise _no_key(error, place.key) from None
     finally:
         journal.close()
         shelf.tidy()
     journal.remove()
-    return Outcome(kept=len(found.kept), made=len(found.todo))
-
-
-def _each(results: Iterator[Made | Failed]) -> Iterable[Made]:
-    return map(_sound, results)
 
 
 def _sound(result: Made | Failed) -> Made:
@@ -186,10 +177,15 @@ def _parts(job: Job) -> int:
     return len(job.effects) + len(job.strikes)
 
 
-def _no_key(error: OSError, key: Path) -> BadRequest:
-    return BadRequest(
-        f"the key cannot be written ({error.strerror or error})",
-        where=str(key),
-        advice="Make room there, or name another place with --key; then run the same command "
-        "again: what is finished is kept.",
-    )
+@contextmanager
+def _needing(key: Path) -> Iterator[None]:
+    """Refuse in one line if the key, or the journal beside it, cannot be had."""
+    try:
+        yield
+    except OSError as error:
+        raise BadRequest(
+            f"the key cannot be written ({error.strerror or error})",
+            where=str(key),
+            advice="Make room there, or name another place with --key; then run the same command "
+            "again: what is finished is kept.",
+        ) from None

@@ -10,11 +10,11 @@ import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from itertools import islice
 from multiprocessing.connection import wait as wait_for_end
 from typing import TYPE_CHECKING
 
+from sim.dataset.interrupt import unheard
 from sim.dataset.making import make
 from sim.errors import BadRequest
 
@@ -73,7 +73,7 @@ def made_by(
     waiting = iter(jobs)
     running: set[Future[Made | Failed]] = set()
     try:
-        with _interrupts_held():
+        with unheard():
             running |= {executor.submit(make, job) for job in islice(waiting, ahead)}
         while running:
             done, running = wait(running, return_when=FIRST_COMPLETED)
@@ -83,19 +83,6 @@ def made_by(
     finally:
         for future in running:
             future.cancel()
-
-
-@contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """Processes that start in here never hear Ctrl+C: it is for the one that started them."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _serve() -> None:
