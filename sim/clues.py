@@ -25,6 +25,7 @@ MOVING = 0.1  # [share of a run's top speed] slower samples say little about how
 STEPS, CREEP = 1.5, 2e-5  # [smallest steps of the position, share of its way] within: it stands
 PARTS = 10  # of a run's motion, judged one by one: a slip or a stop bends one or two of them
 TINY = 1e-12  # [times] no scale, for the logarithm of one
+LEAST = 3  # samples in a part, and parts of a motion
 FAR = 0.1  # [share of the longest part's distance] what a part must go to be judged
 Flags: TypeAlias = NDArray[np.bool_]
 Counts: TypeAlias = NDArray[np.intp]
@@ -202,14 +203,15 @@ def _standing(run: Run, *, step: float) -> int:
 def _scale(run: Run, moving: Flags) -> float:
     """By the usual part of the motion: single slopes of a stale or coarse position mislead."""
     motion = np.flatnonzero(moving)
-    if motion.size < 2 * PARTS:
+    parts = min(PARTS, motion.size // LEAST)
+    if parts < LEAST:
         return 1.0
-    ends = np.linspace(motion[0], motion[-1], PARTS + 1).astype(int)
+    ends = np.linspace(motion[0], motion[-1], parts + 1).astype(int)
     steps = np.diff(run.time) * 0.5 * (run.velocity[1:] + run.velocity[:-1])
     summed = np.diff(np.concatenate(([0.0], np.cumsum(steps)))[ends])
     changed = np.diff(run.position[ends])
     far = np.abs(changed) > FAR * np.abs(changed).max()
-    if far.sum() < PARTS // 2:
+    if far.sum() < parts // 2:
         return 1.0
     usual = float(np.median(np.abs(summed[far] / changed[far])))
     whole = float(np.abs(summed[far]).sum() / np.abs(changed[far]).sum())  # frames may be long
