@@ -13,7 +13,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from sim.doubt import Doubt
 from sim.engine import State, Track, move
+from sim.engine.stepping import OFF_UNTIL
 from sim.errors import BadRequest
 from sim.log import Array, Log, Run
 from sim.mechanism import Mechanism
@@ -64,11 +66,12 @@ def simulate(
         )
     model, wires = mechanism.model, connected(mechanism, duty_cycle=duty_cycle)
     runs: list[Run] = []
-    state, start, last = State(), PAUSE, 0.0
+    state, start, last, cut = State(), PAUSE, 0.0, False
     for test in routine.tests:
         time = _loops(routine.timeout, period=period, jitter=mechanism.sensor.jitter, rng=rng)
         voltage = np.array([routine.voltage(test, t) for t in time.tolist()])
-        begun = replace(state, memory=state.memory.copy())
+        cut = state.body[OFF_UNTIL] > 0.0 or cut
+        clock, begun = state.clock, replace(state, memory=state.memory.copy())
         begun.body = State.at(_begin(mechanism, test, last)).body
         state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
         track = move(model, time=time, voltage=voltage, state=state, wires=wires)
@@ -78,18 +81,31 @@ def simulate(
                 f"{test} lasts {end} loops",
                 advice="Ask for a longer timeout, a shorter period or a smaller step.",
             )
-        if end < time.size:  # nothing that someone ended goes on to warm a motor
-            time, voltage, state = time[:end], voltage[:end], begun
-            track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+        time, voltage = time[:end], voltage[:end]
+        if end < track.position.size:
+            if state.memory.any():  # nothing that someone ended goes on to warm a motor
+                state = begun
+                track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+            else:
+                track = track.until(end)
         seen = read(
             mechanism.sensor, position=track.position, velocity=track.seen, time=time, rng=rng
         )
         extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
         runs.append(Run(test, start + time, track.applied, *seen, **extra))
-        state.clock += PAUSE
+        state.clock = clock + float(time[-1] - time[0]) + PAUSE
         rest(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
-    return Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
+    log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
+    return log.with_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
+
+
+def _brownout(mechanism: Mechanism) -> Doubt:
+    return Doubt(
+        "brownout",
+        f"The battery falls below {mechanism.brownout:g} V, and the robot controller takes the "
+        "motors off again and again. Use a smaller step or a better battery.",
+    )
 
 
 def connected(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from sim.battery import Battery
 from sim.errors import BadRequest
 from sim.fit import fit
-from sim.log import FOUR_TESTS
+from sim.log import FOUR_TESTS, KINDS
 from sim.mechanism import Sensor
 from sim.mechanisms import MECHANISMS, mechanism
 from sim.motors import MOTORS, motor, theoretical_kv
@@ -249,3 +250,110 @@ def test_a_test_too_short_to_record_is_refused(routine, period, said):
         simulate(MECHANISMS["shooter"], routine, rng=rng(), period=period)
 
     assert said in str(refused.value)
+
+
+def test_a_brownout_is_said_and_only_then():
+    weak = replace(MECHANISMS["drivetrain"], battery=Battery(11.0, 0.05))
+    hard = Routine(ramp=1.0, step=7.0)
+
+    log = simulate(weak, hard, rng=rng())
+
+    assert [doubt.code for doubt in log.doubts] == ["brownout"]
+    assert "falls below 6.75 V" in log.doubts[0].message
+    assert simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=3.5), rng=rng()).doubts == ()
+
+
+def test_a_recorded_voltage_is_what_reached_the_motors():
+    # a Kraken's 120 A are 120·12/366 V = 3.93 V from rest, whatever is asked for
+    step = simulate(MECHANISMS["drivetrain"], Routine(step=7.0), rng=rng()).of("dynamic-forward")[0]
+
+    assert step.voltage[0] == pytest.approx(120.0 * 12.0 / 366.0)
+    assert step.voltage[-1] == pytest.approx(7.0)
+
+
+def test_current_and_battery_are_recorded_where_asked():
+    log = simulate(MECHANISMS["arm"], Routine(ramp=0.5, step=3.5), rng=rng(), electrical=True)
+    plain = simulate(MECHANISMS["arm"], Routine(ramp=0.5, step=3.5), rng=rng())
+
+    assert all(run.bus_voltage.max() <= 12.6 + 0.2 for run in log.runs)
+    assert all(np.abs(run.current).max() <= 40.0 for run in log.runs)
+    assert plain.runs[0].current is None
+    assert (plain.runs[0].velocity == log.runs[0].velocity).all()
+
+
+@pytest.mark.parametrize("name", ["arm", "elevator", "turret"])
+def test_where_there_are_stops_a_test_begins_at_one_end_and_ends_before_the_other(name):
+    built = MECHANISMS[name]
+    low, high = built.stops
+    for run in simulate(built, Routine(ramp=0.5, step=4.0), rng=rng()).runs:
+        forward = run.direction == "forward"
+        begins, ends = (low, high) if forward else (high, low)
+        reach = high - low
+        assert run.position[0] == pytest.approx(begins, abs=0.03 * reach)
+        assert abs(run.position[-1] - ends) < 0.1 * reach
+        assert low <= run.position.min()
+        assert run.position.max() <= high
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_of_test_stays_within_the_step_and_is_mirrored_in_reverse(kind):
+    routine = Routine(ramp=0.35, step=3.5, timeout=10.0, kinds=(kind,))
+    time = np.arange(0.04, 10.0, 0.02).tolist()
+
+    there, back = ([routine.voltage(test, t) for t in time] for test in routine.tests)
+
+    assert routine.tests == (f"{kind}-forward", f"{kind}-reverse")
+    assert np.abs(there).max() == pytest.approx(3.5, rel=0.02)
+    assert (np.array(there) == -np.array(back)).all()
+
+
+@pytest.mark.parametrize("kind", ["triangle", "multistep", "chirp"])
+def test_what_turns_around_goes_both_ways(kind):
+    routine = Routine(kinds=(kind,), step=4.0)
+    volts = [routine.voltage(f"{kind}-forward", t) for t in np.arange(0.0, 10.0, 0.01).tolist()]
+
+    assert min(volts) == pytest.approx(-4.0, rel=0.02)
+    assert volts[1] > 0.0
+
+
+def test_a_coast_is_a_step_and_then_nothing():
+    routine = Routine(kinds=("coast",), step=4.0)
+
+    assert routine.voltage("coast-reverse", 0.5) == -4.0
+    assert routine.voltage("coast-forward", 1.5) == 0.0
+
+
+@pytest.mark.parametrize("kinds", [(), ("static",), ("dynamic", "dynamic")], ids=str)
+def test_tests_there_are_not_are_refused(kinds):
+    with pytest.raises(BadRequest, match="Choose from quasistatic, dynamic, coast"):
+        Routine(kinds=kinds)
+
+
+def sensed(**change):
+    sensor = replace(QUIET, **change)
+    time = np.arange(0.0, 1.0, 0.02)
+    speed = np.sin(6.0 * time)
+    way = (1.0 - np.cos(6.0 * time)) / 6.0
+    return time, speed, read(sensor, position=way, velocity=speed, time=time, rng=rng())
+
+
+def test_a_late_sensor_says_what_was():
+    time, _, seen = sensed(latency=0.04)
+
+    assert seen.velocity[2:] == pytest.approx(np.sin(6.0 * (time[2:] - 0.04)), abs=1e-3)
+    assert seen.position[2:] == pytest.approx((1 - np.cos(6.0 * (time[2:] - 0.04))) / 6, abs=1e-4)
+
+
+def test_a_filter_in_the_sensor_says_the_mean_of_a_while():
+    time, _, seen = sensed(filter=0.1)
+    mean = (np.cos(6.0 * (time - 0.1)) - np.cos(6.0 * time)) / 0.6
+
+    assert seen.velocity[5:] == pytest.approx(mean[5:], abs=2e-3)
+
+
+def test_frames_stand_until_the_next_with_their_noise():
+    _, _, seen = sensed(frame=0.1, velocity_noise=0.1)
+
+    steps = np.count_nonzero(np.diff(seen.velocity))
+    assert 8 <= steps <= 11
+    assert np.count_nonzero(np.diff(seen.position)) <= steps

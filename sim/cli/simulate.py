@@ -113,6 +113,8 @@ def simulate(  # noqa: PLR0917 - click passes options by name
         raise
     samples = sum(len(part) for part in log.runs)
     after = "inspect" if faults else "fit"
+    for doubt in log.doubts:
+        click.echo(f"look: {doubt.message}")
     click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: sysid {after} {output}")
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
-CONTACT_PACE = 0.0055  # [s] of teeth that rest on one another; bouncing, the engine steps finer
+CONTACT_PACE = 0.0048  # [s] of teeth that rest on one another; bouncing, the engine steps finer
 
 
 def slack(slack: float) -> float:

@@ -6,7 +6,7 @@ cache on disk within a second after that.
 
 import math
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cache
 from types import ModuleType
 
@@ -78,6 +78,10 @@ class Track:
     bus: Array
     current: Array
     seen: Array
+
+    def until(self, end: int) -> "Track":
+        """The first ``end`` samples."""
+        return Track(*(getattr(self, one.name)[:end] for one in fields(self)))
 
 
 def move(

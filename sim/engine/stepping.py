@@ -90,6 +90,21 @@ def glide(
     return x, v
 
 
+def ahead(
+    c: Array, on: Array, p: Array, x: float, v: float, drive: float,
+    kv: float, ka: float, dt: float, part: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Position and velocity a moment ahead, along a straight line: where a step has its middle."""
+    way = math.copysign(1.0, v if v != 0.0 else drive)
+    slide = part * slides(c, on, p, v, way)
+    if v == 0.0 and abs(drive) <= slide:
+        return x, v
+    after = v + dt * (drive - way * slide - kv * v) / ka
+    if v * after < 0.0:
+        after = 0.0
+    return x + 0.5 * dt * (v + after), after
+
+
 def gravity(c: Array, x: float) -> float:
     """[V] that gravity takes."""
     if c[LEVEL] == 0.0:
@@ -101,7 +116,7 @@ def through(
     c: Array, w: Array, on: Array, p: Array, memory: Array, asked: float, v: float, off: bool
 ) -> float:
     """[V] at the motor, after the wires and then the paths."""
-    u = 0.0 if off else reaches(w, asked, v)
+    u = reaches(w, 0.0 if off else asked, v)
     return passes(on, p, memory, u, v, c[KV])
 
 
@@ -123,7 +138,7 @@ def single(
     u = through(c, w, on, p, memory, asked, v, off)
     if not plain:
         drive = u - gravity(c, x) - pull(on, p, x, v)
-        half, v_half = glide(c, on, p, x, v, v, drive, c[KV], ka, 0.5 * dt, 1.0)
+        half, v_half = ahead(c, on, p, x, v, drive, c[KV], ka, 0.5 * dt, 1.0)
         u = through(c, w, on, p, memory, asked, v_half, off)
         drive = u - gravity(c, half) - pull(on, p, half, v_half)
         x, v = glide(c, on, p, x, v, v_half, drive, c[KV], ka, dt, 1.0)
@@ -198,9 +213,9 @@ def pair(
 
     u = through(c, w, on, p, memory, asked, v, off)
     push = joint(play, soft, reduced, x - y, v - z)
-    x_half, v_half = glide(c, on, p, x, v, v, u - push, c[KV], own, 0.5 * dt, part)
+    x_half, v_half = ahead(c, on, p, x, v, u - push, c[KV], own, 0.5 * dt, part)
     drive = push - gravity(c, y) - pull(on, p, y, z)
-    y_half, z_half = glide(c, on, p, y, z, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
+    y_half, z_half = ahead(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
 
     u = through(c, w, on, p, memory, asked, v_half, off)
     push = joint(play, soft, reduced, x_half - y_half, v_half - z_half)
@@ -244,7 +259,7 @@ def record(out: Array, k: int, state: Array, w: Array, asked: float, clock: floa
     out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
     out[k, LOAD_POSITION] = state[Y]
     off = clock < state[OFF_UNTIL]
-    u = 0.0 if off else reaches(w, asked, state[V])
+    u = reaches(w, 0.0 if off else asked, state[V])
     out[k, APPLIED] = u
     if w[REST] != 0.0:
         current = (u - w[EMF] * state[V]) / w[OHM]

@@ -44,7 +44,7 @@ def reaches(w: Array, asked: float, v: float) -> float:
     room = w[OHM] * w[STATOR]
     u = min(max(asked, emf - room), emf + room)
     current = (u - emf) / w[OHM]
-    if u * current <= 0.0:  # the motors brake: nothing is taken from the battery
+    if u * current <= 0.0:  # the motors brake, and give: the battery can always take it
         return float(min(max(u, -w[REST]), w[REST]))
     way = math.copysign(1.0, u)
     bus = bus_at(w, u, current)
@@ -55,6 +55,6 @@ def reaches(w: Array, asked: float, v: float) -> float:
         current = (u - emf) / w[OHM]
     if u * current > w[SUPPLY] * bus:
         bus = w[REST] - w[RB] * w[MOTORS] * w[SUPPLY]
-        root = math.sqrt(emf * emf + 4.0 * w[OHM] * w[SUPPLY] * max(bus, 0.0))
-        u = 0.5 * (emf + way * root)
+        if bus > 0.5 * w[REST]:  # else the battery gives in before the limit does
+            u = 0.5 * (emf + way * math.sqrt(emf * emf + 4.0 * w[OHM] * w[SUPPLY] * bus))
     return float(u)
