@@ -17,6 +17,7 @@ from sim.fault import Damage
 from sim.faults import FAULTS
 from sim.log import Log
 
+FASTEST, SLOWEST = 1e-4, 1.0  # [s] between samples; other clocks do not tell seconds
 CERTAIN = 1e-3  # [1] nothing is surer than this, for all that two explanations are compared
 
 
@@ -34,8 +35,8 @@ class Inspection:
 
     @property
     def clean(self) -> bool:
-        """Whether no fault was found."""
-        return not self.damages
+        """Whether no fault was found, and nothing that would hide one."""
+        return not self.damages and not any(doubt.grave for doubt in self.doubts)
 
     def to_json(self) -> dict[str, Any]:
         """As ``sysid inspect --json`` prints it."""
@@ -70,8 +71,19 @@ def inspect(log: Log) -> Inspection:
         likelier than not.
     """
     clues = Clues(log)
+    if clues.period < FASTEST or clues.period > SLOWEST:
+        return Inspection((), (*log.doubts, _odd_clock(clues.period)))
     found = [damage for fault in FAULTS.values() for damage in fault.detect(clues)]
     return Inspection(tuple(sorted(_settled(found), key=_when)), log.doubts)
+
+
+def _odd_clock(period: float) -> Doubt:
+    return Doubt(
+        "odd-clock",
+        f"The samples are {period:.3g} s apart, where a robot logs every 0.001 to 0.1 s: nothing "
+        "was inspected. Give times in seconds.",
+        grave=True,
+    )
 
 
 def _settled(found: Iterable[Damage]) -> list[Damage]:

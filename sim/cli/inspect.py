@@ -32,7 +32,7 @@ def inspect(
 
     For example: sysid inspect drive.wpilog
 
-    Exit code 0 means that no fault was found, 1 that there is at least one.
+    Exit code 0 means that no fault was found, 1 that there is one, or that none could be.
     """
     from sim.inspection import inspect as look  # noqa: PLC0415 - --help must not wait for it
 
@@ -48,7 +48,7 @@ def inspect(
 def _show(found: "Inspection", *, title: str, runs: int) -> None:
     """Every fault with its place, its evidence and its cure, then the doubts."""
     count = len(found.damages)
-    said = "no fault found" if found.clean else f"{count} fault{'s' * (count > 1)} found"
+    said = f"{count} fault{'s' * (count > 1)} found" if count else "no fault found"
     click.echo(f"{title}: {runs} run{'s' * (runs != 1)}, {said}.")
     for damage in found.damages:
         where = damage.where

@@ -24,6 +24,7 @@ CUT = 0.3  # [s] without motors at severity 1
 DIP = 6.0  # [V] of the bus while it lasts: below every controller's threshold
 RECOVERED = 7.5  # [V] where a controller lets the motors go on
 SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
+LOWEST = 0.8  # [V] a motor that is asked for less pulls no battery down; a dead band looks alike
 MOVED = 5  # [samples] before a cut in which it was on its way
 ENDS = 12  # ends of the cut that are tried at first
 BELIEVED = 0.7  # [share explained] less is something else
@@ -72,6 +73,9 @@ def detect(clues: Clues) -> Iterable[Damage]:
         moved = before.size > 0 and float(np.median(before)) > clues.still
         if share < (SURE if surprise.starting else BELIEVED) or not moved:
             continue
+        volts = float(np.median(np.abs(run.voltage[first:last])))
+        if volts < LOWEST:
+            continue
         start = float(run.time[first])
         end = float(run.time[min(last, len(run) - 1)])
         back = bool(np.any(np.abs(run.velocity[last:]) > 2.0 * clues.still))
@@ -83,7 +87,7 @@ def detect(clues: Clues) -> Iterable[Damage]:
             where=Stretch(surprise.run, run.test, start, end),
             confidence=_confidence(share, back=back, seen=seen),
             evidence=f"For {end - start:.2f} s it moves as if no voltage were applied, while the "
-            f"log tells {abs(float(np.median(run.voltage[first:last]))):.1f} V{said}.",
+            f"log tells {volts:.1f} V{said}.",
             advice="Charge or change the battery, set supply current limits, and run this test "
             "again; log the applied voltage, not the commanded one.",
         )
@@ -137,5 +141,5 @@ FAULT = Fault(
     ordinary="the motors are without voltage for 0.3 s",
     spoil=spoil,
     detect=detect,
-    when=(0.2, 0.6),
+    when=(0.3, 0.6),
 )

@@ -31,6 +31,7 @@ BRIEF = 0.15  # [s] a longer surprise that swells and fades is no slip
 LEAST = 0.15  # [share of the speed] a smaller loss is not told from an effect
 SURE = 0.97  # the same at the start of a run, and of a few samples, where less proves nothing
 FEWEST = 3  # [samples]
+MOST = 2.0  # [s] what lasts longer is no slip but a wrong scale
 BACK = 2  # [samples] that read right again before the run ends
 BELIEVED = 0.92  # [share explained] less is something else
 
@@ -63,9 +64,9 @@ def detect(clues: Clues) -> Iterable[Damage]:
         run = clues.log.runs[surprise.run]
         back = surprise.begin + last <= len(run) - BACK
         proof = SURE if surprise.starting or last - first < FEWEST else BELIEVED
-        if share < proof or abs(loss) < LEAST or not back:
-            continue
         start, end = (float(run.time[surprise.begin + i]) for i in (first, last - 1))
+        if share < proof or abs(loss) < LEAST or not back or end - start > MOST:
+            continue
         yield Damage(
             fault="encoder-slip",
             where=Stretch(surprise.run, run.test, start, end),

@@ -19,6 +19,7 @@ import numpy as np
 from sim.clues import Clues
 from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, at_pace, only, with_run
 from sim.log import Array, Log, Run
+from sim.surprise import first_motion
 
 PRESSED = 0.6  # [s] against the stop at severity 1, until somebody lets go
 BOUNCE, FADES = 0.15, 0.02  # [share of the speed, s] how it comes back from the stop, and how long
@@ -27,6 +28,12 @@ FAST = 4.0  # [speeds of standstill] it came with
 ON = 0.5  # [share of the voltage at the impact] that is still there afterwards
 SETTLES = 0.1  # [s] after the impact, for the bounce and the sensor's filter
 BEFORE = 0.1  # [s] before the impact, where the speed it came with is read
+AT_END = 0.02  # [share of the travel] that close to the end of it a stop may be
+GIVEN = (0.005, 0.05)  # [share of the travel] by which a stop of rubber, or a slack chain, gives
+CREPT, CREEPS = 0.2, 1.0  # [share, s] from this share of the give on it takes so long
+PRESSES = 1.5  # [times kS] that gravity exceeds friction by, where it presses onto a stop
+LATE = 0.25  # [V] above what would move it, where it comes off
+LEANS = 0.7  # confidence: a chain that is pulled taut looks the same
 GIVES = 0.25  # [share of the way it would have gone] a stop that gives more is none
 
 
@@ -54,7 +61,8 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
 
 
 def detect(clues: Clues) -> Iterable[Damage]:
-    """Find runs that end at rest after full speed, with the voltage still on."""
+    """Find runs that end at a stop with the voltage still on, or begin leaning on one."""
+    yield from _leaning(clues)
     for index, run in enumerate(clues.log.runs):
         impact = _impact(run, still=clues.still)
         if impact is None:
@@ -83,6 +91,42 @@ def detect(clues: Clues) -> Iterable[Damage]:
             advice="Trim the run to before the impact, or run it again and let go earlier; set "
             "soft limits first.",
         )
+
+
+def _leaning(clues: Clues) -> Iterable[Damage]:
+    """Find runs that begin pressed onto a stop which gives, and come off it too late."""
+    balance = clues.balance
+    if balance is None or clues.log.type == "simple":
+        return
+    positions = np.concatenate([run.position for run in clues.log.runs])
+    lowest, highest = float(positions.min()), float(positions.max())
+    for index, run in enumerate(clues.log.runs):
+        if run.kind != "quasistatic" or not len(run):
+            continue
+        off = first_motion(run, still=clues.still)
+        way, volts = np.sign(run.voltage[off]), abs(float(run.voltage[off]))
+        pressed = float(way * balance.gravity(run.position[:1])[0])
+        given = float(way * (run.position[off] - run.position[0])) / max(highest - lowest, 1e-300)
+        end = lowest if way > 0.0 else highest
+        gone = np.abs(run.position[: off + 1] - run.position[0])
+        creeps = float(run.time[off] - run.time[int(np.argmax(gone > CREPT * gone[-1]))])
+        if (
+            pressed > PRESSES * balance.ks
+            and abs(float(run.position[0]) - end) < AT_END * (highest - lowest)
+            and GIVEN[0] < given < GIVEN[1]
+            and creeps > CREEPS
+            and volts - pressed - balance.ks > max(LATE, PRESSES * balance.ks)
+        ):
+            yield Damage(
+                fault="hard-stop",
+                where=Stretch(index, run.test, float(run.time[0]), float(run.time[off])),
+                confidence=LEANS,
+                evidence=f"It leans on the end of its travel for "
+                f"{run.time[off] - run.time[0]:.1f} s: gravity presses it there, it gives by "
+                f"{given:.1%} of its travel, and comes off at {volts:.2f} V where "
+                f"{pressed + balance.ks:.2f} V would do.",
+                advice="Leave this stretch out, and begin the run a little off the stop.",
+            )
 
 
 def _impact(run: Run, *, still: float) -> int | None:
