@@ -219,6 +219,30 @@ def test_energy_never_appears_from_nowhere(name, kind, seed):
     assert (lost[first:] <= slack).all()
 
 
+def asked(act, **known):
+    """Call an effect's function with what it asks for."""
+    names = act.__code__.co_varnames[: act.__code__.co_argcount]
+    return act(**{name: known[name] for name in names})
+
+
+@pytest.mark.parametrize(("name", "kind"), [p for p in PAIRS if "pull" in EFFECTS[p[0]].acts])
+def test_a_term_never_pushes_harder_than_the_back_emf_holds_back(name, kind):
+    # beyond what it stores and gives back, kV·v and the term together never feed the motion
+    found, scale = EFFECTS[name], MECHANISMS[kind].scale
+    values = hidden(name, kind, 2.0).parts[0].parameters
+    for v in (scale.speed * np.geomspace(1e-4, 2.0, 30)).tolist():
+        for x, way in ((0.0, v), (0.3 * scale.reach, -v)):
+            slope = 0.0
+            if found.stores is not None:
+                step = 1e-6 * scale.reach
+                slope = (found.stores(x + step, **values) - found.stores(x - step, **values)) / (
+                    2.0 * step
+                )
+            pull = asked(found.acts["pull"], x=x, v=way, **values)
+            tiny = 1e-6 * abs(pull)
+            assert (scale.kv * way + pull - slope) * way >= -tiny * abs(way), (x, way)
+
+
 @pytest.mark.parametrize("name", ["backlash", "compliance"])
 @given(seed=st.integers(0, 10_000))
 @settings(max_examples=5)
@@ -251,12 +275,10 @@ def test_what_a_term_pulls_is_the_slope_of_what_it_stores(name):
     kind = next(kind for one, kind in PAIRS if one == name)
     values = MECHANISMS[kind].hiding(name).hidden[0].parameters
     found = EFFECTS[name]
-    pull = found.acts["pull"]
-    asked = pull.__code__.co_varnames[: pull.__code__.co_argcount]
     for x in np.linspace(-2.0, 2.0, 17).tolist():
-        given_ = {"x": x, "v": 0.0, **values}
         slope = (found.stores(x + 1e-5, **values) - found.stores(x - 1e-5, **values)) / 2e-5
-        assert pull(**{n: given_[n] for n in asked}) == pytest.approx(slope, abs=1e-6)
+        pull = asked(found.acts["pull"], x=x, v=0.0, **values)
+        assert pull == pytest.approx(slope, abs=1e-6)
 
 
 @pytest.mark.parametrize(("name", "kind"), PAIRS)

@@ -1,0 +1,116 @@
+"""One file dropped into the catalogue, nothing else touched: listed, offered and tested."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+GOOD = '''
+"""Rolling resistance that grows with speed, one way of saying that bearings churn.
+
+    V = ... + churn·|v|^0.5·sgn(v)
+"""
+
+import math
+
+import numpy as np
+
+from sim.effect import Effect, Parameter
+
+
+def pull(v, churn):
+    """[V] against the motion."""
+    return churn * math.copysign(math.sqrt(abs(v)), v) if v else 0.0
+
+
+def ordinary(scale, size):
+    """Half a volt at the speed of a step."""
+    return {"churn": 0.5 * size / math.sqrt(scale.speed)}
+
+
+def starts(seen):
+    """Its share in what is missing."""
+    column = np.sign(seen.velocity) * np.sqrt(np.abs(seen.velocity))
+    yield {"churn": max(float(seen.share(column)[0]), 0.01)}
+
+
+EFFECT = Effect(
+    name="churn",
+    kind="term",
+    summary="bearings that churn",
+    formula="churn·|v|^0.5·sgn(v)",
+    parameters=(Parameter("churn", "volts per root of speed", "V·(s/{u})^0.5", power=0.5),),
+    fingerprint="What is missing rises fast and then slowly.",
+    inspect="Bearings.",
+    apart={"drag": "A faster run: drag grows faster than speed, churn more slowly."},
+    example=ordinary,
+    starts=starts,
+    acts={"pull": pull},
+)
+'''
+WRONG = {
+    "argument": ("def pull(v, churn)", "def pull(speed, churn)", "pull asks for 'speed'"),
+    "look-alike": ('apart={"drag"', 'apart={"friction"', "told apart from 'friction', which is no"),
+    "sign": ("return churn *", "return -churn *", "test_a_term_never_pushes_harder_than"),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def copy(root, tmp_path_factory):
+    """The project's code with one more effect, and a cache of its own."""
+    folder = tmp_path_factory.mktemp("project")
+    shutil.copytree(root / "sim", folder / "sim", ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "tests").mkdir()
+    for name in ("conftest.py", "test_effects.py"):
+        shutil.copy(root / "tests" / name, folder / "tests" / name)
+    shutil.copy(root / "pyproject.toml", folder)
+    (folder / "sim" / "effects" / "churn.py").write_text(GOOD, encoding="utf-8")
+    return folder
+
+
+def run(copy, *command):
+    """Run a module in the copy, which comes before what is installed."""
+    environment = {**os.environ, "PYTHONPATH": str(copy), "SYSID_CACHE": str(copy / "cache")}
+    return subprocess.run(
+        [sys.executable, *command], cwd=copy, env=environment, capture_output=True,
+        encoding="utf-8", check=False, timeout=300,
+    )  # fmt: skip
+
+
+def sysid(copy, *arguments):
+    return run(copy, "-c", "from sim.cli import main; main()", *arguments)
+
+
+def contract(copy):
+    return run(
+        copy, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "tests/test_effects.py",
+        "-k", "churn",
+    )  # fmt: skip
+
+
+def test_it_is_listed_hidden_and_contract(copy):
+    listed = json.loads(sysid(copy, "effects", "--json").stdout)
+    made = sysid(copy, "simulate", "drivetrain", "--hide", "churn:0.7", "-o", "log.csv")
+    checked = contract(copy)
+
+    assert "bearings that churn" in [row["summary"] for row in listed]
+    assert made.returncode == 0, made.stderr
+    assert checked.returncode == 0, checked.stdout
+    assert "passed" in checked.stdout
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_wrong_one_fails_with_a_sentence_that_says_why(copy, name):
+    right, wrong, said = WRONG[name]
+    file = copy / "sim" / "effects" / "churn.py"
+    assert right in GOOD
+    file.write_text(GOOD.replace(right, wrong), encoding="utf-8")
+
+    checked = contract(copy)
+
+    file.write_text(GOOD, encoding="utf-8")
+    assert checked.returncode != 0
+    assert said in checked.stdout
