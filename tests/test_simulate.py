@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 from sim.battery import Battery
 from sim.errors import BadRequest
 from sim.fit import fit
-from sim.log import FOUR_TESTS, KINDS
+from sim.log import FOUR_TESTS
 from sim.mechanism import Sensor
 from sim.mechanisms import MECHANISMS, mechanism
 from sim.motors import MOTORS, motor, theoretical_kv
 from sim.routine import Routine
-from sim.simulate import motion, read, simulate
+from sim.simulate import motion, simulate
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)
@@ -204,39 +204,6 @@ def test_a_test_ends_where_the_travel_does():
     assert len(log.of("dynamic-forward")[0]) < 100
 
 
-def test_a_sensor_is_quiet_at_rest_and_coarse():
-    sensor = Sensor(resolution=0.25, velocity_noise=0.1, noise_speed=0.05, jitter=0.0)
-    velocity = np.concatenate((np.zeros(500), np.ones(500)))
-
-    position, seen = read(sensor, position=np.linspace(0, 1, 1000), velocity=velocity, rng=rng())
-
-    assert not seen[:500].any()
-    assert np.std(seen[500:]) == pytest.approx(0.1, rel=0.1)
-    assert set(position) == {0.0, 0.25, 0.5, 0.75, 1.0}
-
-
-@pytest.mark.parametrize(
-    ("asked", "said"),
-    [
-        (dict(ramp=0.0), "a ramp of 0 V/s. Choose a number above 0"),
-        (dict(ramp=math.nan), "a ramp of nan V/s"),
-        (dict(step=-3.0), "a step of -3 V"),
-        (dict(step=24.0), "at most 12 V"),
-        (dict(timeout=math.inf), "a timeout of inf s"),
-    ],
-    ids=lambda value: str(value)[:20],
-)
-def test_a_routine_no_robot_can_run_is_refused(asked, said):
-    with pytest.raises(BadRequest) as refused:
-        Routine(**asked)
-
-    assert said in str(refused.value)
-
-
-def test_the_defaults_are_wpilibs():
-    assert Routine() == Routine(ramp=1.0, step=7.0, timeout=10.0)
-
-
 @pytest.mark.parametrize(
     ("routine", "period", "said"),
     [
@@ -293,67 +260,3 @@ def test_where_there_are_stops_a_test_begins_at_one_end_and_ends_before_the_othe
         assert abs(run.position[-1] - ends) < 0.1 * reach
         assert low <= run.position.min()
         assert run.position.max() <= high
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_of_test_stays_within_the_step_and_is_mirrored_in_reverse(kind):
-    routine = Routine(ramp=0.35, step=3.5, timeout=10.0, kinds=(kind,))
-    time = np.arange(0.04, 10.0, 0.02).tolist()
-
-    there, back = ([routine.voltage(test, t) for t in time] for test in routine.tests)
-
-    assert routine.tests == (f"{kind}-forward", f"{kind}-reverse")
-    assert np.abs(there).max() == pytest.approx(3.5, rel=0.02)
-    assert (np.array(there) == -np.array(back)).all()
-
-
-@pytest.mark.parametrize("kind", ["triangle", "multistep", "chirp"])
-def test_what_turns_around_goes_both_ways(kind):
-    routine = Routine(kinds=(kind,), step=4.0)
-    volts = [routine.voltage(f"{kind}-forward", t) for t in np.arange(0.0, 10.0, 0.01).tolist()]
-
-    assert min(volts) == pytest.approx(-4.0, rel=0.02)
-    assert volts[1] > 0.0
-
-
-def test_a_coast_is_a_step_and_then_nothing():
-    routine = Routine(kinds=("coast",), step=4.0)
-
-    assert routine.voltage("coast-reverse", 0.5) == -4.0
-    assert routine.voltage("coast-forward", 1.5) == 0.0
-
-
-@pytest.mark.parametrize("kinds", [(), ("static",), ("dynamic", "dynamic")], ids=str)
-def test_tests_there_are_not_are_refused(kinds):
-    with pytest.raises(BadRequest, match="Choose from quasistatic, dynamic, coast"):
-        Routine(kinds=kinds)
-
-
-def sensed(**change):
-    sensor = replace(QUIET, **change)
-    time = np.arange(0.0, 1.0, 0.02)
-    speed = np.sin(6.0 * time)
-    way = (1.0 - np.cos(6.0 * time)) / 6.0
-    return time, speed, read(sensor, position=way, velocity=speed, time=time, rng=rng())
-
-
-def test_a_late_sensor_says_what_was():
-    time, _, seen = sensed(latency=0.04)
-
-    assert seen.velocity[2:] == pytest.approx(np.sin(6.0 * (time[2:] - 0.04)), abs=1e-3)
-    assert seen.position[2:] == pytest.approx((1 - np.cos(6.0 * (time[2:] - 0.04))) / 6, abs=1e-4)
-
-
-def test_a_filter_in_the_sensor_says_the_mean_of_a_while():
-    time, _, seen = sensed(filter=0.1)
-    mean = (np.cos(6.0 * (time - 0.1)) - np.cos(6.0 * time)) / 0.6
-
-    assert seen.velocity[5:] == pytest.approx(mean[5:], abs=2e-3)
-
-
-def test_frames_stand_until_the_next_with_their_noise():
-    _, _, seen = sensed(frame=0.1, velocity_noise=0.1)
-
-    steps = np.count_nonzero(np.diff(seen.velocity))
-    assert 8 <= steps <= 11
-    assert np.count_nonzero(np.diff(seen.position)) <= steps

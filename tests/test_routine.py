@@ -1,0 +1,66 @@
+"""SysIdRoutine's tests and the others: which voltage, when."""
+
+import math
+
+import numpy as np
+import pytest
+
+from sim.errors import BadRequest
+from sim.log import KINDS
+from sim.routine import Routine
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (dict(ramp=0.0), "a ramp of 0 V/s. Choose a number above 0"),
+        (dict(ramp=math.nan), "a ramp of nan V/s"),
+        (dict(step=-3.0), "a step of -3 V"),
+        (dict(step=24.0), "at most 12 V"),
+        (dict(timeout=math.inf), "a timeout of inf s"),
+    ],
+    ids=lambda value: str(value)[:20],
+)
+def test_a_routine_no_robot_can_run_is_refused(asked, said):
+    with pytest.raises(BadRequest) as refused:
+        Routine(**asked)
+
+    assert said in str(refused.value)
+
+
+def test_the_defaults_are_wpilibs():
+    assert Routine() == Routine(ramp=1.0, step=7.0, timeout=10.0)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_of_test_stays_within_the_step_and_is_mirrored_in_reverse(kind):
+    routine = Routine(ramp=0.35, step=3.5, timeout=10.0, kinds=(kind,))
+    time = np.arange(0.04, 10.0, 0.02).tolist()
+
+    there, back = ([routine.voltage(test, t) for t in time] for test in routine.tests)
+
+    assert routine.tests == (f"{kind}-forward", f"{kind}-reverse")
+    assert np.abs(there).max() == pytest.approx(3.5, rel=0.02)
+    assert (np.array(there) == -np.array(back)).all()
+
+
+@pytest.mark.parametrize("kind", ["triangle", "multistep", "chirp"])
+def test_what_turns_around_goes_both_ways(kind):
+    routine = Routine(kinds=(kind,), step=4.0)
+    volts = [routine.voltage(f"{kind}-forward", t) for t in np.arange(0.0, 10.0, 0.01).tolist()]
+
+    assert min(volts) == pytest.approx(-4.0, rel=0.02)
+    assert volts[1] > 0.0
+
+
+def test_a_coast_is_a_step_and_then_nothing():
+    routine = Routine(kinds=("coast",), step=4.0)
+
+    assert routine.voltage("coast-reverse", 0.5) == -4.0
+    assert routine.voltage("coast-forward", 1.5) == 0.0
+
+
+@pytest.mark.parametrize("kinds", [(), ("static",), ("dynamic", "dynamic")], ids=str)
+def test_tests_there_are_not_are_refused(kinds):
+    with pytest.raises(BadRequest, match="Choose from quasistatic, dynamic, coast"):
+        Routine(kinds=kinds)
