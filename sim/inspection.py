@@ -16,6 +16,7 @@ from sim.doubt import Doubt
 from sim.fault import Damage
 from sim.faults import FAULTS
 from sim.log import Log
+from sim.looks import look
 
 FASTEST, SLOWEST = 1e-4, 1.0  # [s] between samples; other clocks do not tell seconds
 CERTAIN = 1e-3  # [1] nothing is surer than this, for all that two explanations are compared
@@ -74,7 +75,7 @@ def inspect(log: Log) -> Inspection:
     if clues.period < FASTEST or clues.period > SLOWEST:
         return Inspection((), (*log.doubts, _odd_clock(clues.period)))
     found = [damage for fault in FAULTS.values() for damage in fault.detect(clues)]
-    return Inspection(tuple(sorted(_settled(found), key=_when)), log.doubts)
+    return Inspection(tuple(sorted(_settled(found), key=_when)), (*log.doubts, *look(clues)))
 
 
 def _odd_clock(period: float) -> Doubt:

@@ -12,7 +12,7 @@ To the gains: kA too large, by 39 % for a step of 3.5 V and 66 % for 7 V on four
 not harmed.
 
 Fingerprint: a dynamic test surges, lulls, and only then climbs as a mass does: an acceleration that
-falls and rises again. The test against its look-alike, a light mechanism, is a smaller step.
+falls and rises again. A springy drive looks alike, but does so in every step, however small.
 """
 
 import math
