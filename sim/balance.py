@@ -110,7 +110,7 @@ def weigh(runs: Sequence[Run], *, still: float, period: float) -> Balance | None
     volts, terms, start = rows[:, 0], rows[:, 1:7], rows[:, 7]
     scale = np.maximum(np.sqrt(np.mean(terms**2, axis=0)), 1e-300)
     gains = _robust(terms / scale, volts) / scale
-    for _ in range(3):  # kA by the starts of steps alone, where it shows; the rest without it
+    for _ in range(2):  # kA by the starts of steps alone, where it shows; the rest without it
         gains[1] = _acceleration(
             volts - np.delete(terms, 1, 1) @ np.delete(gains, 1), terms, start, part
         )
