@@ -1,6 +1,5 @@
 """sysid dataset: one spec and secret, always the same files, and a key that tells the truth."""
 
-import hashlib
 import json
 from dataclasses import replace
 
@@ -9,13 +8,12 @@ import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 
 import sim
+from sim.contaminate import contaminate
 from sim.dataset import making
-from sim.dataset.plan import plan
-from sim.dataset.secret import Secret, find_secret
+from sim.dataset.plan import DAMAGE, FAULT, MECHANISM, RECORD, plan
+from sim.dataset.secret import find_secret
 from sim.dataset.spec import read_spec
-from sim.mechanisms import MECHANISMS
 from sim.simulate import simulate
-from sim.units import unit
 
 
 @pytest.fixture(autouse=True)
@@ -135,10 +133,31 @@ def test_a_fault_is_all_that_differs_from_the_clean_log(tmp_path):
         assert here.contents != there.contents
 
 
+def test_a_moment_that_cannot_be_is_drawn_again(tmp_path):
+    late = '[[logs.faults]]\nname = "loop-overrun"\ntest = "dynamic-forward"\nat = [0.1, 1.0]\n'
+    text = PLAIN.replace("count = 2", "count = 20") + late  # a test of 1 s drives for 0.94 s
+
+    made = [making.make(job) for job in jobs_of(spec(tmp_path, text))]
+
+    assert len(made) == 40  # each draws a moment after the end 1 time in 15
+    assert all(isinstance(one, making.Made) for one in made)
+
+
+def test_every_purpose_has_a_source_of_chance_of_its_own(tmp_path):
+    jobs = jobs_of(spec(tmp_path, DAMAGED))
+    purposes = [(MECHANISM,), (RECORD,), (DAMAGE, 0, 0), (DAMAGE, 1, 0), (DAMAGE, 0, 1), (FAULT, 0)]
+
+    drawn = {job.stream(*which).random() for job in jobs for which in purposes}
+
+    assert len(drawn) == len(jobs) * len(purposes)
+
+
 def test_another_processor_gives_the_same_bytes(tmp_path, monkeypatch):
-    def other_processor(*arguments, **named):
-        log = simulate(*arguments, **named)
+    def off_by_a_bit(log):
         return replace(log, runs=tuple(replace(run, **last_bits(run)) for run in log.runs))
+
+    def spoilt_there(spoilt):
+        return replace(spoilt, log=off_by_a_bit(spoilt.log))
 
     def last_bits(run):
         names = ("time", "voltage", "position", "velocity")
@@ -146,73 +165,10 @@ def test_another_processor_gives_the_same_bytes(tmp_path, monkeypatch):
 
     path = spec(tmp_path, DAMAGED)
     here = files(make(path, "here"))
-    monkeypatch.setattr(making, "simulate", other_processor)  # its last bit is another
+    monkeypatch.setattr(making, "simulate", lambda *a, **k: off_by_a_bit(simulate(*a, **k)))
+    monkeypatch.setattr(making, "contaminate", lambda *a, **k: spoilt_there(contaminate(*a, **k)))
 
     assert files(make(path, "there")) == here
-
-
-def test_the_key_holds_the_true_gains_in_the_units_of_the_log(tmp_path):
-    text = PLAIN.replace("count = 2", "drawn = false").replace("timeout = 1.0", "timeout = 6.0")
-    folder = make(spec(tmp_path, text))
-
-    truth = {log["mechanism"]: log for log in key(folder)["logs"]}
-
-    turn = 2 * np.pi  # a shooter's log counts rotations
-    assert truth["drivetrain"]["units"] == "meters"
-    assert truth["drivetrain"]["gains"] == pytest.approx(MECHANISMS["drivetrain"].gains)
-    assert truth["shooter"]["units"] == "rotations"
-    assert truth["shooter"]["gains"]["kV"] == pytest.approx(
-        MECHANISMS["shooter"].gains["kV"] * turn
-    )
-    log = sim.read(folder / next(iter(truth["shooter"]["files"])))
-    (step,) = log.of("dynamic-forward")
-    top = step.velocity[-10:].mean() / turn  # [rot/s] near its end, where kA has nothing to do
-    gains = truth["shooter"]["gains"]
-    assert gains["kS"] + gains["kV"] * top == pytest.approx(3.0, rel=0.02)
-
-
-def test_the_key_says_what_was_done_to_each_log_and_where(tmp_path):
-    folder = make(spec(tmp_path, DAMAGED))
-
-    logs = key(folder)["logs"]
-    damaged = [log for log in logs if log["faults"]]
-
-    assert [len(log["faults"]) for log in damaged] == [2] * 4
-    assert sorted(log["student"] for log in damaged) == ["Bo", "Bo", "ann", "ann"]
-    for log in damaged:
-        first, second = log["faults"]
-        assert first["fault"] == "loop-overrun"
-        assert 0.5 <= first["severity"] <= 1.5
-        assert second["fault"] in {"missing-test", "sign-flip"}
-
-
-def test_a_damaged_part_is_counted_in_the_log_as_it_is(tmp_path):
-    text = """
-name = "runs"
-seed = 3
-routine = { timeout = 2.0 }
-[[logs]]
-mechanisms = "shooter"
-[[logs.faults]]
-name = "loop-overrun"
-test = "dynamic-reverse"
-[[logs.faults]]
-name = "missing-test"
-test = "quasistatic-forward"
-"""
-    folder = make(spec(tmp_path, text))
-
-    (entry,) = key(folder)["logs"]
-    log = sim.read(folder / "log-01.wpilog")
-    (overrun,) = entry["faults"][0]["where"]
-    (missing,) = entry["faults"][1]["where"]
-
-    assert [run.test for run in log.runs].index("dynamic-reverse") == overrun["run"] == 2
-    run = log.runs[overrun["run"]]
-    assert overrun["test"] == run.test
-    inside = (run.time >= overrun["start_s"] - 1e-6) & (run.time <= overrun["end_s"] + 1e-6)
-    assert np.diff(run.time[inside]).max() > 1.5 * 0.02  # the gap is where the key says
-    assert missing["run"] is None
 
 
 def test_a_log_holds_the_tests_that_are_asked_for(tmp_path):
@@ -225,54 +181,6 @@ def test_a_log_holds_the_tests_that_are_asked_for(tmp_path):
         "quasistatic-forward", "quasistatic-reverse", "coast-reverse",
     ]  # fmt: skip
     assert all(run.current is not None and run.bus_voltage is not None for run in log.runs)
-
-
-def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
-    effect = '[[logs.effects]]\nname = ["drag", "stribeck"]\nsize = [1.5, 2.0]\n'
-    clean = files(make(spec(tmp_path), "clean"))
-
-    folder = make(spec(tmp_path, PLAIN + effect))
-
-    found = {}
-    for log in key(folder)["logs"]:
-        (hidden,) = log["hidden"]
-        built = replace(MECHANISMS[log["mechanism"]], **log["built"])
-        again = built.hiding(hidden["effect"], size=hidden["size"])
-        found[hidden["effect"]] = hidden["size"]
-        assert 1.5 <= hidden["size"] <= 2.0
-        assert again.hidden[0].said(unit(log["units"])) == hidden["parameters"]
-    assert set(found) == {"drag", "stribeck"}  # four logs with this seed draw both
-    assert not [name for name, data in files(folder).items() if clean[name] == data]
-
-
-def test_the_hash_in_the_key_is_that_of_the_file(tmp_path):
-    folder = make(spec(tmp_path, DAMAGED))
-
-    made = files(folder)
-    hashes = {file: found for log in key(folder)["logs"] for file, found in log["files"].items()}
-
-    assert hashes == {file: hashlib.sha256(data).hexdigest() for file, data in made.items()}
-
-
-def test_nothing_in_the_folder_gives_the_truth_away(tmp_path):
-    folder = make(spec(tmp_path, DAMAGED))
-
-    truth = key(folder)["logs"]
-    told = {
-        "loop-overrun",
-        "loop_overrun",
-        "missing",
-        "sign-flip",
-        "seed",
-        "severity",
-        "key",
-        SECRET,
-    }
-    told |= {log["seed"][:12] for log in truth} | {log["seed"][-12:] for log in truth}
-    told |= {repr(value) for log in truth for value in log["gains"].values()}
-    for file, data in files(folder).items():
-        assert not [word for word in told if word in file or word.encode() in data]
-    assert len({path.stat().st_mtime for path in folder.rglob("log*")}) == 1
 
 
 def test_a_number_says_nothing_about_what_was_done_to_a_log(tmp_path):
@@ -301,50 +209,6 @@ def test_no_room_for_temporary_files_is_one_line(tmp_path, monkeypatch, capsys):
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert "a temporary file cannot be written (No such file or directory). Make room" in said
-
-
-def test_a_secret_is_made_on_first_use_and_kept(tmp_path, capsys):
-    path = spec(tmp_path, DAMAGED, secret="")
-
-    first = files(make(path, "one"))
-    said = capsys.readouterr().err
-    again = files(make(path, "two"))
-
-    assert said == f"{tmp_path / 'class.secret'}: a new secret. Keep it, and keep it to yourself.\n"
-    assert capsys.readouterr().err == ""
-    assert first == again
-    assert len((tmp_path / "class.secret").read_text(encoding="utf-8").strip()) == 64
-
-
-def test_two_secrets_that_are_made_differ(tmp_path):
-    made = []
-    for name in ("one", "two"):
-        (tmp_path / name).mkdir()
-        make(spec(tmp_path / name, DAMAGED, secret=""))
-        made.append((tmp_path / name / "class.secret").read_bytes())
-
-    assert made[0] != made[1]
-
-
-def test_the_environment_may_hold_the_secret(tmp_path, monkeypatch):
-    kept = files(make(spec(tmp_path, DAMAGED)))
-    (tmp_path / "class.secret").unlink()
-    monkeypatch.setenv("SYSID_SECRET", SECRET)
-
-    assert files(make(tmp_path / "spec.toml", "from-environment")) == kept
-    assert not (tmp_path / "class.secret").exists()
-
-
-def test_a_refused_request_makes_no_secret(tmp_path):
-    path = spec(tmp_path, DAMAGED, secret="")
-    (tmp_path / "data").write_text("a file", encoding="utf-8")
-
-    assert sysid("dataset", path, "-o", tmp_path / "data") == 2
-    assert not (tmp_path / "class.secret").exists()
-
-
-def test_a_secret_does_not_show_in_a_message():
-    assert SECRET not in repr(Secret(SECRET.encode(), hidden=True))
 
 
 def test_the_example_can_be_made_as_it_is(tmp_path, capsys):

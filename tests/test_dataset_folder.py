@@ -6,6 +6,9 @@ import shutil
 import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 
+from sim.dataset.folder import Shelf
+from sim.errors import BadRequest
+
 
 @pytest.fixture(autouse=True)
 def _no_secret_around(monkeypatch):
@@ -74,6 +77,17 @@ def test_files_of_another_spec_are_foreign(tmp_path, capsys, other):
 
     assert "ame another folder with -o" in said
     assert files(tmp_path / "data") == before
+
+
+def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path):
+    shelf = Shelf(tmp_path / "data", mine=())
+    shelf.put({"log-01.csv": b"ours"})
+    (tmp_path / "data" / "log-02.csv").write_bytes(b"somebody else's")
+
+    with pytest.raises(BadRequest, match="log-02.csv: has come there meanwhile. Let the other"):
+        shelf.put({"log-02.csv": b"ours"})
+
+    assert files(tmp_path / "data") == {"log-01.csv": b"ours", "log-02.csv": b"somebody else's"}
 
 
 def test_a_changed_file_is_foreign_too(tmp_path, capsys):
