@@ -7,6 +7,7 @@ import numpy as np
 from sim.clues import MOVING, Clues, top_speed
 from sim.doubt import Doubt
 from sim.log import DIRECTIONS, Array, Run
+from sim.units import unit
 
 FEWEST = 10  # [samples in motion] less says little
 APART_KS = 0.12, 0.35  # [V, share of their mean] two directions' kS further apart are two
@@ -71,9 +72,12 @@ def _line(clues: Clues, way: str) -> _Line | None:
     fast &= (run.time > begins) & (run.time < run.time[-1] - SMOOTH)
     if fast.sum() < 3 * FEWEST:
         return None
-    load = balance.gravity(run.position)
-    if clues.log.type not in ("elevator", "arm"):
-        load = load - load.mean()  # what differs between the directions is what is sought
+    load = np.zeros(len(run))
+    if clues.log.type in ("elevator", "arm"):
+        load = balance.gravity(run.position)
+    elif unit(clues.log.units).angular:  # it may be an arm; what differs is sought, not its mean
+        load = balance.gravity(run.position)
+        load = load - load.mean()
     volts = (sign * (run.voltage - load - balance.ka * _acceleration(run, clues.period)))[fast]
     speed = np.abs(run.velocity[fast])
     (kv, ks), covariance = np.polyfit(speed, volts, 1, cov=True)
