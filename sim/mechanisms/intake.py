@@ -31,7 +31,7 @@ MECHANISM = Mechanism(
         noise_speed=0.5 * TURN,
         jitter=0.0004,
     ),
-    stator=60.0,
+    stator=80.0,
     spread={
         "ratio": (2.0, 4.0),
         "load": (0.0008, 0.002),
