@@ -4,6 +4,8 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from sim.cli import sysid as command
@@ -89,9 +91,12 @@ def key(folder: Path) -> dict:
     return json.loads(folder.with_name(f"{folder.name}.key.json").read_bytes())
 
 
-def process(*arguments: object, folder: Path, stderr: int = subprocess.PIPE) -> subprocess.Popen:
-    """The command as a process of its own, in a group of its own, with no terminal."""
-    return subprocess.Popen(
+@contextmanager
+def process(
+    *arguments: object, folder: Path, stderr: int = subprocess.PIPE
+) -> Iterator[subprocess.Popen]:
+    """The command as a process of its own, in a group of its own; it ends with the test."""
+    with subprocess.Popen(
         [sys.executable, "-c", IN_FRONT, *map(str, arguments)],
         cwd=folder,
         stdout=subprocess.PIPE,
@@ -99,4 +104,8 @@ def process(*arguments: object, folder: Path, stderr: int = subprocess.PIPE) -> 
         encoding="utf-8",
         start_new_session=True,
         env=os.environ | {"SYSID_SECRET": "", "TERM": "xterm"},
-    )
+    ) as running:
+        try:
+            yield running
+        finally:
+            running.kill()  # one that has ended is past caring

@@ -38,8 +38,9 @@ def test_a_cluster_makes_the_files_that_one_process_makes(tmp_path, address):
     path = spec(tmp_path, DAMAGED.replace("count = 2", "count = 20"))  # 22 logs of each student
     here = make(path, "here", "--processes", 1)
 
-    running = process("dataset", "spec.toml", "-o", "there", "--cluster", address, folder=tmp_path)
-    said = running.communicate(timeout=100)
+    asked = ("dataset", "spec.toml", "-o", "there", "--cluster", address)
+    with process(*asked, folder=tmp_path) as running:
+        said = running.communicate(timeout=100)
 
     assert running.returncode == 0, said
     assert said[1] == ""

@@ -4,7 +4,7 @@ import os
 import signal
 import sys
 import time
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 
 import psutil
 import pytest
@@ -29,16 +29,18 @@ def undisturbed(tmp_path_factory):
     return files(folder), key(folder)
 
 
+@contextmanager
 def started(tmp_path):
     """A run of two processes in full swing."""
-    running = process("dataset", "spec.toml", "-o", "data", "--processes", 2, folder=tmp_path)
-    deadline = time.monotonic() + LONGEST
-    while len(list((tmp_path / "data").glob("log*"))) < ENOUGH:
-        if running.poll() is not None or time.monotonic() > deadline:
-            running.kill()
-            pytest.fail(f"it is not in full swing: {running.communicate()}")
-        time.sleep(0.005)
-    return running
+    asked = ("dataset", "spec.toml", "-o", "data", "--processes", 2)
+    with process(*asked, folder=tmp_path) as running:
+        deadline = time.monotonic() + LONGEST
+        while len(list((tmp_path / "data").glob("log*"))) < ENOUGH:
+            if running.poll() is not None or time.monotonic() > deadline:
+                running.kill()
+                pytest.fail(f"it is not in full swing: {running.communicate()}")
+            time.sleep(0.005)
+        yield running
 
 
 def left(tmp_path):
@@ -52,11 +54,11 @@ def left(tmp_path):
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no kill -9")
 def test_a_killed_run_leaves_whole_files_and_the_next_one_goes_on(tmp_path, undisturbed, capsys):
     path = spec(tmp_path, LONG)
-    running = started(tmp_path)
-    workers = psutil.Process(running.pid).children(recursive=True)
+    with started(tmp_path) as running:
+        workers = psutil.Process(running.pid).children(recursive=True)
 
-    os.kill(running.pid, signal.SIGKILL)
-    running.communicate(timeout=LONGEST)
+        os.kill(running.pid, signal.SIGKILL)
+        running.communicate(timeout=LONGEST)
 
     whole, truth = undisturbed
     there = left(tmp_path)
@@ -78,10 +80,9 @@ def test_a_killed_run_leaves_whole_files_and_the_next_one_goes_on(tmp_path, undi
 @pytest.mark.skipif(sys.platform == "win32", reason="a test cannot press Ctrl+C on Windows")
 def test_ctrl_c_leaves_whole_files_and_says_how_to_go_on(tmp_path, undisturbed):
     spec(tmp_path, LONG)
-    running = started(tmp_path)
-
-    os.killpg(running.pid, signal.SIGINT)  # a terminal sends it to all of them
-    _, said = running.communicate(timeout=LONGEST)
+    with started(tmp_path) as running:
+        os.killpg(running.pid, signal.SIGINT)  # a terminal sends it to all of them
+        _, said = running.communicate(timeout=LONGEST)
 
     whole, _ = undisturbed
     there = files(tmp_path / "data")
@@ -95,12 +96,11 @@ def test_ctrl_c_leaves_whole_files_and_says_how_to_go_on(tmp_path, undisturbed):
 
 def test_a_worker_that_is_killed_is_told_in_one_line(tmp_path, undisturbed):
     spec(tmp_path, LONG)
-    running = started(tmp_path)
-
-    for worker in psutil.Process(running.pid).children():
-        if "spawn_main" in " ".join(worker.cmdline()):
-            worker.kill()
-    _, said = running.communicate(timeout=LONGEST)
+    with started(tmp_path) as running:
+        for worker in psutil.Process(running.pid).children():
+            if "spawn_main" in " ".join(worker.cmdline()):
+                worker.kill()
+        _, said = running.communicate(timeout=LONGEST)
 
     assert running.returncode == 2
     assert said.count("\n") == 1
@@ -112,8 +112,11 @@ def test_a_worker_that_is_killed_is_told_in_one_line(tmp_path, undisturbed):
 def test_a_terminal_shows_a_bar(tmp_path):
     spec(tmp_path)
     main, terminal = os.openpty()
-    with os.fdopen(main, "rb", buffering=0) as screen:
-        running = process("dataset", "spec.toml", "-o", "data", folder=tmp_path, stderr=terminal)
+    asked = ("dataset", "spec.toml", "-o", "data")
+    with (
+        os.fdopen(main, "rb", buffering=0) as screen,
+        process(*asked, folder=tmp_path, stderr=terminal) as running,
+    ):
         os.close(terminal)
         drawn = b""
         with suppress(OSError):  # what reading says once the other side is closed
