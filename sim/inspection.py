@@ -15,7 +15,7 @@ import numpy as np
 
 from sim.clues import Clues
 from sim.doubt import Doubt
-from sim.fault import Damage
+from sim.fault import Damage, Fault
 from sim.faults import FAULTS
 from sim.log import Log
 from sim.looks import look
@@ -78,8 +78,16 @@ def inspect(log: Log) -> Inspection:
         return Inspection((), (*log.doubts, _odd_clock(clues.period)))
     # numbers at the edge of what a double holds overflow somewhere, and then say nothing
     with np.errstate(all="ignore"):
-        found = [damage for fault in FAULTS.values() for damage in fault.detect(clues)]
+        found = [damage for fault in FAULTS.values() for damage in _asked(fault, clues)]
         return Inspection(tuple(sorted(_settled(found), key=_when)), (*log.doubts, *look(clues)))
+
+
+def _asked(fault: Fault, clues: Clues) -> list[Damage]:
+    """What one detector finds; nothing where the log leaves its equations without a solution."""
+    try:
+        return list(fault.detect(clues))
+    except np.linalg.LinAlgError:
+        return []
 
 
 def _odd_clock(period: float) -> Doubt:

@@ -108,8 +108,9 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
 
 
 def _typical(values: Array) -> float:
-    """The median of the larger half of the values."""
-    return float(np.median(values[_hard(values)]))
+    """The median of the larger half of the values; 0 if there are none."""
+    hard = values[_hard(values)]
+    return float(np.median(hard)) if hard.size else 0.0
 
 
 def _whole(index: int, run: Run) -> Stretch:

@@ -66,6 +66,8 @@ def _line(clues: Clues, way: str) -> _Line | None:
     if not runs or clues.balance is None:
         return None
     run, balance = clues.log.runs[runs[0]], clues.balance
+    if len(run) < FEWEST:
+        return None
     sign = 1.0 if way == "forward" else -1.0
     fast = sign * run.velocity > max(MOVING * top_speed(run), clues.still)
     begins = run.time[int(np.argmax(fast))] + SETTLED * balance.timescale
