@@ -50,6 +50,18 @@ def test_a_cluster_makes_the_files_that_one_process_makes(tmp_path, address):
 
 
 @needs_dask
+def test_a_worker_of_many_threads_makes_the_same(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    path = spec(tmp_path, PLAIN.replace("count = 2", "count = 10"))
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=4, processes=True, dashboard_address="127.0.0.1:0"
+    ) as found:
+        there = make(path, "there", "--cluster", found.scheduler_address)
+
+    assert files(there) == files(make(path, "here"))
+
+
+@needs_dask
 def test_a_refusal_on_a_worker_comes_back_as_one(tmp_path, address):
     late = '[[logs.faults]]\nname = "loop-overrun"\nat = 0.99\ntest = "dynamic-forward"\n'
     asked = read_spec(spec(tmp_path, PLAIN + late))  # a test of 1 s drives for 0.96 s
@@ -59,6 +71,22 @@ def test_a_refusal_on_a_worker_comes_back_as_one(tmp_path, address):
 
     assert {one.job for one in found} == set(jobs)
     assert all("0.99 s is not within dynamic-forward" in one.what for one in found)
+
+
+@needs_dask
+def test_a_cluster_that_is_lost_is_one_line(tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "PATIENCE", 1.0)  # [s] to take leave of who is gone
+    asked = read_spec(spec(tmp_path, PLAIN.replace("count = 2", "count = 200")))
+    jobs = plan(asked, find_secret(asked, make=False))
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=1, processes=False, protocol="tcp", dashboard_address="127.0.0.1:0"
+    ) as found:
+        making = cluster.made_on_cluster(jobs, address=found.scheduler_address)
+        next(making)
+        found.close()
+        with pytest.raises(cluster.BadRequest, match="was lost .* again to go on"):
+            list(making)
 
 
 @needs_dask
@@ -127,4 +155,4 @@ class Workers:
 )
 def test_workers_that_would_make_something_else_are_refused(has, said):
     with pytest.raises(cluster.BadRequest, match=said):
-        cluster._check_workers(Workers(*has), "tcp://host:1")
+        cluster._workers(Workers(*has), "tcp://host:1")

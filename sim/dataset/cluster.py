@@ -5,9 +5,11 @@ in the same version, and neither the spec, nor the secret, nor a disk in common.
 the truth about its log do travel: over a network that is not one's own, use ``tls://``.
 """
 
+import logging
 import re
 from collections.abc import Iterator, Sequence
 from concurrent.futures import CancelledError
+from contextlib import contextmanager
 from importlib import import_module
 from importlib.metadata import version
 from types import ModuleType
@@ -36,17 +38,30 @@ def made_on_cluster(jobs: Sequence["Job"], *, address: str) -> Iterator["Made | 
         BadRequest: Dask is not installed here, nobody answers, or the workers cannot do it.
     """
     dask = _dask()
-    with _client(dask, address) as client:
-        _check_workers(client, address)
-        workers = len(client.scheduler_info(n_workers=-1)["workers"])
+    with _quiet(), _client(dask, address) as client:
+        workers = _workers(client, address)
         try:
             yield from made_by(client.get_executor(pure=False), jobs, ahead=AHEAD * workers)
-        except (CancelledError, OSError, dask.KilledWorker) as error:
+        except Exception as error:  # whatever Dask makes of a connection that is gone
+            lost = isinstance(error, CancelledError | OSError | dask.KilledWorker)
+            if client.status == "running" and not lost:
+                raise
             raise BadRequest(
                 f"the cluster at {address} was lost ({type(error).__name__})",
                 advice="See that its machines have memory and stay on, then run the same command "
                 "again to go on.",
             ) from None
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Without the pages that Dask logs of a lost connection: what is lost is said in one line."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logging.disable(before)
 
 
 def _dask() -> ModuleType:
@@ -73,8 +88,8 @@ def _client(dask: ModuleType, address: str) -> Any:  # noqa: ANN401 - of a packa
         ) from None
 
 
-def _check_workers(client: Any, address: str) -> None:  # noqa: ANN401 - as above
-    """Refuse a cluster without workers, or with workers that would make something else."""
+def _workers(client: Any, address: str) -> int:  # noqa: ANN401 - as above
+    """How many workers there are; none, or one that would make something else, is refused."""
     found = client.run(version, US, on_error="return")
     if not found:
         raise BadRequest(
@@ -88,3 +103,4 @@ def _check_workers(client: Any, address: str) -> None:  # noqa: ANN401 - as abov
                 f"the worker at {worker} {has}",
                 advice=f"Install {US} {version(US)} on every machine, as here.",
             )
+    return len(found)

@@ -4,6 +4,7 @@ What comes back is plain data: machines need not share a disk, and one process a
 """
 
 import tempfile
+import threading
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -20,6 +21,7 @@ from sim.mechanisms import MECHANISMS
 from sim.simulate import simulate
 from sim.units import gains_per, unit
 
+ALONE = threading.Lock()  # a worker of a cluster has many threads, and the engine is loaded once
 ATTEMPTS = 20  # at finding a moment where a fault can strike
 DIGITS = {  # after the point, of what is in SI; finer than any encoder or converter
     "time": 6,
@@ -56,7 +58,12 @@ class Failed:
 
 
 def make(job: Job) -> Made | Failed:
-    """Make a log."""
+    """Make a log. Threads of one process take turns: they would share its one processor anyway."""
+    with ALONE:
+        return _made(job)
+
+
+def _made(job: Job) -> Made | Failed:
     try:
         built = _built(job)
         asked = job.settings
