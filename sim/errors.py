@@ -27,6 +27,10 @@ class Refusal(Exception):  # noqa: N818 - a refusal is an answer, not a fault of
         self.advice = advice
         super().__init__(what, where, advice)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """How it travels from one process to another."""
+        return _again, (type(self), self.what, self.where, self.advice)
+
     def __str__(self) -> str:
         said = f"{self.where}: {self.what}" if self.where else self.what
         return f"{said}{'' if said.endswith(('.', '?', '!')) else '.'} {self.advice}"
@@ -50,3 +54,7 @@ class NotIdentifiable(Refusal):
 
 class BadRequest(Refusal):
     """A request that cannot be met as it was made."""
+
+
+def _again(kind: type[Refusal], what: str, where: str, advice: str) -> Refusal:
+    return kind(what, where=where, advice=advice)

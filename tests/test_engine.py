@@ -4,6 +4,7 @@ import math
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -94,6 +95,12 @@ def test_a_delay_shifts_the_motion_and_nothing_else():
 
     assert late.velocity[3:] == pytest.approx(prompt.velocity[:-3], abs=1e-12)
     assert not late.velocity[:4].any()
+
+
+def test_a_hidden_delay_is_not_in_the_voltage_that_is_recorded():
+    late = move(PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=3.0 * TIME, state=State())
+
+    assert (late.applied == 3.0 * TIME).all()
 
 
 def test_a_filter_reports_the_mean_velocity_of_its_window():
@@ -257,3 +264,12 @@ def test_a_home_that_cannot_be_written_to_is_no_obstacle(tmp_path):
     blocked.write_text("not a folder", encoding="utf-8")
 
     assert started({**os.environ, CACHE: str(blocked / "cache")}) == (0, ENDS, "")
+
+
+def test_threads_that_ask_at_once_get_one_engine():
+    with ThreadPoolExecutor(4) as pool:
+        tracks = list(
+            pool.map(lambda _: move(PLAIN, time=TIME, voltage=steady(3.0), state=State()), range(8))
+        )
+
+    assert all((track.velocity == tracks[0].velocity).all() for track in tracks)

@@ -8,6 +8,7 @@ import math
 import sys
 from dataclasses import dataclass, field, fields
 from functools import cache
+from threading import Lock
 from types import ModuleType
 
 import numpy as np
@@ -18,6 +19,7 @@ from sim.engine.stepping import (
     APPLIED,
     BUS,
     CURRENT,
+    EXPECTED,
     LOAD_POSITION,
     POSITION,
     SEEN,
@@ -25,15 +27,19 @@ from sim.engine.stepping import (
     empty,
 )
 from sim.log import Array
-from sim.model import Model
+from sim.model import Model, Part
 
 __all__ = ["COARSEST", "NO_WIRES", "State", "Track", "compiled", "finest", "move", "ready"]
 
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
 # middle rule is then far below a thousandth for anything slower than 10 ms
 SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
+ONE_AT_A_TIME = Lock()
 NO_WIRES: Array = np.zeros(9)
+UNSEEN: Array = np.zeros((0, 2))
+NO_TRUST: Array = np.zeros((2, 2))
 PLACES = places(EFFECTS)
+NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutral.values()])
 ORDER = {name: place for place, name in enumerate(EFFECTS)}
 
 
@@ -69,6 +75,7 @@ class Track:
         bus: (n,) [V] of the battery; 0 where there are no wires.
         current: (n,) [A] of one motor; 0 where there are no wires.
         seen: (n,) [m/s or rad/s] the velocity that the sensor reports.
+        expected: (n,) [m or rad] the position, before a measurement corrected it.
     """
 
     position: Array
@@ -78,6 +85,7 @@ class Track:
     bus: Array
     current: Array
     seen: Array
+    expected: Array
 
     def until(self, end: int) -> "Track":
         """The first ``end`` samples."""
@@ -93,6 +101,8 @@ def move(
     wires: Array = NO_WIRES,
     step: float | None = None,
     plain: bool = False,
+    measured: Array = UNSEEN,
+    trust: Array = NO_TRUST,
 ) -> Track:
     """Move a model along a voltage.
 
@@ -104,21 +114,29 @@ def move(
         wires: (9,) battery and limits, see ``sim.engine.wires``; none is an ideal source.
         step: [s] the longest; None chooses.
         plain: in uncompiled Python, for comparison.
+        measured: (n, 2) position and velocity that correct the motion as it goes, nan where there
+            is none; none goes its way.
+        trust: (2, 2) by how much: from both deviations to the corrections of both.
     """
     on, parameters = arrays(model)
     out = empty(time.size)
-    simple = not model.parts and not wires.any() and model.type != "arm"
+    simple = not wires.any() and model.type != "arm" and all(map(_only_delays, model.parts))
     longest = step or (math.inf if simple else finest(model))
     kernel = _plain() if plain else _compiled()
     kernel.move(
         np.ascontiguousarray(time), np.ascontiguousarray(voltage), state.body, constants(model),
-        wires, on, parameters, state.memory, state.clock, longest, simple, out,
+        wires, on, parameters, state.memory, state.clock, longest, simple, measured, trust, out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track(
         out[:, POSITION], out[:, VELOCITY], out[:, LOAD_POSITION], out[:, APPLIED], out[:, BUS],
-        out[:, CURRENT], out[:, SEEN],
+        out[:, CURRENT], out[:, SEEN], out[:, EXPECTED],
     )  # fmt: skip
+
+
+def _only_delays(part: Part) -> bool:
+    """Whether an effect changes when things happen and are seen, and no force."""
+    return set(EFFECTS[part.effect].acts) <= {"late", "sees"}
 
 
 def constants(model: Model) -> Array:
@@ -143,7 +161,7 @@ def constants(model: Model) -> Array:
 def arrays(model: Model) -> tuple[Array, Array]:
     """Which effects are on, then which hooks are needed; and the parameters of all effects."""
     on = np.zeros(len(EFFECTS) + len(HOOKS) + 1)
-    parameters = np.concatenate([[0.0], *(list(e.neutral.values()) for e in EFFECTS.values())])[1:]
+    parameters = NEUTRAL.copy()
     for part in model.parts:
         on[ORDER[part.effect]] = 1.0
         for hook in EFFECTS[part.effect].acts:
@@ -174,8 +192,14 @@ def ready() -> None:
     move(Model("simple", gains), time=np.zeros(1), voltage=np.zeros(1), state=State())
 
 
-@cache
 def _compiled() -> ModuleType:
+    """The compiled engine, made once whoever asks first."""
+    with ONE_AT_A_TIME:
+        return _made()
+
+
+@cache
+def _made() -> ModuleType:
     """The compiled engine; a person at a terminal is told why the first time takes a while."""
     if sys.stderr.isatty() and not compiled():
         sys.stderr.write("Compiling the simulation, once; this takes about ten seconds…\n")

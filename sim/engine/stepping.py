@@ -37,8 +37,9 @@ X, V, Y, W, OFF_UNTIL = range(5)
 """Places in a state: position and velocity of the motor, then of the load, and [s] of the clock
 until which a brownout keeps the motors off. With one body, motor and load are the same."""
 
-POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, SEEN = range(7)
-"""Columns of what is recorded."""
+POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, EXPECTED, SEEN = range(8)
+"""Columns of what is recorded. Where a measurement corrects the motion, the first three are after
+it; the position that was expected and the velocity that the sensor would see are before."""
 
 CONTACT = 40.0  # [Hz] at which motor and load bounce on each other's teeth: stiff, but not endless
 DAMPING = 0.3  # [1] of critical, of that contact: steel teeth in grease
@@ -267,37 +268,63 @@ def record(out: Array, k: int, state: Array, w: Array, asked: float, clock: floa
         out[k, CURRENT] = current
 
 
+def correct(state: Array, ahead: float, faster: float, trust: Array) -> None:
+    """Move the whole mechanism by a share of how far a measurement is from what was expected."""
+    way, speed = 0.0, 0.0
+    if not math.isnan(ahead):
+        way, speed = trust[0, 0] * ahead, trust[1, 0] * ahead
+    if not math.isnan(faster):
+        way, speed = way + trust[0, 1] * faster, speed + trust[1, 1] * faster
+    state[X] += way
+    state[Y] += way
+    state[V] += speed
+    state[W] += speed
+
+
 def move(
     time: Array, asked: Array, state: Array, c: Array, w: Array, on: Array, p: Array,
-    memory: Array, began: float, finest: float, plain: bool, out: Array,
+    memory: Array, began: float, finest: float, plain: bool, measured: Array, trust: Array,
+    out: Array,
 ) -> None:  # fmt: skip
     """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
 
     A command holds from its sample until the next, later by what the effects delay it; before the
-    first there is none.
+    first has come, what rests is held where it rests, by a stop or a brake. ``measured`` (n, 2) are
+    positions and velocities that correct the motion as it goes, nan where there is none, by the
+    gains ``trust`` (2, 2); without rows it goes its way.
     """
     lag = late(on, p)
     n = time.size
     command = -1  # the last one that has arrived
+    held = state[V] == 0.0 and state[W] == 0.0
     ka = c[KA] + heft(on, p, began)
     for k in range(n):
         now = time[k]
         while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
             command += 1
-        record(out, k, state, w, asked[command] if command >= 0 else 0.0, began + now - time[0])
+        record(out, k, state, w, asked[k], began + now - time[0])
+        out[k, EXPECTED] = state[X]
         out[k, SEEN] = sees(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
+        if measured.shape[0] > 0:
+            ahead, faster = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
+            correct(state, ahead, faster, trust)
+            out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
+            out[k, LOAD_POSITION] = state[Y]
         if k == n - 1:
             break
         while now < time[k + 1] - 1e-12:
             after = time[k + 1]
             if command + 1 < n:
                 after = min(after, time[command + 1] + lag)
-            volts = asked[command] if command >= 0 else 0.0
-            count = max(math.ceil((after - now) / finest - 1e-9), 1)
-            dt = (after - now) / count
-            for i in range(count):
-                clock = began + now + (i + 0.5) * dt - time[0]
-                ka = advance(state, c, w, on, p, memory, volts, clock, dt, plain, ka)
+            if command < 0 and held:
+                state[V] = state[W] = 0.0  # whatever a measurement made of it
+            else:
+                volts = asked[command] if command >= 0 else 0.0
+                count = max(math.ceil((after - now) / finest - 1e-9), 1)
+                dt = (after - now) / count
+                for i in range(count):
+                    clock = began + now + (i + 0.5) * dt - time[0]
+                    ka = advance(state, c, w, on, p, memory, volts, clock, dt, plain, ka)
             now = after
             while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
                 command += 1
@@ -305,4 +332,4 @@ def move(
 
 def empty(n: int) -> Array:
     """Room for what ``move`` writes about ``n`` samples."""
-    return np.zeros((n, 7))
+    return np.zeros((n, 8))
