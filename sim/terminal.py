@@ -53,9 +53,9 @@ def show_fit(found: Fit, *, preset: Preset, title: str, console: Console | None 
 
 
 def _digits(value: float, error: float) -> str:
-    """The value to the second digit of its error, at least three of its own."""
+    """The value to the second digit of its error, three to six of its own."""
     if not (math.isfinite(error) and error > 0.0 and value):
         return f"{value:.4g}"
     size = max(abs(value), error)
     digits = 1 + math.floor(math.log10(size)) - math.floor(math.log10(error))
-    return f"{value:.{min(max(digits + 1, 3), 8)}g}"
+    return f"{value:.{min(max(digits + 1, 3), 6)}g}"

@@ -68,7 +68,7 @@ def test_what_was_asked_for_can_be_told_from_the_log():
 
 def test_logging_what_arrived_gives_the_gains_and_logging_what_was_asked_for_does_not():
     log = driven(TIRED)
-    arrived, wanted = fit(log).gains, fit(asked(log)).gains
+    arrived, wanted = fit(log, method="sysid").gains, fit(asked(log), method="sysid").gains
     assert arrived["kA"] == pytest.approx(DRIVE.gains["kA"], rel=0.08)
     assert wanted["kA"] > 1.3 * DRIVE.gains["kA"]
     assert wanted["kV"] == pytest.approx(DRIVE.gains["kV"], rel=0.05)
@@ -76,7 +76,7 @@ def test_logging_what_arrived_gives_the_gains_and_logging_what_was_asked_for_doe
 
 def test_a_flat_battery_scales_every_gain():
     # 11.7 V and no resistance: each asked-for volt arrives as 0.975 V.
-    gains = fit(asked(driven(Battery(rest=11.7, resistance=0.0)))).gains
+    gains = fit(asked(driven(Battery(rest=11.7, resistance=0.0))), method="sysid").gains
     assert gains["kV"] == pytest.approx(DRIVE.gains["kV"] * 12.0 / 11.7, rel=0.005)
 
 

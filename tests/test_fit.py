@@ -3,6 +3,7 @@
 import json
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,11 +12,13 @@ from hypothesis import strategies as st
 from known_answers import NAMES, known_answer
 
 from sim.errors import BadRequest, NotIdentifiable
-from sim.fit import fit
+from sim.fit import fit as any_fit
 from sim.log import FOUR_TESTS, Log, Run
 from sim.mechanisms import MECHANISMS
 from sim.routine import Routine
 from sim.simulate import simulate
+
+fit = partial(any_fit, method="sysid")
 
 FIGURES = {
     "accel_R2_adj": "acceleration_r2",
@@ -251,7 +254,7 @@ def test_a_log_that_says_its_type_needs_no_option(shared):
     ("asked", "said"),
     [
         (dict(type="spring"), "unknown type 'spring'. Choose one of: simple, elevator, arm"),
-        (dict(method="guess"), "unknown method 'guess'. Choose one of: sysid"),
+        (dict(method="guess"), "unknown method 'guess'. Choose one of: output-error, sysid"),
         (dict(median=16), "a median window of 16 samples. Choose 1"),
     ],
     ids=lambda value: str(value)[:20],

@@ -67,7 +67,7 @@ def test_the_table_shows_gains_with_errors_and_units(drive):
     shown = sysid("fit", drive, folder=drive.parent)
 
     assert shown.returncode == 0
-    assert "simple mechanism in meters, method sysid" in shown.stdout
+    assert "simple mechanism in meters, method output-error" in shown.stdout
     (kv,) = [line for line in shown.stdout.splitlines() if line.startswith("kV")]
     assert kv.split()[-1] == "V·s/m"
     assert "simulated velocity R²" in shown.stdout
@@ -117,7 +117,8 @@ def test_gains_that_cannot_be_right_give_exit_code_1(drive):
         (["fit", "nowhere.csv"], "sysid: nowhere.csv:"),
         (["fit"], "Missing argument 'FILES...'. See 'sysid fit --help'."),
         (["fit", "drive.csv", "--type", "crane"], "'crane' is not one of 'simple', 'elevator'"),
-        (["fit", "drive.csv", "--median", "99"], "a median window of 99 samples. Choose 1"),
+        (["fit", "drive.csv", "--median", "99", "--method", "sysid"], "a median window of 99"),
+        (["fit", "drive.csv", "--median", "5"], "It belongs to SysId's recipe"),
         (["fit", "drive.csv", "--type", "arm", "--units", "meters"], "must be an angle"),
         (["fit", "."], "sysid: .:"),
         (["simulate", "trebuchet", "-o", "x.csv"], "Choose one of: arm, drivetrain, elevator,"),

@@ -19,9 +19,14 @@ from sim.vocabulary import METHODS
     type=click.Choice(METHODS),
     default=METHODS[0],
     show_default=True,
-    help="WPILib SysId's own recipe.",
+    help="Ours, by simulating; or WPILib SysId's own recipe.",
 )
-@click.option("--median", default=1, show_default=True, help="Median filter window [samples].")
+@click.option(
+    "--median",
+    default=1,
+    show_default=True,
+    help="Median filter window of SysId's recipe [samples].",
+)
 @click.option(
     "--preset",
     type=click.Choice(tuple(PRESETS)),

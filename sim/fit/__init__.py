@@ -1,14 +1,16 @@
 """Gains from logs.
 
     from sim.fit import fit
-    fit(sim.read("drive.wpilog"), method="sysid").gains
+    fit(sim.read("drive.wpilog")).gains
 
-Method ``sysid`` is the recipe of WPILib SysId 2026.2.2 to the last digit, with its silent failures
-spoken aloud: what SysId answers, this answers; what it answers with NaN or with nonsense, this
-refuses or doubts, and says why.
+Method ``output-error``, the default, simulates and follows the log: any runs, friction that holds,
+late and averaged velocities, and error bars that hold. Method ``sysid`` is the recipe of WPILib
+SysId 2026.2.2 to the last digit, with its silent failures spoken aloud: what SysId answers, this
+answers; what it answers with NaN or with nonsense, this refuses or doubts, and says why.
 """
 
 from sim.errors import BadRequest
+from sim.fit.output_error import output_error
 from sim.fit.recipe import sysid
 from sim.fit.result import Fit
 from sim.log import Log
@@ -17,7 +19,7 @@ from sim.vocabulary import METHODS, TYPES
 __all__ = ["Fit", "fit"]
 
 
-def fit(log: Log, *, type: str = "", method: str = "sysid", median: int = 1) -> Fit:  # noqa: A002
+def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) -> Fit:  # noqa: A002
     """Fit kS, kV, kA (and kG) to a log.
 
     Args:
@@ -40,4 +42,11 @@ def fit(log: Log, *, type: str = "", method: str = "sysid", median: int = 1) -> 
         raise BadRequest(
             f"unknown method {method!r}", advice=f"Choose one of: {', '.join(METHODS)}."
         )
-    return sysid(log, type=chosen, median=median)
+    if method == "sysid":
+        return sysid(log, type=chosen, median=median)
+    if median != 1:
+        raise BadRequest(
+            f"a median window of {median} samples with method {method}",
+            advice="It belongs to SysId's recipe: ask for --method sysid; this one needs none.",
+        )
+    return output_error(log, type=chosen)

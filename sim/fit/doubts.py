@@ -32,7 +32,7 @@ def doubts_about(
         *_repeats(log),
         *_stale(log),
         *_signs(found.gains, found.errors),
-        *_unsure(found.gains, found.errors),
+        *unsure(found.gains, found.errors),
         *_poor(found.r2, simulated),
         *_slow(prepared.velocity_delay, found.gains),
     )
@@ -115,7 +115,8 @@ def _signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doub
     ]
 
 
-def _unsure(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
+def unsure(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
+    """Gains whose error is about as large as they are."""
     return [
         Doubt(
             "unsure-gain",

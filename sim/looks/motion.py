@@ -21,7 +21,7 @@ INTERCEPT = 0.35  # [V] by which a fast ramp may shift the line one would draw b
 def good_r2(clues: Clues) -> list[Doubt]:
     """A simulated velocity R² above 0.9 over a simulation that leaves the log for a while."""
     try:
-        found = fit(clues.log)
+        found = fit(clues.log, method="sysid")
     except Refusal:
         return []
     model = _model(found)

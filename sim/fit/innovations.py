@@ -1,0 +1,104 @@
+"""What a model did not expect: a log's measurements against a simulation that they keep on course.
+
+Each sample is first expected, from the last state and the voltage since; the difference to what was
+measured is the innovation; then the state is moved by a share K of it. K is the steady state of a
+Kalman filter for
+
+    d(x, v) = (v, -kV/kA·v + ...)·dt + (0, √q)·dW        measured with noise of known size
+
+With q = 0 nothing is corrected, and the simulation is open loop; the larger q, the less one run's
+small unknowns (a slope in the floor, a worn tooth) are charged to the gains.
+"""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from sim.engine import NO_TRUST, State, move
+from sim.fit.seen import Noise, Seen
+from sim.log import Array
+from sim.model import Model, Part
+
+DOUBLINGS = 40  # rounds; 2⁴⁰ samples are for ever
+
+
+def model_of(type: str, values: Mapping[str, float]) -> Model:  # noqa: A002 - the field's own word
+    """The model that a search's values stand for.
+
+    Args:
+        type: ``simple``, ``elevator`` or ``arm``.
+        values: kS, kV, kA; ``kG`` or ``level`` and ``upright``; and ``window`` and ``lag`` [s]
+            where the velocity is averaged and the command is late.
+    """
+    gains = {name: values[name] for name in ("kS", "kV", "kA")}
+    if type == "elevator":
+        gains["kG"] = values["kG"]
+    elif type == "arm":
+        gains["kG"] = math.hypot(values["level"], values["upright"])
+        gains["offset_rad"] = math.atan2(-values["upright"], values["level"])
+    parts = []
+    if "window" in values:
+        parts.append(Part("velocity-filter", {"window": values["window"]}))
+    if "lag" in values:
+        parts.append(Part("delay", {"lag": values["lag"]}))
+    return Model(type, gains, tuple(parts))
+
+
+def trust_for(model: Model, *, noise: Noise, q: float, period: float) -> Array:
+    """(2, 2) gains K from the deviations of position and velocity to their corrections.
+
+    Args:
+        model: whose kV/kA is the rate at which velocity forgets.
+        noise: of the measurements.
+        q: [unit²/s³] size of what pushes the velocity at random; 0 corrects nothing.
+        period: [s] between samples.
+    """
+    if q <= 0.0:
+        return NO_TRUST
+    rate, dt = model.gains["kV"] / model.gains["kA"], period
+    # velocities in units of their noise and positions in as many: so the numbers are near one
+    kept = math.exp(-rate * dt)
+    step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]])
+    push = (q / noise.velocity**2) * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
+    rough = np.array([(noise.position / noise.velocity) ** 2, 1.0])
+    spread = _steady(step, push, rough)
+    return np.ascontiguousarray(spread @ np.linalg.inv(spread + np.diag(rough)))
+
+
+def _steady(step: Array, push: Array, rough: Array) -> Array:
+    """(2, 2) spread of what is expected, in the long run, by doubling.
+
+    X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q        each round looks twice as far ahead
+
+    Source: the structure-preserving doubling of Chu, Fan and Lin (2005).
+    """
+    a, g, x = step.T, np.diag(1.0 / rough), push
+    for _ in range(DOUBLINGS):
+        middle = np.linalg.inv(np.eye(2) + g @ x)
+        after = x + a.T @ x @ middle @ a
+        g = g + a @ middle @ g @ a.T
+        a = a @ middle @ a
+        if np.abs(after - x).max() <= 1e-9 * np.abs(after).max():
+            return np.asarray(after)
+        x = after
+    return np.asarray(x)
+
+
+def innovations(model: Model, run: Seen, *, start: float, trust: Array) -> Array:
+    """(n, 2) position and velocity of a run, measured less expected; nan where nothing is measured.
+
+    Args:
+        model: what is believed.
+        run: the measurements.
+        start: [unit] true position at the first sample, less the one that is seen there.
+        trust: (2, 2) as of ``trust_for``.
+    """
+    track = move(
+        model, time=run.time, voltage=run.voltage,
+        state=State.at(run.position + start, run.velocity), measured=run.measured, trust=trust,
+    )  # fmt: skip
+    ahead = run.measured - np.column_stack([track.expected, track.seen])
+    ahead[~run.telling] = np.nan
+    ahead[0] = np.nan
+    return np.asarray(ahead)

@@ -1,0 +1,248 @@
+"""Method output-error: gains whose simulation, friction that holds included, follows the log.
+
+Any runs will do, as many as there are. Where the velocity is averaged before it is logged, or the
+whole mechanism answers late, that is fitted along and told.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from sim.doubt import Doubt
+from sim.engine import State, move
+from sim.errors import BadRequest
+from sim.fit.doubts import unsure
+from sim.fit.innovations import model_of
+from sim.fit.result import Fit
+from sim.fit.search import Point, Problem, covariance, far, near, promise
+from sim.fit.seen import Seen, noise, see
+from sim.fit.start import first_guess, sensible
+from sim.fit.unknown import refuse_unknown
+from sim.log import Array, Log
+from sim.units import unit
+
+WORTH = 12.0  # [of -2 log L] what a lag must explain to be believed: odds of some hundred to one
+FIRST_LAGS = {"window": (0.5, 2.0, 6.0), "lag": (0.3, 1.0, 2.0, 4.0)}
+"""[sample periods] from which a search begins."""
+STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model is doubted
+SMALL = 0.015  # [share of the top speed] error that is small whatever the noise
+LAGS = ("window", "lag")
+
+
+def output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's word
+    """Fit a log by simulating it.
+
+    Args:
+        log: any runs of one mechanism.
+        type: ``simple``, ``elevator`` or ``arm``.
+
+    Raises:
+        BadRequest: an arm whose position is no angle.
+        NotIdentifiable: the log cannot tell these gains; the message says what would.
+    """
+    per = unit(log.units)
+    if type == "arm" and not per.angular:
+        raise BadRequest(
+            f"an arm's position must be an angle, and this log is in {per.name}",
+            where=log.source,
+            advice="Say --units radians, rotations or degrees, or --type elevator.",
+        )
+    guess = first_guess(log, type=type)
+    way = -1.0 if guess["kV"] < 0.0 else 1.0
+    if way < 0.0:  # plus drives it backward: fitted as if the leads were swapped, and told
+        runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
+        guess = first_guess(replace(log, runs=runs), type=type)
+        log = replace(log, runs=runs)
+    begin = sensible(guess)
+    seen = see(log, friction=None if type == "simple" else begin["kS"])
+    problem = Problem(type, seen, noise(seen), _period(seen))
+    point = _best(problem, begin)
+    spread = covariance(problem, point)
+    gains, errors = _gains(point, spread, type=type)
+    refuse_unknown(gains, errors, log=log, type=type)
+    return _fit(log, problem, point, way=way, gains=gains, errors=errors)
+
+
+def _period(seen: tuple[Seen, ...]) -> float:
+    """[s] between two samples."""
+    return float(np.median(np.concatenate([np.diff(run.time) for run in seen])))
+
+
+def _best(problem: Problem, guess: Mapping[str, float]) -> Point:
+    """The best point, with a velocity that is averaged, a late answer, or both, if worth it."""
+    plain = point = near(problem, guess)
+    left = dict(FIRST_LAGS)
+    while left:
+        tried = [{name: size * problem.period} for name, sizes in left.items() for size in sizes]
+        worth = promise(problem, point, tried)
+        if not worth.max() > WORTH:
+            break
+        best = tried[int(np.argmax(worth))]
+        other = near(problem, {**point.values, **best})
+        if not other.cost < point.cost - WORTH:
+            break
+        point = other
+        del left[next(iter(best))]
+    found = far(problem, point)
+    if point is plain:
+        return found
+    without = far(problem, plain)
+    return found if found.cost < without.cost - WORTH else without
+
+
+def _gains(
+    point: Point,
+    spread: Array,
+    *,
+    type: str,  # noqa: A002 - as above
+) -> tuple[dict[str, float], dict[str, float]]:
+    """The gains and their standard errors; an arm's gravity as kG and an angle."""
+    values, errors = dict(point.values), np.sqrt(np.maximum(np.diag(spread), 0.0))
+    sizes = dict(zip(values, errors.tolist(), strict=True))
+    gains = {name: values[name] for name in ("kS", "kV", "kA")}
+    if type == "elevator":
+        gains["kG"] = values["kG"]
+    if type == "arm":
+        level, upright = values["level"], values["upright"]
+        kg = math.hypot(level, upright)
+        gains |= {"kG": kg, "offset_rad": math.atan2(-upright, level)}
+        names = list(values)
+        pair = [names.index("level"), names.index("upright")]
+        part = spread[np.ix_(pair, pair)]
+        along = np.array([level, upright]) / kg
+        across = np.array([upright, -level]) / kg**2
+        sizes["kG"] = math.sqrt(max(float(along @ part @ along), 0.0))
+        sizes["offset_rad"] = math.sqrt(max(float(across @ part @ across), 0.0))
+    return gains, {name: sizes[name] for name in gains}
+
+
+def _fit(
+    log: Log, problem: Problem, point: Point, *, way: float, gains: Mapping[str, float],
+    errors: Mapping[str, float],
+) -> Fit:  # fmt: skip
+    """The result: gains, how well they follow, and what to doubt."""
+    velocity, error, moving = _open_loop(problem, point)
+    rmse = float(np.sqrt(np.mean(error[moving] ** 2))) if moving.any() else 0.0
+    spread = float(np.sum((velocity[moving] - velocity[moving].mean()) ** 2))
+    change = _accelerations(problem, point)
+    window, lag = (point.values.get(name, 0.0) for name in LAGS)
+    signed = {name: value if name == "offset_rad" else way * value for name, value in gains.items()}
+    return Fit(
+        type=problem.type,
+        method="output-error",
+        units="radians" if unit(log.units).angular else "meters",
+        log_units=unit(log.units).name,
+        gains=signed,
+        errors=errors,
+        acceleration_r2=change[0],
+        acceleration_rmse=change[1],
+        simulated_velocity_r2=1.0 - float(np.sum(error[moving] ** 2)) / max(spread, 1e-300),
+        simulated_velocity_rmse=rmse,
+        samples_used=_used(log, problem),
+        position_delay=lag,
+        velocity_delay=lag + 0.5 * window,
+        velocity_threshold=0.0,
+        step_duration=0.0,
+        doubts=(
+            *log.doubts,
+            *_opposed(way),
+            *_late(window, lag),
+            *_strays(rmse, problem, velocity),
+            *unsure(signed, errors),
+        ),
+    )
+
+
+def _used(log: Log, problem: Problem) -> dict[str, int]:
+    """Test -> samples in motion that were compared."""
+    counts: dict[str, int] = {}
+    long = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - as ``see`` has it
+    for run, part in zip(long, problem.seen, strict=True):
+        counts[run.test] = counts.get(run.test, 0) + int(part.moving.sum())
+    return counts
+
+
+def _open_loop(problem: Problem, point: Point) -> tuple[Array, Array, Array]:
+    """Measured velocity, its difference to an uncorrected simulation, and whether it moves (n,)."""
+    model = model_of(problem.type, point.values)
+    seen, errors, moving = [], [], []
+    for run, start in zip(problem.seen, point.starts.tolist(), strict=True):
+        state = State.at(run.position + start, run.velocity)
+        track = move(model, time=run.time, voltage=run.voltage, state=state)
+        fresh = ~np.isnan(run.measured[:, 1])
+        seen.append(run.measured[fresh, 1])
+        errors.append(run.measured[fresh, 1] - track.seen[fresh])
+        moving.append((run.moving | (track.velocity != 0.0))[fresh])
+    return np.concatenate(seen), np.concatenate(errors), np.concatenate(moving)
+
+
+def _accelerations(problem: Problem, point: Point) -> tuple[float, float]:
+    """R² and RMSE of the differences of fresh velocities against the model's."""
+    model = model_of(problem.type, point.values)
+    got, told = [], []
+    for run, start in zip(problem.seen, point.starts.tolist(), strict=True):
+        state = State.at(run.position + start, run.velocity)
+        track = move(model, time=run.time, voltage=run.voltage, state=state)
+        fresh = np.flatnonzero(~np.isnan(run.measured[:, 1]) & run.moving)
+        if fresh.size > 2:  # noqa: PLR2004 - two make one difference
+            dt = np.diff(run.time[fresh])
+            got.append(np.diff(run.measured[fresh, 1]) / dt)
+            told.append(np.diff(track.seen[fresh]) / dt)
+    if not got:
+        return 0.0, 0.0
+    measured, model_said = np.concatenate(got), np.concatenate(told)
+    left = float(np.mean((measured - model_said) ** 2))
+    return 1.0 - left / max(float(np.var(measured)), 1e-300), math.sqrt(left)
+
+
+def _opposed(way: float) -> tuple[Doubt, ...]:
+    if way > 0.0:
+        return ()
+    return (
+        Doubt(
+            "sign-opposed",
+            "kV and kA are negative: a positive voltage makes a negative velocity in this log. "
+            "Invert the encoder or the motor, so that plus is plus, and record again.",
+            grave=True,
+        ),
+    )
+
+
+def _late(window: float, lag: float) -> tuple[Doubt, ...]:
+    said = []
+    if window > 0.0:
+        said.append(
+            Doubt(
+                "velocity-lag",
+                f"The velocity is averaged over {window * 1000:.0f} ms, so it comes "
+                f"{window * 500:.0f} ms late. The gains allow for that; a feedback loop has to, "
+                "too: shorten the filter of the motor controller.",
+            )
+        )
+    if lag > 0.0:
+        said.append(
+            Doubt(
+                "late-answer",
+                f"Everything answers {lag * 1000:.0f} ms after the voltage in the log. The gains "
+                "allow for that; a feedback loop has to, too.",
+            )
+        )
+    return tuple(said)
+
+
+def _strays(rmse: float, problem: Problem, velocity: Array) -> tuple[Doubt, ...]:
+    """A simulation that leaves the log by more than noise: the model lacks something."""
+    top = float(np.quantile(np.abs(velocity), 0.98)) if velocity.size else 0.0
+    times = rmse / problem.noise.velocity
+    if times < STRAYS or rmse < SMALL * top:
+        return ()
+    return (
+        Doubt(
+            "model-strays",
+            f"The simulation leaves the log by {times:.1f} times the velocity's own noise: this "
+            "mechanism does something that kS, kV and kA do not say, and the errors above are too "
+            "small for it. Inspect the log, then ask `sysid reconcile` what is missing.",
+        ),
+    )

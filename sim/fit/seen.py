@@ -1,0 +1,125 @@
+"""What of a log is a measurement: fresh samples only, how noisy they are, where the test begins.
+
+A reading that stands because no new frame has come is no measurement; noise is measured without a
+model, from third differences, which a smooth motion hardly has:
+
+    σ² = mean((x₃ - 3 x₂ + 3 x₁ - x₀)²)/20
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.log import Array, Log, Run
+
+HELD = 0.3  # [share of fast samples] that repeat the one before them, from which it is frames
+FAST = 0.3  # [share of a run's top speed] above which a sensor should say something new each time
+THIRD = 20.0  # sum of the squares of 1, 3, 3, 1
+ROBUST = 1.4826  # standard deviations in a median absolute deviation
+MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
+AROUND = 5  # samples before a motion and after it that say when it began and ended
+MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """One run as a fit uses it.
+
+    Args:
+        time: (n,) [s].
+        voltage: (n,) [V].
+        measured: (n, 2) position and velocity, nan where they are not fresh.
+        moving: (n,) where it moves.
+        telling: (n,) where it moves, or is about to: what is compared. That must not depend on a
+            model, or a model could gain by looking away.
+        velocity: [m/s or rad/s] it begins with.
+        position: [m or rad] it begins at.
+    """
+
+    time: Array
+    voltage: Array
+    measured: Array
+    moving: NDArray[np.bool_]
+    telling: NDArray[np.bool_]
+    position: float
+    velocity: float
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Standard deviations of a sample, measured without a model.
+
+    Args:
+        position: [m or rad].
+        velocity: [m/s or rad/s].
+    """
+
+    position: float
+    velocity: float
+
+
+def see(log: Log, *, friction: float | None) -> tuple[Seen, ...]:
+    """The measurements of every run that has some.
+
+    Args:
+        log: any runs.
+        friction: [V] about kS of a mechanism with gravity, which may lean on a stop before it
+            moves: then a run begins where friction alone would hold it. None keeps all.
+    """
+    top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
+    return tuple(_seen(run, top=top, friction=friction) for run in log.runs if len(run) > 3)  # noqa: PLR2004 - fewer have no third difference
+
+
+def noise(seen: tuple[Seen, ...]) -> Noise:
+    """How noisy fresh samples are while the mechanism moves."""
+    thirds: list[list[Array]] = [[], []]
+    steps = [math.inf, math.inf]
+    for run in seen:
+        for column in (0, 1):
+            fresh = run.measured[run.moving, column]
+            fresh = fresh[~np.isnan(fresh)]
+            if fresh.size > 3:  # noqa: PLR2004 - as above
+                thirds[column].append(np.diff(fresh, 3))
+                change = np.abs(np.diff(fresh))
+                change = change[change > 0.0]
+                if change.size:
+                    steps[column] = min(steps[column], float(change.min()))
+    sizes = []
+    for third, step in zip(thirds, steps, strict=True):
+        every = np.concatenate(third) if third else np.zeros(1)
+        spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
+        least = step / math.sqrt(12.0) if math.isfinite(step) else 1e-9  # what rounding leaves
+        sizes.append(max(spread, min(least, spread + 1e-3 * least) or 1e-12, 1e-12))
+    return Noise(*sizes)
+
+
+def _seen(run: Run, *, top: float, friction: float | None) -> Seen:
+    measured = np.column_stack([run.position, run.velocity])
+    fast = np.abs(run.velocity) > FAST * float(np.max(np.abs(run.velocity), initial=0.0))
+    for column in (0, 1):
+        again = np.concatenate(([False], np.diff(measured[:, column]) == 0.0))
+        pairs = fast & np.concatenate(([False], fast[:-1]))
+        if pairs.any() and float(np.mean(again[pairs])) > HELD:
+            measured[again, column] = np.nan
+    moving = np.abs(run.velocity) > MOVING * top
+    first = 0
+    if friction is not None and moving.any() and not moving[0]:
+        go = int(np.argmax(moving))
+        near = np.abs(run.voltage[: go + 1] - run.voltage[go]) <= friction
+        first = min(go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0, go - 1)
+    cut = slice(first, None)
+    start = float(run.velocity[first]) if moving[first] else 0.0
+    return Seen(
+        run.time[cut], run.voltage[cut], np.ascontiguousarray(measured[cut]), moving[cut],
+        _telling(run, moving)[cut], float(run.position[first]), start,
+    )  # fmt: skip
+
+
+def _telling(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) where it moves, and a little around where the sensor stirs."""
+    quiet = np.abs(run.velocity) > 0.0
+    stirs = quiet if quiet.mean() < MOSTLY else moving
+    wide = np.convolve(stirs, np.ones(2 * AROUND + 1), mode="same") > 0.0
+    return np.asarray(wide[: len(run)] | moving)

@@ -1,0 +1,58 @@
+"""Gains that a log cannot tell: said by name, with the test that would."""
+
+import math
+from collections.abc import Mapping
+
+from sim.errors import NotIdentifiable
+from sim.log import Log
+
+TELLS = 0.25  # [share of a gain] a larger standard error leaves it unknown
+LEAST = {
+    "kS": 0.35,
+    "kG": 0.2,
+}  # [V] an error smaller than this is no matter, however small the gain
+SETTLES = {
+    "kS": "Add the other direction, and a slow ramp that begins at rest.",
+    "kV": "Let it run longer at a steady speed: a quasistatic test.",
+    "kA": "Add a dynamic test: only a change of speed shows inertia.",
+    "kG": "Add the other direction: weight helps one way and hinders the other.",
+}
+TOGETHER = "Add the other direction: up they act together, down against each other."
+
+
+def refuse_unknown(
+    gains: Mapping[str, float],
+    errors: Mapping[str, float],
+    *,
+    log: Log,
+    type: str,  # noqa: A002 - the field's own word
+) -> None:
+    """Refuse gains that the log leaves unknown.
+
+    Args:
+        gains: name -> value.
+        errors: one standard error of each.
+        log: where they come from.
+        type: ``simple``, ``elevator`` or ``arm``.
+
+    Raises:
+        NotIdentifiable: naming the gains and the test that would settle them.
+    """
+    unknown = [
+        name
+        for name in SETTLES
+        if name in gains and not errors[name] <= max(TELLS * abs(gains[name]), LEAST.get(name, 0.0))
+    ]
+    if not unknown:
+        return
+    said = " and ".join(f"{name} ± {_size(errors[name])}" for name in unknown)
+    pair = {"kS", "kG"} <= set(unknown) and type != "simple"
+    raise NotIdentifiable(
+        f"this log cannot tell {said}",
+        where=log.source,
+        advice=TOGETHER if pair else SETTLES[unknown[-1]],
+    )
+
+
+def _size(error: float) -> str:
+    return f"{error:.2g}" if math.isfinite(error) else "anything"
