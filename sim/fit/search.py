@@ -7,8 +7,11 @@ size q of what pushes at random. Derivatives are differences of simulations.
 """
 
 import math
+import os
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -20,6 +23,7 @@ from sim.model import Model
 
 ANEW = 1.0  # [1/s] q over the variance of a velocity: what pushes moves it by its noise in a second
 COARSE, FINE = 100.0, 4.0  # [1] steps of q
+LARGE = 10_000  # [samples] from which runs are simulated side by side
 FARTHEST = 8  # steps of q in one round
 STEPS = 8  # of the gains in one round
 NUDGE = 1e-4  # [of a gain's own size] by which it is moved for a derivative
@@ -28,7 +32,6 @@ FLOOR = {"kS": 0.0, "window": 0.0, "lag": 0.0}
 CEILING = {"window": 0.9, "lag": 0.45}  # [s] later than this nothing on a robot answers
 POSITIVE = ("kV", "kA")
 HARDLY = 1e-11  # [1] of a combination of values that the log says anything about
-BARELY = 1e-12  # [of the noise's own variance] below which innovations are not believed to be
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,12 +82,13 @@ class Problem:
 
     def _ahead(self, model: Model, starts: Array, trust: Array) -> Array:
         """(n, 2) the innovations of every run, one after another."""
-        return np.concatenate(
-            [
-                innovations(model, run, start=start, trust=trust)
-                for run, start in zip(self.seen, starts.tolist(), strict=True)
-            ]
-        )
+
+        def one(run: Seen, start: float) -> Array:
+            return innovations(model, run, start=start, trust=trust)
+
+        if sum(run.time.size for run in self.seen) > LARGE:  # compiled code runs beside other
+            return np.concatenate(list(_threads().map(one, self.seen, starts.tolist())))
+        return np.concatenate(list(map(one, self.seen, starts.tolist())))
 
     def columns(self, point: Point, *, fine: bool = False) -> Array:
         """(2 n, values + runs) by how much the white innovations change with values and starts.
@@ -120,24 +124,32 @@ class Problem:
 
     def cost(self, ahead: Array) -> float:
         """-2 log L of innovations, up to a constant: of each sample what was measured there."""
-        spread = self.spread(ahead)
-        count = int(np.count_nonzero(~np.isnan(ahead).all(axis=1)))
-        sign, size = np.linalg.slogdet(spread)
-        return float(count * size) if sign > 0 and np.isfinite(size) else math.inf
+        spread, count = self._spread(ahead)
+        size = float(spread[0, 0] * spread[1, 1] - spread[0, 1] ** 2)
+        return count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
 
     def spread(self, ahead: Array) -> Array:
         """(2, 2) covariance of the innovations, never quite nothing."""
-        floor = BARELY * np.diag([self.noise.position**2, self.noise.velocity**2])
-        both = ahead[~np.isnan(ahead).any(axis=1)]
-        spread = np.zeros((2, 2))
-        for column in (0, 1):
-            one = ahead[~np.isnan(ahead[:, column]), column]
-            spread[column, column] = float(one @ one) / max(one.size, 1)
-        if both.shape[0] > 1:
-            tie = float(np.mean(both[:, 0] * both[:, 1]))
-            most = 0.99 * math.sqrt(spread[0, 0] * spread[1, 1])
-            spread[0, 1] = spread[1, 0] = float(np.clip(tie, -most, most))
-        return np.asarray(spread + floor)
+        return self._spread(ahead)[0]
+
+    def _spread(self, ahead: Array) -> tuple[Array, int]:
+        """The covariance, and how many samples were measured at all."""
+        there = ~np.isnan(ahead)
+        first, second = there[:, 0], there[:, 1]
+        x, v = np.where(first, ahead[:, 0], 0.0), np.where(second, ahead[:, 1], 0.0)
+        both = max(int(np.count_nonzero(first & second)), 1)
+        xx = float(x @ x) / max(int(np.count_nonzero(first)), 1)
+        vv = float(v @ v) / max(int(np.count_nonzero(second)), 1)
+        most = 0.99 * math.sqrt(xx * vv)
+        xv = min(max(float(x @ v) / both, -most), most)
+        spread = np.array([[xx, xv], [xv, vv]])
+        return spread + np.diag(np.square(self.noise.grain)), int(np.count_nonzero(first | second))
+
+
+@cache
+def _threads() -> ThreadPoolExecutor:
+    """As many as there are cores, for logs that are worth it."""
+    return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="fit")
 
 
 def near(problem: Problem, values: Mapping[str, float]) -> Point:
@@ -147,14 +159,14 @@ def near(problem: Problem, values: Mapping[str, float]) -> Point:
     """
     q = ANEW * problem.noise.velocity**2
     point = problem.at(values, np.zeros(len(problem.seen)), q)
-    return _better(problem, point, steps=STEPS, enough=1.0)
+    return _better(problem, point, steps=STEPS, enough=5.0)
 
 
 def far(problem: Problem, point: Point) -> Point:
     """The best point, from a near one: less and less is pardoned, as long as that is likelier."""
     for _ in range(FARTHEST):
         other = problem.at(point.values, point.starts, point.q / COARSE)
-        other = _better(problem, other, steps=2, enough=1.0)
+        other = _better(problem, other, steps=1, enough=1.0)
         if not other.cost < point.cost - 0.5:
             break
         point = other
@@ -183,13 +195,11 @@ def promise(problem: Problem, point: Point, more: Sequence[Mapping[str, float]])
 def _finished(problem: Problem, point: Point) -> Point:
     """The best point near one: q to a factor of ``FINE``, then the values."""
     for way in (FINE, 1.0 / FINE):
-        for _ in range(FARTHEST):
-            other = problem.at(point.values, point.starts, point.q * way)
-            other = _better(problem, other, steps=1, enough=1.0)
-            if not other.cost < point.cost - 0.1:
-                break
+        other = problem.at(point.values, point.starts, point.q * way)
+        while other.cost < point.cost - 0.1:
             point = other
-    return _better(problem, point, steps=STEPS, enough=0.02)
+            other = problem.at(point.values, point.starts, point.q * way)
+    return _better(problem, point, steps=STEPS, enough=0.05)
 
 
 def white(problem: Problem, point: Point, table: Array) -> Array:

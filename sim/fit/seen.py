@@ -16,6 +16,7 @@ from sim.log import Array, Log, Run
 
 HELD = 0.3  # [share of fast samples] that repeat the one before them, from which it is frames
 FAST = 0.3  # [share of a run's top speed] above which a sensor should say something new each time
+DIGITS = 1e-7  # [share of the range] that is below what any log resolves
 THIRD = 20.0  # sum of the squares of 1, 3, 3, 1
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
@@ -54,10 +55,12 @@ class Noise:
     Args:
         position: [m or rad].
         velocity: [m/s or rad/s].
+        grain: of both, what no number of a log is better than.
     """
 
     position: float
     velocity: float
+    grain: tuple[float, float]
 
 
 def see(log: Log, *, friction: float | None) -> tuple[Seen, ...]:
@@ -92,7 +95,9 @@ def noise(seen: tuple[Seen, ...]) -> Noise:
         spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
         least = step / math.sqrt(12.0) if math.isfinite(step) else 1e-9  # what rounding leaves
         sizes.append(max(spread, min(least, spread + 1e-3 * least) or 1e-12, 1e-12))
-    return Noise(*sizes)
+    columns = [np.concatenate([run.measured[:, column] for run in seen]) for column in (0, 1)]
+    grain = tuple(DIGITS * float(np.nanmax(one) - np.nanmin(one)) + 1e-12 for one in columns)
+    return Noise(sizes[0], sizes[1], (grain[0], grain[1]))
 
 
 def _seen(run: Run, *, top: float, friction: float | None) -> Seen:
