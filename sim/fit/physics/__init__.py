@@ -1,0 +1,45 @@
+"""Gains against physics: what the motor, the gears, the load and gravity allow them to be.
+
+kV = 12 V / free speed · G/r        a motor's own; drag adds, nothing takes away
+kA = R·r/(n·Kt·G) · load            rotors and wheels add, nothing takes away
+kG/kA = g                           of an elevator; less with rotors, never more
+"""
+
+import math
+
+from sim.doubt import Doubt
+from sim.errors import BadRequest
+from sim.fit.physics.alone import friction_doubts, gravity_doubts, timescale_doubts
+from sim.fit.physics.compare import compare_directions, compare_sides
+from sim.fit.physics.parts import Parts, in_si
+from sim.fit.physics.theory import theory_doubts
+from sim.fit.result import Fit
+
+__all__ = ["Parts", "compare_directions", "compare_sides", "physical_doubts"]
+
+
+def physical_doubts(
+    found: Fit, *, parts: Parts | None = None, period: float = 0.02
+) -> tuple[Doubt, ...]:
+    """What physics has against a fit; nothing about gains whose sign is wrong already.
+
+    Args:
+        found: the fit, in any unit.
+        parts: what it was built from; None leaves kV and kA unchecked.
+        period: [s] between two samples of the log.
+
+    Raises:
+        BadRequest: a radius for a position that is an angle, none for one that is a length, or a
+            period that is no time.
+    """
+    if not (math.isfinite(period) and period > 0.0):
+        raise BadRequest(
+            f"a period of {period:g} s", advice="Give the time between two samples of the log."
+        )
+    si = in_si(found)
+    return (
+        *friction_doubts(si),
+        *(theory_doubts(si, parts) if parts is not None else ()),
+        *gravity_doubts(si),
+        *timescale_doubts(si, period),
+    )

@@ -1,0 +1,100 @@
+"""What a fit says against itself: friction, weight over inertia, and how fast it answers."""
+
+import math
+
+from sim.doubt import Doubt
+from sim.fit.physics.parts import BELOW, HEAVY, SURELY
+from sim.fit.result import Fit
+from sim.motors import NOMINAL
+from sim.units import unit
+
+GRAVITY = 9.81  # [m/s²]
+WATCH = {"simple": 0.5, "elevator": 0.8, "arm": 0.8}  # [V] kS; arms of real robots read up to 0.74
+CRUISE = 0.4  # [of free speed] a typical velocity: 2 m/s of a drivetrain's 4.7
+LOOPS = 2.0  # [sample periods] a shorter timescale leaves too few samples while it speeds up
+FEW_LOOPS = 1.0  # [sample periods] the same, for a fit that simulates between samples and is sure
+SURE = 0.03  # [share of kA] an error below it is sure
+
+
+def friction_doubts(found: Fit) -> list[Doubt]:
+    """The red flag of kS, and the band to watch."""
+    ks, kv = found.gains["kS"], found.gains["kV"]
+    surely = ks - SURELY * found.errors["kS"]
+    share = f"kS = {ks:.2f} V, {ks / NOMINAL:.0%} of 12 V,"
+    if surely > CRUISE * NOMINAL:
+        at = f" ({_shown(found, CRUISE * NOMINAL / kv)})" if kv > 0.0 else ""
+        return [
+            Doubt(
+                "friction-stop",
+                f"{share} is more than the motor needs for {CRUISE:.0%} of its free speed{at}: "
+                "stop and look for a brake, a jam, a wrong test name, or gravity that type "
+                f"{found.type} leaves out.",
+                grave=True,
+            )
+        ]
+    limit = WATCH.get(found.type, WATCH["simple"])
+    if surely <= limit:
+        return []
+    return [
+        Doubt(
+            "friction-watch",
+            f"{share} is above the {limit:g} V that most of type {found.type} stay below: compare "
+            "with last week's, turn it by hand, and look at belt tension, bearings and alignment.",
+        )
+    ]
+
+
+def _shown(found: Fit, speed: float) -> str:
+    """A speed in the unit of the log's owner."""
+    per = unit(found.log_units)
+    return f"{speed / per.si:.3g} {per.symbol}/s"
+
+
+def gravity_doubts(found: Fit) -> list[Doubt]:
+    """An elevator's weight against its inertia: both are the same mass."""
+    kg, ka = found.gains.get("kG", 0.0), found.gains["kA"]
+    if found.type != "elevator" or unit(found.units).angular or kg <= 0.0 or ka <= 0.0:
+        return []
+    lift = kg / ka
+    unsure = SURELY * lift * math.hypot(found.errors["kG"] / kg, found.errors["kA"] / ka)
+    said = f"kG/kA = {lift:.3g} m/s²"
+    if lift - unsure > GRAVITY / BELOW:
+        return [
+            Doubt(
+                "gravity-above-g",
+                f"{said} is above the {GRAVITY} m/s² that weight over inertia is at most, so kA is "
+                "too small or kG too large: look at the unit of position, at the dynamic tests, "
+                "and for something that pulls it down besides its weight.",
+                grave=True,
+            )
+        ]
+    if lift + unsure < GRAVITY / HEAVY * BELOW:
+        return [
+            Doubt(
+                "gravity-below-g",
+                f"{said} is {1.0 - lift / GRAVITY:.0%} below {GRAVITY} m/s², and rotors explain 3 "
+                "to 10 %: look for a spring or counterweight that carries it, a slope, a late or "
+                "averaged velocity that swells kA, and the unit of position.",
+            )
+        ]
+    return []
+
+
+def timescale_doubts(found: Fit, period: float) -> list[Doubt]:
+    """A mechanism that is up to speed before the next sample."""
+    kv, ka = found.gains["kV"], found.gains["kA"]
+    if kv <= 0.0 or ka <= 0.0:
+        return []
+    sure = found.method == "output-error" and found.errors["kA"] < SURE * ka
+    scale = ka / kv
+    if scale >= (FEW_LOOPS if sure else LOOPS) * period:
+        return []
+    return [
+        Doubt(
+            "fast-mechanism",
+            f"kA/kV = {scale * 1000:.2g} ms is only {scale / period:.1f} of the {period * 1000:.3g}"
+            " ms between two samples, so kA hangs on the exact moment of each: log every "
+            f"{max(scale / 4.0, 0.001) * 1000:.2g} ms (a faster status frame and a Notifier), or "
+            "compute kA from the load and set the loop up with kV alone.",
+        )
+    ]

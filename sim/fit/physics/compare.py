@@ -1,0 +1,85 @@
+"""Two fits of what ought to be the same: left and right, forward and reverse."""
+
+import math
+from dataclasses import replace
+
+from sim.doubt import Doubt
+from sim.errors import NotIdentifiable
+from sim.fit.output_error import output_error
+from sim.fit.physics.parts import SURELY, in_si
+from sim.fit.result import Fit, gain_unit
+from sim.log import DIRECTIONS, Log
+from sim.units import unit
+
+APART = 0.05  # [share of a gain] two sides or directions may differ by
+NOTICED = 0.03  # [V] a difference of kS or kG smaller than this is no matter
+
+SUSPECTS = {
+    "kS": "a bearing, a chain, a brake, a ratchet or something that leans one way",
+    "kV": "the ratio, wheel or position factor of each, and what rubs more at speed",
+    "kA": "the weight each moves, wheel slip, and a current limit that works on one only",
+    "kG": "a spring, a counterweight, or play in the gears",
+}
+
+
+def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
+    """Where two sides of a drivetrain, or two of the same mechanism, differ.
+
+    Raises:
+        BadRequest: one measures a length, the other an angle.
+    """
+    one = in_si(left)
+    return _differences(one, right.in_units(one.units), ("left", "right"), "side")
+
+
+def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 - SysId's word
+    """Where forward and reverse runs, each fitted alone, differ; nothing if they cannot be.
+
+    An elevator's cannot: in one direction friction and weight are the same.
+
+    Args:
+        log: any runs of one mechanism.
+        type: ``simple``, ``elevator`` or ``arm``.
+
+    Raises:
+        BadRequest: an arm whose position is no angle.
+    """
+    fits = []
+    for way in DIRECTIONS:
+        runs = tuple(run for run in log.runs if run.direction == way)
+        if not runs:
+            return ()
+        try:
+            fits.append(output_error(replace(log, runs=runs), type=type))
+        except NotIdentifiable:
+            return ()
+    return _differences(fits[0], fits[1], DIRECTIONS, "direction")
+
+
+def _differences(one: Fit, other: Fit, names: tuple[str, ...], what: str) -> tuple[Doubt, ...]:
+    """Gains of two fits that differ by more than chance and more than a robot notices."""
+    per = unit(one.log_units)
+    mirror = -1.0 if one.gains["kV"] * other.gains["kV"] < 0.0 else 1.0
+    doubts = []
+    for gain, why in SUSPECTS.items():
+        if gain not in one.gains or gain not in other.gains:
+            continue
+        a, b = one.gains[gain], mirror * other.gains[gain]
+        least = max(
+            SURELY * math.hypot(one.errors[gain], other.errors[gain]),
+            APART * 0.5 * abs(a + b),
+            0.0 if gain in {"kV", "kA"} else NOTICED,
+        )
+        if abs(a - b) <= least:
+            continue
+        size = per.si if gain in {"kV", "kA"} else 1.0
+        share = abs(a - b) / max(0.5 * abs(a + b), 1e-300)
+        doubts.append(
+            Doubt(
+                f"{what}s-differ",
+                f"{gain} is {a * size:.3g} {names[0]} and {b * size:.3g} "
+                f"{gain_unit(gain, per)} {names[1]}, {share:.0%} apart; one gain for both "
+                f"is wrong for each: look at {why}.",
+            )
+        )
+    return tuple(doubts)

@@ -1,0 +1,76 @@
+"""What a mechanism is built from, and the gains that its parts allow."""
+
+import math
+from dataclasses import dataclass
+
+from sim.errors import BadRequest
+from sim.fit.result import Fit
+from sim.motors import Motor, theoretical_kv
+from sim.units import unit
+
+SURELY = 3.0  # [standard errors] beyond which a difference is no accident of noise
+BELOW = 0.97  # [of theory] 12 V over the free speed is at most 2.1 % above the exact back-EMF
+HEAVY = 1.15  # [of theory] kA: rotors and wheels add 3 to 10 %
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What a mechanism is built from, as its team knows it.
+
+    Args:
+        motor: which one drives it.
+        count: how many of them.
+        ratio: motor turns per turn of the output; below 1 for an overdrive.
+        radius: [m] of wheel or drum; 1 for what turns.
+        load: [kg] moved mass, or [kg·m²] inertia at the output for what turns; None if unknown.
+
+    Raises:
+        BadRequest: a number that no part has.
+    """
+
+    motor: Motor
+    count: int
+    ratio: float
+    radius: float = 1.0
+    load: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("count", "ratio", "radius", "load"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value > 0.0):
+                raise BadRequest(
+                    f"a {name} of {value:g}", advice="Give a number above zero, in SI units."
+                )
+
+    @property
+    def kv(self) -> float:
+        """[V·s/m or V·s/rad] as teams compute it on paper."""
+        return theoretical_kv(self.motor, ratio=self.ratio, radius=self.radius)
+
+    @property
+    def ka(self) -> float | None:
+        """[V·s²/m or V·s²/rad] of the load alone, without rotors; None without a load."""
+        if self.load is None:
+            return None
+        torque_per_volt = self.count * self.motor.torque_constant * self.ratio
+        return self.motor.resistance * self.radius / (torque_per_volt / self.load)
+
+
+def in_si(found: Fit) -> Fit:
+    """The same fit per meter or per radian."""
+    return found.in_units("radians" if unit(found.units).angular else "meters")
+
+
+def go_together(parts: Parts, found: Fit) -> None:
+    """Refuse parts whose radius does not go with the unit of position."""
+    angular = unit(found.units).angular
+    if angular and parts.radius != 1.0:
+        raise BadRequest(
+            f"a radius of {parts.radius:g} m for a position that is an angle",
+            advice="Leave the radius out, and give the inertia for the load.",
+        )
+    if not angular and parts.radius == 1.0:
+        raise BadRequest(
+            "no radius for a position that is a length",
+            advice="Give the radius of the wheel or the drum, in meters.",
+        )

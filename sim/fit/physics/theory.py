@@ -1,0 +1,190 @@
+"""kV and kA against what motor, gears and load promise, and the mistake that would explain them.
+
+An error in the log's unit changes kV and kA alike; one in the ratio or the radius changes them
+opposite ways: that tells the two apart.
+"""
+
+import math
+
+from sim.doubt import Doubt
+from sim.fit.physics.parts import BELOW, HEAVY, SURELY, Parts, go_together
+from sim.fit.result import Fit, gain_unit
+from sim.motors import MOTORS
+from sim.units import unit
+
+DRAG = 1.08  # [of theory] kV with more than the ordinary drag
+TIGHT = 1.20  # [of theory] kV that drag alone hardly explains
+LIGHT = 0.95  # [of theory] kA below it: a mass is known to a few percent
+NEAR = 0.96, 1.10  # [of a factor] a quotient within is explained by it; ordinary drag included
+
+FACTORS = (
+    (2.0 * math.pi, "rotations read as radians, or a circumference given as the radius"),
+    (1.0 / (2.0 * math.pi), "radians read as rotations"),
+    (60.0, "a velocity divided by 60 once too often"),
+    (1.0 / 60.0, "turns per minute read as turns per second"),
+    (60.0 / (2.0 * math.pi), "radians per second converted as if they were rpm"),
+    (2.0 * math.pi / 60.0, "rpm read as radians per second"),
+    (180.0 / math.pi, "radians read as degrees"),
+    (math.pi / 180.0, "degrees read as radians"),
+    (360.0, "rotations read as degrees"),
+    (1.0 / 360.0, "degrees read as rotations"),
+    (2.0, "a diameter given as the radius"),
+    (0.5, "a diameter taken for the radius where the robot's code makes the position"),
+    (12.0, "feet read as inches"),
+    (1.0 / 12.0, "a duty cycle logged as the voltage, or inches read as feet"),
+    (1.0 / 0.3048, "meters read as feet"),
+    (0.3048, "feet read as meters"),
+    (1.0 / 0.0254, "meters read as inches"),
+    (0.0254, "inches read as meters"),
+)
+"""kV found over kV of theory, and the mistake that makes it."""
+
+
+def theory_doubts(found: Fit, parts: Parts) -> list[Doubt]:
+    """What the parts have against kV and kA, both in SI.
+
+    Raises:
+        BadRequest: a radius for an angle, or none for a length.
+    """
+    go_together(parts, found)
+    return [*_kv(found, parts), *_ka(found, parts)]
+
+
+def _kv(found: Fit, parts: Parts) -> list[Doubt]:
+    kv, error = found.gains["kV"], found.errors["kV"]
+    if kv <= 0.0:
+        return []
+    share, unsure = kv / parts.kv, SURELY * error / parts.kv
+    said = _against(found, "kV", parts.kv)
+    said = f"{said} that 12 V over the free speed of {parts.count} × {parts.motor.name} promises"
+    named = [*_named(share, parts)]
+    if share + unsure < BELOW:
+        why = f"{_either(named)}, or {_instead(kv, parts)}"
+        return [
+            Doubt(
+                "kv-below-theory",
+                f"{said}, and no motor outruns its free speed: look for {why}; the number of "
+                "motors does not matter.",
+                grave=True,
+            )
+        ]
+    if named and share - unsure > TIGHT:
+        why = f"{_either(named)}, or {_instead(kv, parts)}"
+        return [Doubt("kv-above-theory", f"{said}: look for {why}.", grave=True)]
+    if share - unsure > TIGHT:
+        return [
+            Doubt(
+                "kv-above-theory",
+                f"{said}, more than drag explains: look first at the units, then whether the "
+                "voltage logged is the one applied, then at "
+                f"{_instead(kv, parts)}, and last for what rubs.",
+            )
+        ]
+    if share - unsure > DRAG:
+        return [
+            Doubt(
+                "kv-drag",
+                f"{said}: something drags that grows with speed; look at belt tension, meshing "
+                "gears and grease, and whether the voltage logged is the one applied.",
+            )
+        ]
+    return []
+
+
+def _against(found: Fit, gain: str, theory: float) -> str:
+    """A gain beside its theory, in the unit of the log's owner."""
+    per = unit(found.log_units)
+    value, share = found.gains[gain], found.gains[gain] / theory
+    far = f"{abs(share - 1.0):.0%} {'above' if share > 1.0 else 'below'}"
+    if not 1.0 / TIGHT / TIGHT < share < TIGHT * TIGHT:
+        far = f"{share:.3g} times"
+    symbol = gain_unit(gain, per)
+    return f"{gain} = {value * per.si:.3g} {symbol} is {far} the {theory * per.si:.3g} {symbol}"
+
+
+def _named(share: float, parts: Parts) -> list[str]:
+    """The mistakes that would make such a quotient, the likeliest first."""
+    geared = (
+        (1.0 / parts.ratio, f"a ratio of {parts.ratio:g} forgotten in the log (the motor's turns)"),
+        (parts.ratio, f"a ratio of {parts.ratio:g} applied twice in the log"),
+        (parts.ratio**-2, f"a ratio of {parts.ratio:g} that is upside down"),
+    )
+    known = (*FACTORS, *(pair for pair in geared if not 1.0 / TIGHT < pair[0] < TIGHT))
+    near = [
+        (abs(math.log(share / factor)), factor, why)
+        for factor, why in known
+        if NEAR[0] < share / factor < NEAR[1]
+    ]
+    return [f"{why} (a factor of {factor:.3g})" for _, factor, why in sorted(near)[:2]]
+
+
+def _either(named: list[str]) -> str:
+    return " or ".join(named) or "a wrong unit, ratio, wheel or motor"
+
+
+def _instead(kv: float, parts: Parts) -> str:
+    """The ratio, the radius and the motors whose own kV would be the one found."""
+    share = kv / (parts.motor.back_emf * parts.ratio / parts.radius)
+    would = [f"a ratio of {parts.ratio * share:.3g}"]
+    if parts.radius != 1.0:
+        would.append(f"a radius of {parts.radius / share * 1000:.3g} mm")
+    off = {
+        name: share * parts.motor.back_emf / other.back_emf
+        for name, other in MOTORS.items()
+        if name != parts.motor.name
+    }
+    others = [name for name in off if BELOW < off[name] < DRAG]
+    if others:
+        others.sort(key=lambda name: abs(math.log(off[name])))
+        would.append(f"another motor ({' or '.join(others[:3])})")
+    return " or ".join(would)
+
+
+def _ka(found: Fit, parts: Parts) -> list[Doubt]:
+    ka, theory = found.gains["kA"], parts.ka
+    if theory is None or ka <= 0.0:
+        return []
+    share, unsure = ka / theory, SURELY * found.errors["kA"] / theory
+    size = f"{parts.load:g} {'kg·m²' if unit(found.units).angular else 'kg'}"
+    motors = f"{parts.count} × {parts.motor.name}"
+    said = f"{_against(found, 'kA', theory)} that {size} on {motors} take without their rotors"
+    where = _where(found.gains["kV"] / parts.kv, share)
+    fitting = _loads(share, parts, size.rpartition(" ")[2])
+    if share + unsure < LIGHT:
+        return [
+            Doubt(
+                "ka-below-theory",
+                f"{said}, and rotors can only add: {where}; {fitting} would fit.",
+                grave=True,
+            )
+        ]
+    if share - unsure > HEAVY:
+        return [
+            Doubt(
+                "ka-above-theory",
+                f"{said}, and rotors and wheels add 3 to 10 %: {where}, or for a late or averaged "
+                f"velocity; {fitting} would fit.",
+            )
+        ]
+    return []
+
+
+def _where(kv: float, ka: float) -> str:
+    """What to look at, from how far kV and kA are off: alike, opposite, or kA alone."""
+    if BELOW < kv < TIGHT:
+        return "kV fits, so look at the load, the number of motors and the voltage logged"
+    if LIGHT / DRAG < ka / kv < HEAVY / BELOW:
+        return "kV is off as much, so look at the log's unit, its voltage and the kind of motor"
+    if LIGHT * BELOW < ka * kv < HEAVY * DRAG:
+        return "kV is off as much the other way, so look at the ratio and the radius"
+    return "look at what kV's doubt names first, then at the load and the number of motors"
+
+
+def _loads(share: float, parts: Parts, per: str) -> str:
+    """The load, or the number of motors, that would explain a kA."""
+    load = f"{(parts.load or 0.0) * share:.3g} {per}"
+    count = parts.count / share
+    whole = max(round(count), 1)
+    if whole != parts.count and NEAR[0] < whole / count < NEAR[1]:
+        return f"{load}, or {whole} motor{'s' if whole > 1 else ''},"
+    return load

@@ -1,0 +1,321 @@
+"""Gains against physics: quiet where the parts are true, loud and by name where they are not."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from sim.errors import BadRequest
+from sim.fit import fit
+from sim.fit.physics import Parts, compare_directions, compare_sides, physical_doubts
+from sim.mechanisms import MECHANISMS
+from sim.motors import MOTORS, motor
+from sim.routine import Routine
+from sim.simulate import simulate
+
+GENTLE = Routine(ramp=0.5, step=3.5)
+TURN = 2.0 * math.pi
+
+
+def rng(seed=0):
+    return np.random.default_rng(seed)
+
+
+def true_parts(mechanism):
+    return Parts(
+        mechanism.motor, mechanism.motor_count, mechanism.ratio, mechanism.radius, mechanism.load
+    )
+
+
+def recorded(mechanism, seed=1):
+    return simulate(mechanism, GENTLE, rng=rng(seed))
+
+
+def found_in(kind, **changes):
+    """The bench's mechanism, fitted; ``changes`` are made to the gains afterwards."""
+    found = FOUND.get(kind)
+    if found is None:
+        found = FOUND[kind] = fit(recorded(MECHANISMS[kind]))
+    return replace(found, gains={**found.gains, **changes}) if changes else found
+
+
+FOUND = {}
+
+
+def read_as(kind, factor):
+    """The fit of a log whose positions are ``factor`` times what they should be."""
+    log = recorded(MECHANISMS[kind])
+    runs = tuple(
+        replace(run, position=factor * run.position, velocity=factor * run.velocity)
+        for run in log.runs
+    )
+    return fit(replace(log, runs=runs))
+
+
+def codes(doubts):
+    return [doubt.code for doubt in doubts]
+
+
+def about(doubts, code):
+    (message,) = [doubt.message for doubt in doubts if doubt.code == code]
+    return message
+
+
+@pytest.mark.parametrize("kind", MECHANISMS)
+@pytest.mark.parametrize("method", ["output-error", "sysid"])
+def test_quiet_about_a_clean_log_and_true_parts(kind, method):
+    mechanism = MECHANISMS[kind]
+    found = fit(recorded(mechanism), method=method)
+
+    said = codes(physical_doubts(found, parts=true_parts(mechanism)))
+
+    # the recipe does not simulate between samples, and 29 ms are less than two of 20 ms
+    assert said == ["fast-mechanism"] * ((kind, method) == ("intake", "sysid"))
+
+
+@pytest.mark.parametrize("kind", MECHANISMS)
+@pytest.mark.parametrize("seed", [11, 12, 13])
+def test_quiet_about_others_like_it_unless_they_rub_or_are_fast(kind, seed):
+    mechanism = MECHANISMS[kind].draw(rng(seed))
+    gains = mechanism.gains
+    truly = {
+        "friction-watch": gains["kS"] > 0.5,  # a stiff intake
+        "fast-mechanism": gains["kA"] / gains["kV"] < 0.02,  # and a light one
+        "kv-drag": mechanism.drag > 0.08,
+    }
+    log = recorded(mechanism, seed)
+
+    said = physical_doubts(fit(log), parts=true_parts(mechanism))
+
+    assert set(codes(said)) == {code for code, holds in truly.items() if holds}
+    assert compare_directions(log, mechanism.type) == ()
+
+
+@pytest.mark.parametrize(
+    ("kind", "factor", "named"),
+    [
+        # the log's number over the true one -> what made it
+        ("turret", 1.0 / TURN, "rotations read as radians"),
+        ("turret", TURN, "radians read as rotations"),
+        ("shooter", 60.0, "turns per minute read as turns per second"),
+        ("shooter", 60.0 / TURN, "rpm read as radians per second"),
+        ("turret", 180.0 / math.pi, "degrees read as radians"),
+        ("drivetrain", 6.75, "ratio of 6.75 forgotten in the log"),
+        ("drivetrain", 1.0 / 6.75, "ratio of 6.75 applied twice"),
+        ("drivetrain", 2.0, "a diameter taken for the radius"),
+        ("drivetrain", 1.0 / 0.3048, "feet read as meters"),
+        ("elevator", 1.0 / 0.0254, "inches read as meters"),
+        ("elevator", 0.0254, "meters read as inches"),
+    ],
+)
+def test_a_wrong_unit_in_the_log_is_named(kind, factor, named):
+    said = physical_doubts(read_as(kind, factor), parts=true_parts(MECHANISMS[kind]))
+
+    code = "kv-below-theory" if factor > 1.0 else "kv-above-theory"
+    assert named in about(said, code)
+    # kA is off as much, and says where to look
+    kas = [doubt.message for doubt in said if doubt.code.startswith("ka-")]
+    assert len(kas) == 1
+    assert "the log's unit" in kas[0]
+
+
+@pytest.mark.parametrize(
+    ("kind", "wrong", "code", "named"),
+    [
+        ("drivetrain", {"radius": 0.1016}, "kv-above-theory", "a diameter given as the radius"),
+        ("drivetrain", {"radius": 0.0508 * TURN}, "kv-above-theory", "a circumference given"),
+        ("drivetrain", {"ratio": 1 / 6.75}, "kv-above-theory", "upside down"),
+        ("drivetrain", {"ratio": 8.14}, "kv-below-theory", "a ratio of 6.75"),
+        ("drivetrain", {"ratio": 6.12}, "kv-drag", "10% above"),
+        ("drivetrain", {"radius": 0.0475}, "kv-below-theory", "50.8 mm"),  # worn by 3 mm
+        ("turret", {"motor": motor("krakenX60")}, "kv-below-theory", "krakenX44"),
+        ("arm", {"motor": motor("minion")}, "kv-above-theory", "neo"),
+        ("elevator", {"load": 10.0}, "ka-above-theory", "20 kg, or 1 motor,"),
+        ("elevator", {"load": 40.0}, "ka-below-theory", "20 kg"),
+        ("shooter", {"load": 0.003}, "ka-above-theory", "kV fits"),
+        ("drivetrain", {"count": 2}, "ka-below-theory", "or 4 motors"),
+        ("drivetrain", {"ratio": 8.14}, "ka-above-theory", "the other way"),
+    ],
+)
+def test_wrong_parts_are_caught_and_what_would_fit_is_said(kind, wrong, code, named):
+    parts = replace(true_parts(MECHANISMS[kind]), **wrong)
+
+    assert named in about(physical_doubts(found_in(kind), parts=parts), code)
+
+
+def test_the_number_of_motors_does_not_change_kv():
+    parts = replace(true_parts(MECHANISMS["drivetrain"]), count=2, load=None)
+
+    assert physical_doubts(found_in("drivetrain"), parts=parts) == ()
+
+
+@pytest.mark.parametrize("name", MOTORS)
+def test_an_ideal_motor_with_a_little_drag_is_within_theory(name):
+    parts = Parts(motor(name), 1, 10.0)
+    for drag in (0.0, 0.08):
+        kv = motor(name).back_emf * 10.0 * (1.0 + drag)
+        assert physical_doubts(found_in("turret", kV=kv), parts=parts) == ()
+
+
+@pytest.mark.parametrize(
+    ("drag", "code"),
+    [(0.05, None), (0.15, "kv-drag"), (0.3, "kv-above-theory")],
+)
+def test_drag_is_told_by_its_size(drag, code):
+    mechanism = replace(MECHANISMS["drivetrain"], drag=drag)
+    said = physical_doubts(fit(recorded(mechanism)), parts=true_parts(mechanism))
+
+    assert codes(said) == ([code] if code else [])
+    assert not any(doubt.grave for doubt in said)
+
+
+def test_a_difference_within_the_errors_is_no_doubt():
+    found, parts = found_in("turret"), true_parts(MECHANISMS["turret"])
+    low = replace(found, gains={name: 0.9 * value for name, value in found.gains.items()})
+    loose = replace(low, errors={name: 0.05 * value for name, value in low.gains.items()})
+
+    assert codes(physical_doubts(low, parts=parts)) == ["kv-below-theory", "ka-below-theory"]
+    assert physical_doubts(loose, parts=parts, period=0.005) == ()
+
+
+@pytest.mark.parametrize(
+    ("share", "code"),
+    [(1.10, None), (1.0, None), (0.90, "gravity-above-g"), (1.30, "gravity-below-g")],
+)
+def test_weight_over_inertia_of_an_elevator_is_at_most_g(share, code):
+    truth = MECHANISMS["elevator"].gains["kA"]
+
+    said = physical_doubts(found_in("elevator", kA=truth * share))
+
+    assert codes(said) == ([code] if code else [])
+    assert [doubt.grave for doubt in said] == ([code == "gravity-above-g"] if code else [])
+    assert all("m/s²" in doubt.message for doubt in said)
+
+
+def test_an_elevator_on_a_spring_is_told_by_its_weight():
+    mechanism = replace(MECHANISMS["elevator"], lift=0.7 * 9.81)
+
+    assert codes(physical_doubts(fit(recorded(mechanism)))) == ["gravity-below-g"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "ks", "code"),
+    [
+        ("drivetrain", 0.45, None),
+        ("drivetrain", 0.6, "friction-watch"),
+        ("drivetrain", 5.5, "friction-stop"),  # more than kV takes for 2 m/s
+        ("arm", 0.74, None),  # the highest read on a real arm
+        ("arm", 0.9, "friction-watch"),
+    ],
+)
+def test_friction_has_a_band_to_watch_and_a_red_flag(kind, ks, code):
+    said = physical_doubts(found_in(kind, kS=ks))
+
+    assert codes(said) == ([code] if code else [])
+    assert [doubt.grave for doubt in said] == ([code == "friction-stop"] if code else [])
+
+
+def test_an_elevator_fitted_as_simple_waves_the_red_flag():
+    found = found_in("drivetrain", kS=10.5, kV=-0.2)  # as SysId's recipe reads such an elevator
+
+    assert "gravity that type simple leaves out" in about(physical_doubts(found), "friction-stop")
+
+
+@pytest.mark.parametrize(
+    ("method", "period", "doubted"),
+    [
+        ("output-error", 0.005, False),
+        ("output-error", 0.02, False),  # 29 ms, but sure of it
+        ("sysid", 0.02, True),  # biased there, and does not know
+        ("sysid", 0.005, False),
+        ("output-error", 0.04, True),
+    ],
+)
+def test_a_timescale_shorter_than_the_sampling_is_told(method, period, doubted):
+    found = replace(found_in("intake"), method=method)
+    said = physical_doubts(found, period=period)
+
+    assert codes(said) == ["fast-mechanism"] * doubted
+    assert all("kA/kV = 29 ms" in doubt.message for doubt in said)
+    assert all("log every 7" in doubt.message for doubt in said)
+
+
+@pytest.mark.parametrize("kind", ["drivetrain", "shooter", "turret", "arm", "intake"])
+@pytest.mark.parametrize(
+    ("effect", "gain"), [("asymmetric-friction", "kS"), ("asymmetric-back-emf", "kV")]
+)
+def test_directions_that_differ_are_told_by_the_gain(kind, effect, gain):
+    mechanism = MECHANISMS[kind].hiding(effect)
+
+    (doubt,) = compare_directions(recorded(mechanism), mechanism.type)
+
+    assert doubt.code == "directions-differ"
+    assert doubt.message.startswith(f"{gain} is ")
+    assert doubt.message.endswith(".")
+
+
+def test_nothing_is_said_of_directions_that_cannot_be_fitted_alone():
+    lopsided = MECHANISMS["elevator"].hiding("asymmetric-friction")
+    log = recorded(MECHANISMS["drivetrain"])
+    half = replace(log, runs=tuple(run for run in log.runs if run.direction == "forward"))
+
+    assert compare_directions(recorded(lopsided), "elevator") == ()
+    assert compare_directions(half, "simple") == ()
+
+
+@pytest.mark.parametrize(
+    ("changes", "gains"),
+    [
+        ({}, []),
+        ({"friction": 0.24}, ["kS"]),
+        ({"friction": 0.17}, []),  # 20 mV is nothing a robot notices
+        ({"ratio": 7.36}, ["kV", "kA"]),
+        ({"load": 52.0}, ["kA"]),
+    ],
+)
+def test_two_sides_are_compared_gain_by_gain(changes, gains):
+    other = fit(recorded(replace(MECHANISMS["drivetrain"], **changes), seed=2))
+
+    said = compare_sides(found_in("drivetrain"), other)
+
+    assert [doubt.message.partition(" ")[0] for doubt in said] == gains
+    assert set(codes(said)) <= {"sides-differ"}
+
+
+def test_a_side_that_runs_backward_or_is_in_feet_is_compared_by_size():
+    found = found_in("drivetrain")
+    mirrored = replace(found, gains={name: -value for name, value in found.gains.items()})
+
+    assert compare_sides(found, mirrored.in_units("feet")) == ()
+
+
+def test_units_shown_are_the_owners_and_the_unit_of_the_fit_does_not_matter():
+    found, parts = found_in("turret"), replace(true_parts(MECHANISMS["turret"]), ratio=60.0)
+
+    said = physical_doubts(found, parts=parts)
+
+    assert "V·s/deg" in about(said, "kv-below-theory")
+    assert physical_doubts(found.in_log_units(), parts=parts) == said
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: Parts(motor("neo"), 0, 5.0), "Give a number above zero"),
+        (lambda: Parts(motor("neo"), 1, math.nan), "Give a number above zero"),
+        (
+            lambda: physical_doubts(found_in("turret"), parts=Parts(motor("neo"), 1, 5.0, 0.05)),
+            "Leave the radius out",
+        ),
+        (
+            lambda: physical_doubts(found_in("drivetrain"), parts=Parts(motor("neo"), 1, 5.0)),
+            "Give the radius of the wheel",
+        ),
+        (lambda: physical_doubts(found_in("turret"), period=0.0), "Give the time between"),
+        (lambda: compare_sides(found_in("turret"), found_in("drivetrain")), "One is a length"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused(ask, message):
+    with pytest.raises(BadRequest, match=message):
+        ask()
