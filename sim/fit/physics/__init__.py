@@ -6,6 +6,7 @@ kG/kA = g                           of an elevator; less with rotors, never more
 """
 
 import math
+from dataclasses import replace
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest
@@ -37,9 +38,17 @@ def physical_doubts(
             f"a period of {period:g} s", advice="Give the time between two samples of the log."
         )
     si = in_si(found)
-    return (
+    doubts = (
         *friction_doubts(si),
         *(theory_doubts(si, parts) if parts is not None else ()),
         *gravity_doubts(si),
         *timescale_doubts(si, period),
     )
+    strays = any(doubt.code == "model-strays" for doubt in found.doubts)
+    return tuple(map(_settle_first, doubts)) if strays else doubts
+
+
+def _settle_first(doubt: Doubt) -> Doubt:
+    """The same doubt about a model that does not hold: the cause may be no part at all."""
+    said = f"{doubt.message.removesuffix('.')}; but the simulation strays from this log, and what"
+    return replace(doubt, message=f"{said} is missing there may be the cause: settle that first.")

@@ -59,7 +59,7 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
     said = f"{said} that 12 V over the free speed of {parts.count} × {parts.motor.name} promises"
     named = [*_named(share, parts)]
     if share + unsure < BELOW:
-        why = f"{_either(named)}, or {_instead(kv, parts)}"
+        why = " or ".join(named) or f"a wrong unit, {_instead(kv, parts)}"
         return [
             Doubt(
                 "kv-below-theory",
@@ -69,8 +69,7 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
             )
         ]
     if named and share - unsure > TIGHT:
-        why = f"{_either(named)}, or {_instead(kv, parts)}"
-        return [Doubt("kv-above-theory", f"{said}: look for {why}.", grave=True)]
+        return [Doubt("kv-above-theory", f"{said}: look for {' or '.join(named)}.", grave=True)]
     if share - unsure > TIGHT:
         return [
             Doubt(
@@ -118,10 +117,6 @@ def _named(share: float, parts: Parts) -> list[str]:
     return [f"{why} (a factor of {factor:.3g})" for _, factor, why in sorted(near)[:2]]
 
 
-def _either(named: list[str]) -> str:
-    return " or ".join(named) or "a wrong unit, ratio, wheel or motor"
-
-
 def _instead(kv: float, parts: Parts) -> str:
     """The ratio, the radius and the motors whose own kV would be the one found."""
     share = kv / (parts.motor.back_emf * parts.ratio / parts.radius)
@@ -149,12 +144,13 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
     motors = f"{parts.count} × {parts.motor.name}"
     said = f"{_against(found, 'kA', theory)} that {size} on {motors} take without their rotors"
     where = _where(found.gains["kV"] / parts.kv, share)
-    fitting = _loads(share, parts, size.rpartition(" ")[2])
+    if _kv_fits(found.gains["kV"] / parts.kv):
+        where = f"{where} ({_loads(share, parts, size.rpartition(' ')[2])} would fit)"
     if share + unsure < LIGHT:
         return [
             Doubt(
                 "ka-below-theory",
-                f"{said}, and rotors can only add: {where}; {fitting} would fit.",
+                f"{said}, and rotors can only add: {where}.",
                 grave=True,
             )
         ]
@@ -163,15 +159,19 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
             Doubt(
                 "ka-above-theory",
                 f"{said}, and rotors and wheels add 3 to 10 %: {where}, or for a late or averaged "
-                f"velocity; {fitting} would fit.",
+                "velocity.",
             )
         ]
     return []
 
 
+def _kv_fits(share: float) -> bool:
+    return BELOW < share < DRAG
+
+
 def _where(kv: float, ka: float) -> str:
     """What to look at, from how far kV and kA are off: alike, opposite, or kA alone."""
-    if BELOW < kv < TIGHT:
+    if _kv_fits(kv):
         return "kV fits, so look at the load, the number of motors and the voltage logged"
     if LIGHT / DRAG < ka / kv < HEAVY / BELOW:
         return "kV is off as much, so look at the log's unit, its voltage and the kind of motor"
@@ -186,5 +186,5 @@ def _loads(share: float, parts: Parts, per: str) -> str:
     count = parts.count / share
     whole = max(round(count), 1)
     if whole != parts.count and NEAR[0] < whole / count < NEAR[1]:
-        return f"{load}, or {whole} motor{'s' if whole > 1 else ''},"
+        return f"{load} or {whole} motor{'s' if whole > 1 else ''}"
     return load
