@@ -9,6 +9,8 @@ from sim.feedback import Preset
 from sim.fit.result import Fit, gain_unit
 from sim.units import unit
 
+FINEST = 1e-4  # [share of a gain] carpet, battery and heat change it by more
+
 
 def show_fit(found: Fit, *, preset: Preset, title: str, console: Console | None = None) -> None:
     """Print gains with errors and units, how well they fit, feedback gains, and every doubt.
@@ -32,7 +34,7 @@ def show_fit(found: Fit, *, preset: Preset, title: str, console: Console | None 
         rows.add_row(
             "angle" if name == "offset_rad" else name,
             _digits(value, error),
-            f"{error:.2g}",
+            _error(value, error),
             gain_unit(name, per),
         )
     console.print(rows)
@@ -52,10 +54,16 @@ def show_fit(found: Fit, *, preset: Preset, title: str, console: Console | None 
         console.print(f"{'wrong' if doubt.grave else 'look'}: {doubt.message}", style="bold")
 
 
+def _error(value: float, error: float) -> str:
+    """The error, or that it is below what matters on a robot."""
+    return f"< {FINEST:.2%} of it" if error < FINEST * abs(value) else f"{error:.2g}"
+
+
 def _digits(value: float, error: float) -> str:
     """The value to the second digit of its error, three to six of its own."""
     if not (math.isfinite(error) and error > 0.0 and value):
         return f"{value:.4g}"
+    error = max(error, FINEST * abs(value))
     size = max(abs(value), error)
     digits = 1 + math.floor(math.log10(size)) - math.floor(math.log10(error))
     return f"{value:.{min(max(digits + 1, 3), 6)}g}"

@@ -165,7 +165,7 @@ def test_signs_opposed_are_told_and_fitted_as_they_are():
     assert "sign-opposed" in [doubt.code for doubt in found.doubts if doubt.grave]
 
 
-@pytest.mark.parametrize("effect", ["drag", "stribeck", "cogging", "asymmetric-back-emf"])
+@pytest.mark.parametrize("effect", ["drag", "stribeck", "cogging"])
 def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect):
     mechanism = MECHANISMS["drivetrain"].hiding(effect, 2.0)
 

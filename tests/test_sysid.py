@@ -244,3 +244,30 @@ def test_the_parity_script_finds_no_figure_off(shared, tmp_path):
 
     assert run.returncode == 0, run.stdout
     assert "0 figures off" in run.stdout
+
+
+@pytest.mark.parametrize("language", ["java", "python"])
+def test_a_fit_can_be_pasted_into_robot_code(drive, language):
+    pasted = sysid("fit", drive, "--paste", language, folder=drive.parent)
+
+    assert pasted.returncode == 0, pasted.stderr
+    assert "SimpleMotorFeedforward" in pasted.stdout
+    assert "2.52" in pasted.stdout
+
+
+def test_a_fit_is_held_against_the_motor_that_drives_it(drive):
+    right = ["--driven-by", "krakenX60", "--count", 4, "--ratio", 6.75, "--load", 60]
+    there = sysid("fit", drive, *right, "--radius", 0.0508, folder=drive.parent)
+    wrong = sysid("fit", drive, *right, "--radius", 0.1016, folder=drive.parent)
+
+    assert there.returncode == 0, there.stdout
+    assert "theory" not in there.stdout
+    assert wrong.returncode == 1
+    assert "kV" in wrong.stdout.partition("wrong: ")[2]
+
+
+def test_a_motor_without_its_ratio_is_asked_for_it(drive):
+    refused = sysid("fit", drive, "--driven-by", "neo", folder=drive.parent)
+
+    assert refused.returncode == 2
+    assert "--ratio" in one_line(refused.stderr)

@@ -58,10 +58,14 @@ def output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's word
     begin = sensible(guess)
     seen = see(log, friction=None if type == "simple" else begin["kS"])
     problem = Problem(type, seen, noise(seen), _period(seen))
-    point = _best(problem, begin)
+    problem, point = _best(problem, begin)
     spread = covariance(problem, point)
     gains, errors = _gains(point, spread, type=type)
-    refuse_unknown(gains, errors, log=log, type=type)
+    # what a model that does not hold adds to the errors is doubted; what noise alone would leave
+    # unknown is refused
+    share = problem.noise.velocity / float(np.sqrt(problem.spread(point.ahead)[1, 1]))
+    least = {name: min(share, 1.0) * error for name, error in errors.items()}
+    refuse_unknown(gains, least, log=log, type=type)
     return _fit(log, problem, point, way=way, gains=gains, errors=errors)
 
 
@@ -70,7 +74,7 @@ def _period(seen: tuple[Seen, ...]) -> float:
     return float(np.median(np.concatenate([np.diff(run.time) for run in seen])))
 
 
-def _best(problem: Problem, guess: Mapping[str, float]) -> Point:
+def _best(problem: Problem, guess: Mapping[str, float]) -> tuple[Problem, Point]:
     """The best point, with a velocity that is averaged, a late answer, or both, if worth it."""
     plain = point = near(problem, guess)
     left = dict(FIRST_LAGS)
@@ -85,11 +89,12 @@ def _best(problem: Problem, guess: Mapping[str, float]) -> Point:
             break
         point = other
         del left[next(iter(best))]
-    found = far(problem, point)
-    if point is plain:
-        return found
-    without = far(problem, plain)
-    return found if found.cost < without.cost - WORTH else without
+    problem = problem.without_strays(point)
+    found = far(problem, near(problem, point.values))
+    if point is not plain:
+        without = far(problem, near(problem, plain.values))
+        found = found if found.cost < without.cost - WORTH else without
+    return problem, found
 
 
 def _gains(

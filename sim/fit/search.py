@@ -10,7 +10,7 @@ import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -23,6 +23,10 @@ from sim.model import Model
 
 ANEW = 1.0  # [1/s] q over the variance of a velocity: what pushes moves it by its noise in a second
 COARSE, FINE = 100.0, 4.0  # [1] steps of q
+ROBUST = 1.4826  # standard deviations in a median absolute deviation
+STRAY = 6.0  # [standard deviations] farther than this no noise goes
+STARTS = 0.1  # [s] of a motion in which nothing is left out
+AROUND_STRAY = 2  # samples on both sides of one that strays
 LARGE = 10_000  # [samples] from which runs are simulated side by side
 FARTHEST = 8  # steps of q in one round
 STEPS = 8  # of the gains in one round
@@ -89,6 +93,26 @@ class Problem:
         if sum(run.time.size for run in self.seen) > LARGE:  # compiled code runs beside other
             return np.concatenate(list(_threads().map(one, self.seen, starts.tolist())))
         return np.concatenate(list(map(one, self.seen, starts.tolist())))
+
+    def without_strays(self, point: Point) -> "Problem":
+        """The same without the samples that no noise explains, and those around them.
+
+        A stop that was hit, a tooth that slipped, a voltage that was not applied: one such moment
+        may weigh more than all the rest. Their measurements still keep the simulation on course.
+        """
+        size = ROBUST * np.nanmedian(np.abs(point.ahead), axis=0)
+        strays = np.abs(point.ahead) > STRAY * np.maximum(size, self.noise.grain)
+        far = strays[:, 0] | strays[:, 1]
+        kept, first = [], 0
+        for run in self.seen:
+            mine = far[first : first + run.time.size].copy()
+            first += run.time.size
+            # a start is what shows inertia: there a stray is more likely the model's
+            begins = run.time[int(np.argmax(run.moving))]
+            mine[run.time < begins + STARTS] = False
+            wide = np.convolve(mine, np.ones(2 * AROUND_STRAY + 1), mode="same") > 0.0
+            kept.append(replace(run, telling=run.telling & ~wide[: run.time.size]))
+        return replace(self, seen=tuple(kept))
 
     def columns(self, point: Point, *, fine: bool = False) -> Array:
         """(2 n, values + runs) by how much the white innovations change with values and starts.

@@ -19,6 +19,7 @@ FAST = 0.3  # [share of a run's top speed] above which a sensor should say somet
 DIGITS = 1e-7  # [share of the range] that is below what any log resolves
 THIRD = 20.0  # sum of the squares of 1, 3, 3, 1
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
+GIVES = 0.03  # [share of the way] that a mechanism gives where it leans on a stop
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
 AROUND = 5  # samples before a motion and after it that say when it began and ended
 MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
@@ -94,7 +95,7 @@ def noise(seen: tuple[Seen, ...]) -> Noise:
         every = np.concatenate(third) if third else np.zeros(1)
         spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
         least = step / math.sqrt(12.0) if math.isfinite(step) else 1e-9  # what rounding leaves
-        sizes.append(max(spread, min(least, spread + 1e-3 * least) or 1e-12, 1e-12))
+        sizes.append(max(spread, least, 1e-12))
     columns = [np.concatenate([run.measured[:, column] for run in seen]) for column in (0, 1)]
     grain = tuple(DIGITS * float(np.nanmax(one) - np.nanmin(one)) + 1e-12 for one in columns)
     return Noise(sizes[0], sizes[1], (grain[0], grain[1]))
@@ -111,15 +112,22 @@ def _seen(run: Run, *, top: float, friction: float | None) -> Seen:
     moving = np.abs(run.velocity) > MOVING * top
     first = 0
     if friction is not None and moving.any() and not moving[0]:
-        go = int(np.argmax(moving))
+        go = _leaves(run, moving)
         near = np.abs(run.voltage[: go + 1] - run.voltage[go]) <= friction
-        first = min(go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0, go - 1)
+        first = min(go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0, max(go - 1, 0))
     cut = slice(first, None)
     start = float(run.velocity[first]) if moving[first] else 0.0
     return Seen(
         run.time[cut], run.voltage[cut], np.ascontiguousarray(measured[cut]), moving[cut],
         _telling(run, moving)[cut], float(run.position[first]), start,
     )  # fmt: skip
+
+
+def _leaves(run: Run, moving: NDArray[np.bool_]) -> int:
+    """The sample at which it leaves for good; leaning on a stop a mechanism only gives a little."""
+    gone = np.abs(run.position - run.position[0]) > GIVES * float(np.ptp(run.position))
+    rests = np.flatnonzero(~moving[: int(np.argmax(gone)) + 1])
+    return int(rests[-1]) + 1 if rests.size else 0
 
 
 def _telling(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
