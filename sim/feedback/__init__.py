@@ -1,0 +1,32 @@
+"""Feedback gains: what WPILib SysId suggests, and what a loop with some gains does to a step.
+
+    gains = position_loop(kv=2.5, ka=0.19)
+    judged(step_response(plant, loop="position", feedback=gains, target=0.5)).words
+
+A suggestion is where tuning starts; simulated, it is known before that whether it settles at all.
+"""
+
+from sim.feedback.regulator import (
+    PRESETS,
+    Feedback,
+    Preset,
+    allowed_velocity_error,
+    position_loop,
+    velocity_loop,
+)
+from sim.feedback.response import Plant, StepResponse, step_response
+from sim.feedback.verdict import Verdict, judged
+
+__all__ = [
+    "PRESETS",
+    "Feedback",
+    "Plant",
+    "Preset",
+    "StepResponse",
+    "Verdict",
+    "allowed_velocity_error",
+    "judged",
+    "position_loop",
+    "step_response",
+    "velocity_loop",
+]

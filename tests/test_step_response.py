@@ -1,0 +1,190 @@
+"""A loop's step response: against the engine, against paper, and in words."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sim.engine import State, move
+from sim.errors import BadRequest
+from sim.feedback import (
+    PRESETS,
+    Feedback,
+    Plant,
+    StepResponse,
+    judged,
+    position_loop,
+    step_response,
+    velocity_loop,
+)
+from sim.model import Model
+
+GAINS = {"kS": 0.15, "kV": 2.5, "kA": 0.19}
+PLANTS = {
+    "simple": Plant("simple", GAINS),
+    "elevator": Plant("elevator", GAINS | {"kG": 0.8}),
+    "arm": Plant("arm", GAINS | {"kG": 0.6, "offset_rad": -0.4}),
+}
+QUICK = replace(PRESETS["ctre-phoenix6"], delay=0.0)  # 1 ms, volts: nearly continuous
+
+
+@pytest.mark.parametrize("loop", ["velocity", "position"])
+@pytest.mark.parametrize("kind", PLANTS)
+def test_the_mechanism_moves_as_in_the_engine(kind, loop):
+    plant = PLANTS[kind]
+    gains = Feedback(3.0, 0.0) if loop == "velocity" else Feedback(50.0, 4.0)
+    took = step_response(plant, loop=loop, feedback=gains, target=plant.step(loop), delay=0.01)
+
+    track = move(
+        Model(kind, plant.gains),
+        time=np.array(took.time),
+        voltage=np.array([*took.voltage[1:], 0.0]),  # each until the next
+        state=State.at(plant.level),
+        step=1e-4,
+    )
+
+    told = track.velocity if loop == "velocity" else track.position - plant.level
+    assert np.array(took.value) == pytest.approx(told, abs=2e-3 * took.target)
+
+
+def test_without_friction_and_delay_a_velocity_follows_the_exponential_of_paper():
+    # kV·v + kA·v' = kV·r + kP·(r - v), so the error dies with kA/(kV + kP)
+    plant = Plant("simple", {"kS": 0.0, "kV": 1.0, "kA": 0.5})
+    took = step_response(
+        plant, loop="velocity", feedback=Feedback(4.0, 0.0), target=1.0, preset=QUICK
+    )
+
+    tenth = took.time.index(pytest.approx(0.1))
+
+    assert took.value[tenth] == pytest.approx(1.0 - math.exp(-1.0), rel=0.01)
+
+
+@pytest.mark.parametrize(("share", "kind"), [(0.4, "settles"), (0.7, "rings"), (1.3, "oscillates")])
+def test_a_delay_makes_a_loop_swing_from_the_gain_of_paper_on(share, kind):
+    # an integrator 1/kA behind a delay T swings at kP = π/2·kA/T; T has half a period on top
+    ka, wait = 0.1, 0.1
+    plant = Plant("simple", {"kS": 0.0, "kV": 1e-6, "kA": ka})
+    most = 0.5 * math.pi * ka / (wait + 0.5 * QUICK.period)
+
+    took = step_response(
+        plant, loop="velocity", feedback=Feedback(share * most, 0.0), target=1.0,
+        preset=QUICK, delay=wait, seconds=10.0,
+    )  # fmt: skip
+
+    assert judged(took).kind == kind
+
+
+@pytest.mark.parametrize("name", PRESETS)
+@pytest.mark.parametrize("loop", ["velocity", "position"])
+def test_a_presets_units_cancel(name, loop):
+    # the same physical loop, counted as this controller counts
+    preset = PRESETS[name]
+    plain = replace(preset, output=1.0, velocity_time=1.0, normalized=True)
+    counts = preset.velocity_time if loop == "velocity" else 1.0
+    scale = preset.output / counts
+    written = Feedback(3.0 * scale, 0.2 * scale / (1.0 if preset.normalized else preset.period))
+    asked = {"loop": loop, "target": 0.4, "delay": 0.0}
+
+    here = step_response(PLANTS["simple"], feedback=written, preset=preset, **asked)
+    there = step_response(PLANTS["simple"], feedback=Feedback(3.0, 0.2), preset=plain, **asked)
+
+    assert here.value == pytest.approx(there.value)
+
+
+def test_the_voltage_stays_within_the_battery():
+    took = step_response(
+        PLANTS["simple"], loop="position", feedback=Feedback(900.0, 0.0), target=0.5
+    )
+
+    assert max(map(abs, took.voltage)) == 12.0
+
+
+def test_a_position_loop_too_weak_for_friction_stops_short_by_what_friction_holds():
+    # it stands where kP·error = kS: 0.15 V / 2 V/m = 75 mm short, 15 % of the step
+    weak = Feedback(2.0, 0.0)
+    took = step_response(PLANTS["simple"], loop="position", feedback=weak, target=0.5, seconds=10.0)
+
+    told = judged(took)
+
+    assert told.kind == "stays-short"
+    assert told.left == pytest.approx(0.15, abs=0.01)
+    assert told.words == "stops 15% of the step before the target"
+
+
+def test_a_negative_gain_runs_away():
+    took = step_response(
+        PLANTS["simple"], loop="position", feedback=Feedback(-9.0, 0.0), target=0.5
+    )
+
+    assert judged(took).kind == "runs-away"
+    assert judged(took).words == "runs away from the target"
+
+
+@pytest.mark.parametrize("loop", ["velocity", "position"])
+@pytest.mark.parametrize("kind", PLANTS)
+def test_what_sysid_suggests_without_a_delay_settles(kind, loop):
+    plant = PLANTS[kind]
+    suggested = {"velocity": velocity_loop, "position": position_loop}[loop](
+        kv=2.5, ka=0.19, velocity_error=1.2
+    )
+
+    told = judged(
+        step_response(plant, loop=loop, feedback=suggested, target=plant.step(loop), delay=0.0)
+    )
+
+    assert told.good
+    assert told.reached < told.settled + 0.5
+    assert told.words.startswith("is 90% there after")
+
+
+def test_the_numbers_of_a_verdict_are_those_of_the_curve():
+    # up in a straight line to 1.2 at 0.6 s, down to 1.0 at 0.8 s: 0.9 at 0.45 s, inside 5 % from
+    # the sample after 0.75 s on, where it is 1.05
+    time = np.linspace(0.0, 2.0, 2001)
+    value = np.interp(time, [0.0, 0.6, 0.8, 2.0], [0.0, 1.2, 1.0, 1.0])
+    told = judged(
+        StepResponse("position", 2.0, tuple(time), tuple(2.0 * value), (0.0,) * time.size)
+    )
+
+    assert told.kind == "settles"
+    assert told.reached == pytest.approx(0.45, abs=0.002)
+    assert told.overshoot == pytest.approx(0.2, abs=0.001)
+    assert told.settled == pytest.approx(0.75, abs=0.002)
+    assert told.words == "is 90% there after 450 ms, goes 20% past the target, settles after 751 ms"
+
+
+@settings(max_examples=60)
+@given(
+    kp=st.floats(-1e6, 1e6),
+    kd=st.floats(-1e4, 1e4),
+    delay=st.floats(0.0, 0.3),
+    kv=st.floats(0.0, 50.0),
+    ka=st.floats(1e-4, 5.0),
+)
+def test_whatever_the_gains_the_answer_is_numbers_and_a_sentence(kp, kd, delay, kv, ka):
+    plant = Plant("simple", {"kS": 0.1, "kV": kv, "kA": ka})
+    took = step_response(
+        plant, loop="position", feedback=Feedback(kp, kd), target=0.3, delay=delay, seconds=1.0
+    )
+
+    assert all(map(math.isfinite, took.value))
+    assert "nan" not in judged(took).words
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"loop": "torque"}, "unknown loop 'torque'"),
+        ({"feedback": Feedback(math.nan, 0.0)}, "not a number"),
+        ({"plant": Plant("simple", GAINS | {"kA": -0.1})}, "below zero"),
+    ],
+)
+def test_what_cannot_be_simulated_is_refused(changes, said):
+    asked = {"plant": PLANTS["simple"], "loop": "velocity", "feedback": Feedback(1.0, 0.0)}
+    asked |= {"target": 1.0, **changes}
+
+    with pytest.raises(BadRequest, match=said):
+        step_response(asked.pop("plant"), **asked)
