@@ -1,24 +1,36 @@
 """Results as text for a terminal."""
 
 import math
+from collections.abc import Sequence
 
 from rich.console import Console
 from rich.table import Table
 
 from sim.feedback import Preset
 from sim.fit.result import Fit, gain_unit
+from sim.trial import OWN, Trial, told
 from sim.units import unit
 
 FINEST = 1e-4  # [share of a gain] carpet, battery and heat change it by more
 
 
-def show_fit(found: Fit, *, preset: Preset, title: str, console: Console | None = None) -> None:
+def show_fit(
+    found: Fit,
+    *,
+    preset: Preset,
+    title: str,
+    tried: Sequence[Trial] = (),
+    notes: Sequence[str] = (),
+    console: Console | None = None,
+) -> None:
     """Print gains with errors and units, how well they fit, feedback gains, and every doubt.
 
     Args:
         found: the fit, in the units to show.
         preset: the motor controller the feedback gains are for.
         title: the files it came from.
+        tried: feedback gains on trial, with their doubts among the fit's.
+        notes: what is well, a sentence each.
         console: where to print; standard output if None.
     """
     console = console or Console(soft_wrap=True, highlight=False)
@@ -34,7 +46,7 @@ def show_fit(found: Fit, *, preset: Preset, title: str, console: Console | None 
         rows.add_row(
             "angle" if name == "offset_rad" else name,
             _digits(value, error),
-            _error(value, error),
+            error_of(value, error),
             gain_unit(name, per),
         )
     console.print(rows)
@@ -44,18 +56,26 @@ def show_fit(found: Fit, *, preset: Preset, title: str, console: Console | None 
         f"acceleration R² {found.acceleration_r2:.3f}, "
         f"RMSE {found.acceleration_rmse:.3g} {per.symbol}/s²"
     )
-    loops = found.feedback(preset)
-    if loops:
+    if tried:
+        console.print(f"feedback to start from, as SysId suggests it ({preset.name}), simulated:")
+    for trial in tried:
+        step = f"{trial.response.target:.4g} {per.symbol}{'/s' * (trial.loop == 'velocity')}"
+        own = "your own " if trial.whose == OWN else ""
+        bad = "" if trial.good else " (no good start)"
         console.print(
-            f"feedback to start from ({preset.name}): "
-            + "; ".join(f"{loop} kP {g.kp:.4g}, kD {g.kd:.4g}" for loop, g in loops.items())
+            f"  {own}{trial.loop} {told(trial.gains)}{bad}: after a step of {step} it "
+            f"{trial.verdict.words}"
         )
-    for doubt in found.all_doubts(preset):
+    for note in notes:
+        console.print(note)
+    for doubt in found.doubts if tried else found.all_doubts(preset):
         console.print(f"{'wrong' if doubt.grave else 'look'}: {doubt.message}", style="bold")
 
 
-def _error(value: float, error: float) -> str:
-    """The error, or that it is below what matters on a robot."""
+def error_of(value: float, error: float) -> str:
+    """The error, or that it is below what matters on a robot, or that nobody knows it."""
+    if not math.isfinite(error):
+        return "not known"
     return f"< {FINEST:.2%} of it" if error < FINEST * abs(value) else f"{error:.2g}"
 
 

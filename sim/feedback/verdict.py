@@ -46,15 +46,12 @@ class Verdict:
         """A clause: what it does."""
         match self.kind:
             case "settles" | "rings":
-                past = f"goes {self.overshoot:.0%} past the target" if self.overshoot > BAND else ""
-                return ", ".join(
-                    part
-                    for part in (
-                        f"is 90% there after {_time(self.reached)}",
-                        past,
-                        f"settles after {_time(self.settled)}",
-                    )
-                    if part
+                past = (
+                    f", goes {self.overshoot:.0%} past the target" if self.overshoot > BAND else ""
+                )
+                return (
+                    f"is 90% there after {_time(self.reached)}{past} and is settled after "
+                    f"{_time(self.settled)}"
                 )
             case "oscillates":
                 return (

@@ -1,0 +1,276 @@
+"""``sysid fit``."""
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from sim.cli.fit.sides import compare, sides_of
+from sim.cli.options import FILE, as_json, read_together, reading
+from sim.command import DONE, NOT_RIGHT
+from sim.feedback import PRESETS, Feedback
+from sim.vocabulary import METHODS
+
+if TYPE_CHECKING:
+    from sim.doubt import Doubt
+    from sim.fit import Fit
+    from sim.fit.physics import Parts
+    from sim.log import Log
+    from sim.trial import Own, Trial
+
+LOOPS = ("velocity", "position")
+
+
+def trying(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options that put the learner's own gains on trial."""
+    options = (
+        click.option("--own-kp", type=float, help="Try your own kP in simulation …"),
+        click.option("--own-kd", type=float, help="… and your own kD (0 if left out) …"),
+        click.option(
+            "--loop", type=click.Choice(LOOPS), help="… of this loop.  [default: velocity]"
+        ),
+        click.option("--html", type=FILE, help="Write a page with every figure and number."),
+        click.option("--plot", type=FILE, help="Write all figures as one: .png, .svg or .pdf."),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=FILE)
+@reading
+@click.option(
+    "--method",
+    type=click.Choice(METHODS),
+    default=METHODS[0],
+    show_default=True,
+    help="Ours, by simulating; or WPILib SysId's own recipe.",
+)
+@click.option(
+    "--median",
+    default=1,
+    show_default=True,
+    help="Median filter window of SysId's recipe [samples].",
+)
+@click.option(
+    "--preset",
+    type=click.Choice(tuple(PRESETS)),
+    default="default",
+    show_default=True,
+    help="Motor controller that the feedback gains are for.",
+)
+@click.option("--driven-by", metavar="MOTOR", help="Check against theory: krakenX60, neo, …")
+@click.option("--count", type=click.IntRange(min=1), default=1, help="How many motors, for that.")
+@click.option("--ratio", type=float, help="Motor turns per turn of the output, for that.")
+@click.option("--radius", type=float, default=1.0, help="Of wheel or drum [m], for that.")
+@click.option("--load", type=float, help="Moved mass [kg] or inertia [kg·m²], for that.")
+@click.option(
+    "--paste",
+    type=click.Choice(("java", "python")),
+    help="Only the constants and feedforward to paste into robot code.",
+)
+@click.option(
+    "--season",
+    type=click.Choice(("2026", "2027")),
+    default="2026",
+    show_default=True,
+    help="Whose names, for --paste.",
+)
+@trying
+@as_json
+@click.pass_context
+def fit(  # noqa: PLR0917 - click passes options by name
+    ctx: click.Context,
+    /,
+    files: tuple[Path, ...],
+    type_: str | None,
+    units: str | None,
+    method: str,
+    median: int,
+    motor: str | None,
+    preset: str,
+    driven_by: str | None,
+    count: int,
+    ratio: float | None,
+    radius: float,
+    load: float | None,
+    paste: str | None,
+    season: str,
+    own_kp: float | None,
+    own_kd: float | None,
+    loop: str | None,
+    html: Path | None,
+    plot: Path | None,
+    as_json: bool,  # noqa: FBT001 - click passes it by name
+    **entries: str | None,
+) -> int:
+    """Find kS, kV, kA (and kG) in the logs of one mechanism: .wpilog, .csv, or SysId's old .json.
+
+    Directions, and the two sides of a drivetrain, are also fitted apart and compared, except with
+    --json and --paste, which other programs wait for.
+
+    For example: sysid fit drive.wpilog --html drive.html
+    """
+    from sim.fit import fit as find_gains  # noqa: PLC0415 - as all here: --help must not wait
+    from sim.trial import trial_doubts, trials  # noqa: PLC0415
+
+    _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
+    own = _own(loop, kp=own_kp, kd=own_kd)
+    parts = _parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
+
+    def read_one(side: str | None) -> "Log":
+        return read_together(files, units=units, type=type_, motor=side, entries=entries)
+
+    def find(log: "Log") -> "Fit":
+        return find_gains(log, type=type_ or "", method=method, median=median)
+
+    log = read_one(motor)
+    found = _against_physics(find(log), log, parts=parts)
+    notes: tuple[str, ...] = ()
+    if not (as_json or paste):
+        pair = None if motor else sides_of(log, read_one)
+        found, notes = _taken_apart(found, log, pair, find=find)
+    found = found.in_log_units()
+    tried = trials(found, PRESETS[preset], own=own)
+    found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
+    told = _Told(", ".join(map(str, files)), found, log, preset, tried, notes)
+    _write(told, html=html, plot=plot)
+    if paste:
+        from sim.paste import snippet  # noqa: PLC0415 - only with --paste
+
+        click.echo(snippet(found, language=paste, season=int(season)), nl=False)
+    elif as_json:
+        click.echo(json.dumps(told.to_json(), allow_nan=False))
+    else:
+        told.show()
+    return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
+
+
+@dataclass(frozen=True, eq=False)
+class _Told:
+    """What the command found."""
+
+    title: str
+    found: "Fit"
+    log: "Log"
+    preset: str
+    tried: "tuple[Trial, ...]"
+    notes: tuple[str, ...]
+
+    def to_json(self) -> dict[str, object]:
+        """Plain data; the learner's own gains only where they were given."""
+        from sim.trial import OWN  # noqa: PLC0415 - --help must not wait for it
+
+        own = [
+            {"loop": one.loop, "kP": one.gains.kp, "kD": one.gains.kd, **one.verdict.to_json()}
+            for one in self.tried
+            if one.whose == OWN
+        ]
+        said = self.found.to_json(PRESETS[self.preset])
+        return said | ({"own_feedback": own[0]} if own else {})
+
+    def show(self) -> None:
+        """Print it."""
+        from sim.terminal import show_fit  # noqa: PLC0415 - only for people
+
+        show_fit(
+            self.found, preset=PRESETS[self.preset], title=self.title, tried=self.tried,
+            notes=self.notes,
+        )  # fmt: skip
+
+
+def _write(told: _Told, *, html: Path | None, plot: Path | None) -> None:
+    """The files that were asked for."""
+    if html is None and plot is None:
+        return
+    from sim.report import Report, write_page, write_picture  # noqa: PLC0415 - draws
+
+    report = Report(told.title, told.found, told.log, PRESETS[told.preset], told.tried, told.notes)
+    if html is not None:
+        write_page(report, html)
+    if plot is not None:
+        write_picture(report, plot)
+
+
+def _against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit":
+    """The fit with what physics has against it in front of its doubts."""
+    import numpy as np  # noqa: PLC0415 - --help must not wait for it
+
+    from sim.fit.physics import physical_doubts  # noqa: PLC0415
+
+    period = float(np.median(np.concatenate([np.diff(run.time) for run in log.runs])))
+    return _doubted(found, *physical_doubts(found, parts=parts, period=period), first=True)
+
+
+def _taken_apart(
+    found: "Fit",
+    log: "Log",
+    pair: "tuple[Log, Log] | None",
+    *,
+    find: "Callable[[Log], Fit]",
+) -> "tuple[Fit, tuple[str, ...]]":
+    """The fit with what its directions and its sides, each fitted alone, say against it."""
+    from sim.fit.physics import compare_directions  # noqa: PLC0415
+
+    notes: tuple[str, ...] = ()
+    if found.method == METHODS[0]:
+        found = _doubted(found, *compare_directions(log, found.type))
+    if pair is not None:
+        doubts, notes = compare(pair, find)
+        found = _doubted(found, *doubts)
+    return found, notes
+
+
+def _doubted(found: "Fit", *doubts: "Doubt", first: bool = False) -> "Fit":
+    both = (doubts, found.doubts) if first else (found.doubts, doubts)
+    return replace(found, doubts=tuple(doubt for part in both for doubt in part))
+
+
+def _go_together(
+    ctx: click.Context, *, paste: str | None, own: float | None, html: Path | None,
+    plot: Path | None,
+) -> None:  # fmt: skip
+    """Refuse options that would be ignored."""
+    given = ctx.get_parameter_source("preset") is not click.core.ParameterSource.DEFAULT
+    if paste and given and ctx.params["preset"] != "default":
+        raise click.UsageError(
+            "--paste writes gains for WPILib's own PIDController, so --preset would change "
+            "nothing. Leave out --paste to see that controller's gains."
+        )
+    if paste and own is not None and html is None and plot is None:
+        raise click.UsageError(
+            "--paste prints code only, so --own-kp would be tried unseen. Leave out one of them."
+        )
+
+
+def _own(loop: str | None, *, kp: float | None, kd: float | None) -> "Own | None":
+    """The learner's gains, if some were given."""
+    from sim.trial import Own  # noqa: PLC0415 - --help must not wait for it
+
+    if kp is None:
+        if kd is None and loop is None:
+            return None
+        raise click.UsageError("Missing option '--own-kp': your kP, for --own-kd and --loop.")
+    if not (math.isfinite(kp) and math.isfinite(kd or 0.0)):
+        raise click.UsageError("--own-kp and --own-kd are numbers. Give finite ones.")
+    return Own(loop or LOOPS[0], Feedback(kp, kd or 0.0))
+
+
+def _parts(
+    name: str | None, *, count: int, ratio: float | None, radius: float, load: float | None
+) -> "Parts | None":
+    """What drives it, if that was said."""
+    if name is None:
+        return None
+    from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
+    from sim.motors import motor  # noqa: PLC0415
+
+    found = motor(name)
+    if ratio is None:
+        raise click.UsageError("Missing option '--ratio': motor turns per turn of the output.")
+    return Parts(found, count, ratio, radius=radius, load=load)

@@ -1,0 +1,144 @@
+"""A fit for people: one page that holds everything and asks for nothing more, or one picture.
+
+    write_page(report, "drive.html")
+    write_picture(report, "drive.png")
+
+On the page every figure has its words and its numbers, and what is doubted stands above them all.
+"""
+
+import os
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from uuid import uuid4
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from sim.compared import Compared, compared
+from sim.doubt import Doubt
+from sim.errors import BadRequest
+from sim.feedback import Preset
+from sim.fit import Fit
+from sim.log import Log
+from sim.plot.followed import followed, numbers
+from sim.plot.picture import Picture
+from sim.plot.step import steps
+from sim.plot.whole_fit import whole_fit
+from sim.report.rows import controllers, gains, measures, snippets
+from sim.trial import Trial
+from sim.units import Unit, unit
+
+PAGES = (".html", ".htm")
+FOLDER = Path(__file__).parent
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """What is told.
+
+    Args:
+        title: where the log came from.
+        found: the fit, in the unit to show; its doubts are those that are told.
+        log: what it was fitted to.
+        preset: the motor controller that ``tried`` is for.
+        tried: feedback gains on trial; empty if there are none.
+        notes: what is well, a sentence each.
+    """
+
+    title: str
+    found: Fit
+    log: Log
+    preset: Preset
+    tried: tuple[Trial, ...] = ()
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def per(self) -> Unit:
+        """The unit of position."""
+        return unit(self.found.units)
+
+    @cached_property
+    def runs(self) -> tuple[Compared, ...]:
+        """Every run, measured and simulated; none where these gains move nothing."""
+        try:
+            return compared(self.found, self.log)
+        except BadRequest:  # the doubts about the gains say why
+            return ()
+
+
+def write_page(report: Report, path: str | os.PathLike[str]) -> None:
+    """Write the page, whole or not at all.
+
+    Raises:
+        BadRequest: its name does not end as a page's, or it cannot be written.
+    """
+    target = Path(path)
+    if target.suffix.lower() not in PAGES:
+        raise BadRequest(
+            f"no page ends in {target.suffix or 'nothing'!r}",
+            where=str(target),
+            advice="End its name in .html.",
+        )
+    text = page(report)
+    part = target.with_name(f".{uuid4().hex}.part")
+    try:
+        part.write_text(text, encoding="utf-8", newline="\n")
+        part.replace(target)
+    except OSError as error:
+        raise BadRequest(
+            f"cannot be written ({error.strerror or error})",
+            where=str(target),
+            advice="Choose a folder that exists and that you may write to.",
+        ) from None
+    finally:
+        with suppress(OSError):  # nothing is left to remove when all went well
+            part.unlink()
+
+
+def write_picture(report: Report, path: str | os.PathLike[str]) -> None:
+    """Write all runs and the loops' step responses as one picture, whole or not at all.
+
+    Raises:
+        BadRequest: its name ends in no kind of picture, it cannot be written, or there is nothing
+            to draw.
+    """
+    whole_fit(report.runs, report.tried, per=report.per).save(path)
+
+
+def page(report: Report) -> str:
+    """The page as text; the same fit always gives the same."""
+    templates = Environment(
+        loader=FileSystemLoader(FOLDER, encoding="utf-8"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return templates.get_template("page.html.jinja").render(
+        title=report.title,
+        found=report.found,
+        per=report.per,
+        preset=report.preset.name,
+        gains=gains(report.found),
+        measures=measures(report.found),
+        grave=_messages(report.found.doubts, grave=True),
+        doubts=_messages(report.found.doubts, grave=False),
+        notes=report.notes,
+        overview=Markup(numbers(report.runs, per=report.per).html),  # noqa: S704 - it escapes
+        runs=[(run.run.test, _html(followed(run, per=report.per))) for run in report.runs],
+        steps=_html(steps(report.tried, per=report.per)) if report.tried else None,
+        tried=[(trial.whose, trial.loop, trial.verdict.words) for trial in report.tried],
+        controllers=controllers(report.found),
+        snippets=snippets(report.found),
+    )
+
+
+def _messages(doubts: Sequence[Doubt], *, grave: bool) -> list[str]:
+    return [doubt.message for doubt in doubts if doubt.grave == grave]
+
+
+def _html(picture: Picture) -> Markup:
+    return Markup(picture.html)  # noqa: S704 - a picture escapes what it says

@@ -1,0 +1,171 @@
+"""What stands in the tables of a page, as text: gains, measures, feedback gains, code."""
+
+import math
+import re
+from dataclasses import dataclass
+
+from sim.errors import BadRequest
+from sim.feedback import PRESETS, Preset
+from sim.fit import Fit
+from sim.paste import LANGUAGES, SEASONS, rounded, snippet
+from sim.plot.table import shown
+from sim.terminal import error_of
+from sim.trial import SUGGESTED, Trial, delay_of, trials
+from sim.units import unit
+
+SURE = 1.96  # [standard errors] that hold the truth 95 times of a hundred
+MEANS = {
+    "kS": "friction: the volts before it moves at all",
+    "kV": "the volts that hold a speed, for each unit of speed",
+    "kA": "the volts that speed it up, for each unit of acceleration",
+    "kG": "gravity: the volts that hold it where it is heaviest",
+    "offset_rad": "what to add to the sensor's angle, to count from horizontal",
+}
+CODE = {"java": "Java", "python": "Python"}
+
+
+@dataclass(frozen=True)
+class Gain:
+    """A row of the table of gains, as text."""
+
+    name: str
+    value: str
+    error: str
+    between: str
+    unit: str
+    means: str
+
+
+@dataclass(frozen=True)
+class Controller:
+    """A row of the table of feedback gains, as text."""
+
+    name: str
+    counts: str
+    delay: str
+    velocity: tuple[str, str, str, bool]
+    position: tuple[str, str, str, bool]
+
+
+@dataclass(frozen=True)
+class Snippet:
+    """Code to paste, or why there is none."""
+
+    language: str
+    season: int
+    code: str
+    refused: str
+
+
+def gains(found: Fit) -> list[Gain]:
+    """The gains with their errors and what they mean."""
+    rows = []
+    for name, value in found.gains.items():
+        error = found.errors.get(name, math.nan)
+        ends = (rounded(value + SURE * way * error, error) for way in (-1.0, 1.0))
+        between = " to ".join(ends) if math.isfinite(error) else "not known"
+        rows.append(
+            Gain(
+                "angle" if name == "offset_rad" else name,
+                _minus(rounded(value, error)),
+                error_of(value, error),
+                _minus(between),
+                found.gain_unit(name),
+                MEANS[name],
+            )
+        )
+    return rows
+
+
+def measures(found: Fit) -> list[tuple[str, str, str]]:
+    """How well the gains explain the log: name, number, what it says."""
+    per = unit(found.units).symbol
+    rows = [
+        (
+            "velocity, simulated: R²",
+            _number(found.simulated_velocity_r2),
+            "1 is perfect; below 0.9 look at the figures",
+        ),
+        (
+            f"velocity, simulated: off by, RMS [{per}/s]",
+            _number(found.simulated_velocity_rmse),
+            "it cannot be less than the sensor's noise",
+        ),
+        (
+            "acceleration: R²",
+            _number(found.acceleration_r2),
+            "low on nearly every robot, because differences are noisy",
+        ),
+        (f"acceleration: off by, RMS [{per}/s²]", _number(found.acceleration_rmse), "the same"),
+    ]
+    late = found.method == "output-error" and max(found.velocity_delay, found.position_delay) > 0.0
+    if late:
+        rows.append(
+            (
+                "the velocity comes late by [ms]",
+                _number(1000.0 * found.velocity_delay),
+                "found in the log, and allowed for in the gains",
+            )
+        )
+    return rows
+
+
+def controllers(found: Fit) -> list[Controller]:
+    """Feedback gains for every motor controller; empty where the model allows none."""
+    rows = []
+    for preset in PRESETS.values():
+        tried = {trial.loop: trial for trial in trials(found, preset) if trial.whose == SUGGESTED}
+        if {"velocity", "position"} <= set(tried):
+            delays = {1000.0 * delay_of(found, preset, loop=loop) for loop in tried}
+            rows.append(
+                Controller(
+                    preset.name,
+                    _counts(preset),
+                    " and ".join(f"{delay:.3g}" for delay in sorted(delays)),
+                    _loop(tried["velocity"]),
+                    _loop(tried["position"]),
+                )
+            )
+    return rows
+
+
+def _counts(preset: Preset) -> str:
+    """In what units a controller thinks."""
+    full = 12.0 * preset.output
+    output = "volts" if preset.output == 1.0 else f"{full:.4g} for 12 V"
+    speeds = {1.0: "second", 60.0: "minute", 0.1: "100 ms"}
+    derivative = "" if preset.normalized else f", kD per loop of {1000 * preset.period:.0f} ms"
+    return f"{output}, speed per {speeds[preset.velocity_time]}{derivative}"
+
+
+def _loop(trial: Trial) -> tuple[str, str, str, bool]:
+    """kP, kD, what they do in simulation, and whether to begin with them."""
+    numbers = (_four(trial.gains.kp), _four(trial.gains.kd))
+    return (*numbers, trial.verdict.words, trial.good)
+
+
+def snippets(found: Fit) -> list[Snippet]:
+    """Code for every language and season."""
+    made = []
+    for language in LANGUAGES:
+        for season in SEASONS:
+            code, refused = "", ""
+            try:
+                code = snippet(found, language=language, season=season)
+            except BadRequest as refusal:
+                refused = str(refusal)
+            made.append(Snippet(CODE[language], season, code, refused))
+    return made
+
+
+def _four(value: float) -> str:
+    return _minus(f"{value:.4g}")
+
+
+def _minus(text: str) -> str:
+    """The same with true minus signs; exponents keep theirs."""
+    return re.sub(r"(?<![e\d])-", "−", text)
+
+
+def _number(value: float) -> str:
+    return shown(value) if math.isfinite(value) else "not known: the simulation ran away"
