@@ -1,0 +1,214 @@
+"""What `sysid fit` says and writes, in process: feedback on trial, sides, files, refusals."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from old_tools import RUNS
+from page_flaws import page_flaws
+from wpilog_file import Motor, saved
+
+import sim
+from sim.cli import sysid
+from sim.cli.fit.sides import sides_of
+from sim.command import run
+from sim.mechanisms import MECHANISMS
+from sim.routine import Routine
+from sim.simulate import simulate
+
+SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
+DRIVE = MECHANISMS["drivetrain"]
+
+
+@pytest.fixture(scope="module")
+def drive(tmp_path_factory):
+    path = tmp_path_factory.mktemp("logs") / "drive.wpilog"
+    sim.write(simulate(DRIVE, SHORT, rng=np.random.default_rng(2)), path)
+    return path
+
+
+@pytest.fixture
+def fit(capsys):
+    """Run `sysid fit`: exit code, what it prints, and what it complains."""
+
+    def ran(*arguments):
+        capsys.readouterr()
+        code = run(sysid, name="sysid", arguments=["fit", *map(str, arguments)])
+        said = capsys.readouterr()
+        return code, said.out, said.err
+
+    return ran
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """An empty folder to be in."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def two_sided(folder, *, right=DRIVE, name="drive.json"):
+    """A drivetrain as SysId wrote it until 2023, each side simulated by itself."""
+    sides = [simulate(one, SHORT, rng=np.random.default_rng(4)) for one in (DRIVE, right)]
+    document = {"test": "Drivetrain", "units": "Meters", "unitsPerRotation": 1.0, "sysid": True}
+    for key, test in RUNS.items():
+        (a,), (b,) = (side.of(test) for side in sides)
+        n = min(len(a), len(b))
+        columns = (a.time, a.voltage, b.voltage, a.position, b.position, a.velocity, b.velocity)
+        still = np.zeros(n)
+        document[key] = np.transpose([*(one[:n] for one in columns), still, still]).tolist()
+    path = folder / name
+    path.write_text(json.dumps(document), encoding="utf-8")
+    return path
+
+
+def test_suggested_gains_come_with_what_they_do(fit, drive):
+    code, said, _ = fit(drive)
+
+    assert code == 0
+    assert "  velocity kP 2.7" in said
+    assert "after a step of 2 m/s it is 90% there after" in said
+    assert "look:" not in said
+
+
+def test_ones_own_gains_are_tried_beside_them(fit, drive):
+    code, said, _ = fit(drive, "--own-kp", 300, "--loop", "position")
+
+    assert code == 0
+    assert "your own position kP 300, kD 0 (no good start): after a step" in said
+    assert "swings to and fro" in said
+
+
+def test_ones_own_gains_are_in_the_json_too(fit, drive):
+    _, plain, _ = fit(drive, "--json")
+    _, said, _ = fit(drive, "--json", "--own-kp", 2, "--own-kd", 0.01)
+
+    own = json.loads(said)["own_feedback"]
+    assert own.pop("reached_s") < own.pop("settled_s") < 1.0
+    assert own == {
+        "loop": "velocity", "kP": 2.0, "kD": 0.01, "verdict": "settles",
+        "overshoot": pytest.approx(0.0, abs=0.05),
+    }  # fmt: skip
+    assert "own_feedback" not in json.loads(plain)
+
+
+def test_a_suggestion_that_does_not_settle_is_a_warning(fit, tmp_path):
+    arm = tmp_path / "arm.wpilog"
+    sim.write(simulate(MECHANISMS["arm"], SHORT, rng=np.random.default_rng(2)), arm)
+
+    _, said, _ = fit(arm, "--type", "arm", "--preset", "ctre-phoenix5")
+    _, data, _ = fit(arm, "--type", "arm", "--preset", "ctre-phoenix5", "--json")
+
+    assert "(no good start)" in said
+    assert "look: SysId's recipe suggests kP -" in said
+    assert "unsettled-feedback" in [one["code"] for one in json.loads(data)["warnings"]]
+
+
+def test_page_and_picture_are_written_beside_what_is_said(fit, drive, tmp_path):
+    html, plot = tmp_path / "drive.html", tmp_path / "drive.svg"
+
+    code, said, err = fit(drive, "--html", html, "--plot", plot, "--json")
+
+    assert (code, err) == (0, "")
+    assert set(json.loads(said)["gains"]) == {"kS", "kV", "kA"}  # nothing but JSON
+    assert page_flaws(html.read_text(encoding="utf-8")) == []
+    assert plot.read_text(encoding="utf-8").count("quasistatic-forward") > 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["drive.html", "drive.svg"]
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (["--html", "nowhere/drive.html"], "nowhere/drive.html: cannot be written"),
+        (["--html", "drive.pdf"], "End its name in .html."),
+        (["--plot", "nowhere/drive.png"], "cannot be written"),
+        (["--plot", "drive.gif"], "End its name in one of: .svg, .png, .pdf."),
+        (["--own-kd", 1], "Missing option '--own-kp'"),
+        (["--loop", "position"], "Missing option '--own-kp'"),
+        (["--own-kp", "nan"], "Give finite ones"),
+        (["--paste", "java", "--preset", "rev-brushless"], "Leave out --paste"),
+        (["--paste", "java", "--own-kp", 2], "Leave out one of them"),
+    ],
+)
+def test_what_cannot_be_done_is_one_line(fit, drive, here, asked, said):
+    code, out, err = fit(drive, *asked)
+
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1
+    assert said in err.replace("\\", "/")
+    assert list(here.iterdir()) == []
+
+
+def test_the_default_preset_goes_with_paste(fit, drive):
+    code, said, _ = fit(drive, "--paste", "java", "--preset", "default")
+
+    assert code == 0
+    assert said.startswith("import edu.wpi.first")
+
+
+def test_sides_that_agree_are_said_to(fit, tmp_path):
+    code, said, _ = fit(two_sided(tmp_path))
+
+    assert code == 0
+    assert "Left and right, each fitted alone, agree: kV 2.52" in said
+    assert "look:" not in said
+
+
+def test_sides_that_differ_are_a_doubt_with_numbers(fit, tmp_path):
+    dragging = replace(DRIVE, drag=DRIVE.drag + 0.15)
+
+    _, said, _ = fit(two_sided(tmp_path, right=dragging))
+
+    (doubt,) = [line for line in said.splitlines() if "left and" in line and "kV" in line]
+    assert doubt.startswith("look: kV is 2.52 left and")
+    assert "agree" not in said
+
+
+def test_a_side_that_is_asked_for_is_not_compared(fit, tmp_path):
+    _, said, _ = fit(two_sided(tmp_path), "--motor", "left")
+
+    assert "agree" not in said
+
+
+def test_two_motors_of_a_wpilog_are_found_by_their_sides(tmp_path):
+    path = saved(tmp_path, Motor("left"), Motor("right"))
+
+    pair = sides_of(sim.read(path), lambda side: sim.read(path, motor=side))
+
+    assert pair is not None
+    assert all(len(side.runs) == 4 for side in pair)
+
+
+@pytest.mark.parametrize("names", [("drive",), ("front", "back")])
+def test_motors_of_other_names_are_no_sides(tmp_path, names):
+    path = saved(tmp_path, *map(Motor, names))
+
+    assert sides_of(sim.read(path), lambda side: sim.read(path, motor=side)) is None
+
+
+def test_a_direction_that_differs_is_said_with_numbers(fit, tmp_path):
+    # a sensor that reads a tenth too little in reverse: kV and kA are a tenth too large there
+    log = simulate(DRIVE, SHORT, rng=np.random.default_rng(2))
+    runs = tuple(
+        replace(one, velocity=0.9 * one.velocity, position=0.9 * one.position)
+        if one.direction == "reverse"
+        else one
+        for one in log.runs
+    )
+    sim.write(replace(log, runs=runs), tmp_path / "odd.wpilog")
+
+    _, said, _ = fit(tmp_path / "odd.wpilog")
+    _, data, _ = fit(tmp_path / "odd.wpilog", "--json")
+
+    (doubt,) = [line for line in said.splitlines() if "kV is" in line]
+    assert "2.52 forward and 2.8" in doubt
+    assert "reverse, 11% apart" in doubt
+    assert "directions-differ" not in [one["code"] for one in json.loads(data)["warnings"]]
+
+
+def test_sysids_recipe_is_tried_too(fit, drive):
+    code, said, _ = fit(drive, "--method", "sysid")
+
+    assert code == 0
+    assert "position kP" in said
