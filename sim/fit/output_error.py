@@ -10,24 +10,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.doubt import Doubt
 from sim.engine import State, move
 from sim.errors import BadRequest
+from sim.fit.closest import Followed, closest, follow, honest
 from sim.fit.doubts import unsure
 from sim.fit.innovations import model_of
 from sim.fit.result import Fit
 from sim.fit.search import Point, Problem, covariance, far, near, promise
 from sim.fit.seen import Seen, noise, see
 from sim.fit.start import first_guess, sensible
-from sim.fit.unknown import refuse_unknown
+from sim.fit.told import astray, late, opposed
+from sim.fit.unknown import refuse_astray, refuse_unknown
 from sim.log import Array, Log
 from sim.units import unit
 
 WORTH = 12.0  # [of -2 log L] what a lag must explain to be believed: odds of some hundred to one
 FIRST_LAGS = {"window": (0.5, 2.0, 6.0), "lag": (0.3, 1.0, 2.0, 4.0)}
 """[sample periods] from which a search begins."""
-STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model is doubted
-SMALL = 0.015  # [share of the top speed] error that is small whatever the noise
 LAGS = ("window", "lag")
 
 
@@ -58,15 +57,20 @@ def output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's word
     begin = sensible(guess)
     seen = see(log, friction=None if type == "simple" else begin["kS"])
     problem = Problem(type, seen, noise(seen), _period(seen))
-    problem, point = _best(problem, begin)
-    spread = covariance(problem, point)
-    gains, errors = _gains(point, spread, type=type)
+    problem, likeliest = _best(problem, begin)
+    searched, point = closest(problem, likeliest)
+    gains, errors = _gains(point, covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
     # unknown is refused
-    share = problem.noise.velocity / float(np.sqrt(problem.spread(point.ahead)[1, 1]))
+    share = searched.noise.velocity / float(np.sqrt(searched.spread(point.ahead)[1, 1]))
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
     refuse_unknown(gains, least, log=log, type=type)
-    return _fit(log, problem, point, way=way, gains=gains, errors=errors)
+    followed = follow(problem, point, astray=searched is not problem)
+    refuse_astray(followed, log=log)
+    if followed.strays:
+        others = _gains(point, honest(searched, point), type=type)[1]
+        errors = {name: max(error, others[name]) for name, error in errors.items()}
+    return _fit(log, problem, point, way=way, gains=gains, errors=errors, followed=followed)
 
 
 def _period(seen: tuple[Seen, ...]) -> float:
@@ -125,12 +129,9 @@ def _gains(
 
 def _fit(
     log: Log, problem: Problem, point: Point, *, way: float, gains: Mapping[str, float],
-    errors: Mapping[str, float],
+    errors: Mapping[str, float], followed: Followed,
 ) -> Fit:  # fmt: skip
     """The result: gains, how well they follow, and what to doubt."""
-    velocity, error, moving = _open_loop(problem, point)
-    rmse = float(np.sqrt(np.mean(error[moving] ** 2))) if moving.any() else 0.0
-    spread = float(np.sum((velocity[moving] - velocity[moving].mean()) ** 2))
     change = _accelerations(problem, point)
     window, lag = (point.values.get(name, 0.0) for name in LAGS)
     signed = {name: value if name == "offset_rad" else way * value for name, value in gains.items()}
@@ -143,8 +144,8 @@ def _fit(
         errors=errors,
         acceleration_r2=change[0],
         acceleration_rmse=change[1],
-        simulated_velocity_r2=1.0 - float(np.sum(error[moving] ** 2)) / max(spread, 1e-300),
-        simulated_velocity_rmse=rmse,
+        simulated_velocity_r2=followed.r2,
+        simulated_velocity_rmse=followed.rmse,
         samples_used=_used(log, problem),
         position_delay=lag,
         velocity_delay=lag + 0.5 * window,
@@ -152,9 +153,9 @@ def _fit(
         step_duration=0.0,
         doubts=(
             *log.doubts,
-            *_opposed(way),
-            *_late(window, lag),
-            *_strays(rmse, problem, velocity),
+            *opposed(way),
+            *late(window, lag),
+            *astray(followed),
             *unsure(signed, errors),
         ),
     )
@@ -167,20 +168,6 @@ def _used(log: Log, problem: Problem) -> dict[str, int]:
     for run, part in zip(long, problem.seen, strict=True):
         counts[run.test] = counts.get(run.test, 0) + int(part.moving.sum())
     return counts
-
-
-def _open_loop(problem: Problem, point: Point) -> tuple[Array, Array, Array]:
-    """Measured velocity, its difference to an uncorrected simulation, and whether it moves (n,)."""
-    model = model_of(problem.type, point.values)
-    seen, errors, moving = [], [], []
-    for run, start in zip(problem.seen, point.starts.tolist(), strict=True):
-        state = State.at(run.position + start, run.velocity)
-        track = move(model, time=run.time, voltage=run.voltage, state=state)
-        fresh = ~np.isnan(run.measured[:, 1])
-        seen.append(run.measured[fresh, 1])
-        errors.append(run.measured[fresh, 1] - track.seen[fresh])
-        moving.append((run.moving | (track.velocity != 0.0))[fresh])
-    return np.concatenate(seen), np.concatenate(errors), np.concatenate(moving)
 
 
 def _accelerations(problem: Problem, point: Point) -> tuple[float, float]:
@@ -200,54 +187,3 @@ def _accelerations(problem: Problem, point: Point) -> tuple[float, float]:
     measured, model_said = np.concatenate(got), np.concatenate(told)
     left = float(np.mean((measured - model_said) ** 2))
     return 1.0 - left / max(float(np.var(measured)), 1e-300), math.sqrt(left)
-
-
-def _opposed(way: float) -> tuple[Doubt, ...]:
-    if way > 0.0:
-        return ()
-    return (
-        Doubt(
-            "sign-opposed",
-            "kV and kA are negative: a positive voltage makes a negative velocity in this log. "
-            "Invert the encoder or the motor, so that plus is plus, and record again.",
-            grave=True,
-        ),
-    )
-
-
-def _late(window: float, lag: float) -> tuple[Doubt, ...]:
-    said = []
-    if window > 0.0:
-        said.append(
-            Doubt(
-                "velocity-lag",
-                f"The velocity is averaged over {window * 1000:.0f} ms, so it comes "
-                f"{window * 500:.0f} ms late. The gains allow for that; a feedback loop has to, "
-                "too: shorten the filter of the motor controller.",
-            )
-        )
-    if lag > 0.0:
-        said.append(
-            Doubt(
-                "late-answer",
-                f"Everything answers {lag * 1000:.0f} ms after the voltage in the log. The gains "
-                "allow for that; a feedback loop has to, too.",
-            )
-        )
-    return tuple(said)
-
-
-def _strays(rmse: float, problem: Problem, velocity: Array) -> tuple[Doubt, ...]:
-    """A simulation that leaves the log by more than noise: the model lacks something."""
-    top = float(np.quantile(np.abs(velocity), 0.98)) if velocity.size else 0.0
-    times = rmse / problem.noise.velocity
-    if times < STRAYS or rmse < SMALL * top:
-        return ()
-    return (
-        Doubt(
-            "model-strays",
-            f"The simulation leaves the log by {times:.1f} times the velocity's own noise: this "
-            "mechanism does something that kS, kV and kA do not say, and the errors above are too "
-            "small for it. Inspect the log, then ask `sysid reconcile` what is missing.",
-        ),
-    )

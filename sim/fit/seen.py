@@ -16,10 +16,12 @@ from sim.log import Array, Log, Run
 
 HELD = 0.3  # [share of fast samples] that repeat the one before them, from which it is frames
 FAST = 0.3  # [share of a run's top speed] above which a sensor should say something new each time
+SOON = 0.2  # [share of gaps] between changes that are no longer than a frame
 DIGITS = 1e-7  # [share of the range] that is below what any log resolves
 THIRD = 20.0  # sum of the squares of 1, 3, 3, 1
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
 GIVES = 0.03  # [share of the way] that a mechanism gives where it leans on a stop
+GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] how a stop yields
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
 AROUND = 5  # samples before a motion and after it that say when it began and ended
 MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
@@ -105,16 +107,17 @@ def _seen(run: Run, *, top: float, friction: float | None) -> Seen:
     measured = np.column_stack([run.position, run.velocity])
     fast = np.abs(run.velocity) > FAST * float(np.max(np.abs(run.velocity), initial=0.0))
     for column in (0, 1):
-        again = np.concatenate(([False], np.diff(measured[:, column]) == 0.0))
-        pairs = fast & np.concatenate(([False], fast[:-1]))
-        if pairs.any() and float(np.mean(again[pairs])) > HELD:
-            measured[again, column] = np.nan
+        measured[~_fresh(measured[:, column], fast=fast), column] = np.nan
     moving = np.abs(run.velocity) > MOVING * top
     first = 0
     if friction is not None and moving.any() and not moving[0]:
         go = _leaves(run, moving)
-        near = np.abs(run.voltage[: go + 1] - run.voltage[go]) <= friction
-        first = min(go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0, max(go - 1, 0))
+        if _yields(run, go):
+            first = _gone(run)
+        else:
+            near = np.abs(run.voltage[: go + 1] - run.voltage[go]) <= friction
+            first = go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0
+            first = min(first, max(go - 1, 0))
     cut = slice(first, None)
     start = float(run.velocity[first]) if moving[first] else 0.0
     return Seen(
@@ -123,11 +126,46 @@ def _seen(run: Run, *, top: float, friction: float | None) -> Seen:
     )  # fmt: skip
 
 
+def _fresh(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) where a reading is new: where it changes, and once per frame where it stays.
+
+    A coarse reading may say the same in the next frame, and that is as good as another; one that
+    only counts where it changes would count where it is wrong by half a step.
+    """
+    new = np.concatenate(([True], np.diff(values) != 0.0))
+    pairs = fast[1:] & fast[:-1]
+    if not pairs.any() or float(np.mean(~new[1:][pairs])) <= HELD:
+        return np.ones(values.size, dtype=bool)
+    at = np.flatnonzero(new[1:] & pairs) + 1
+    frame = round(float(np.quantile(np.diff(at), SOON))) if at.size > 1 else values.size
+    index = np.arange(values.size)
+    last = np.maximum.accumulate(np.where(new, index, 0))
+    ends = np.append(np.flatnonzero(new)[1:], values.size)[np.cumsum(new) - 1]
+    whole = (index - last) % max(frame, 1) == 0
+    return np.asarray(new | (whole & (ends - index > 0.5 * frame)))
+
+
 def _leaves(run: Run, moving: NDArray[np.bool_]) -> int:
     """The sample at which it leaves for good; leaning on a stop a mechanism only gives a little."""
-    gone = np.abs(run.position - run.position[0]) > GIVES * float(np.ptp(run.position))
-    rests = np.flatnonzero(~moving[: int(np.argmax(gone)) + 1])
+    rests = np.flatnonzero(~moving[: _gone(run) + 1])
     return int(rests[-1]) + 1 if rests.size else 0
+
+
+def _gone(run: Run) -> int:
+    """The sample at which it is farther from where it began than any stop would give."""
+    far = np.abs(run.position - run.position[0]) > GIVES * float(np.ptp(run.position))
+    return int(np.argmax(far))
+
+
+def _yields(run: Run, go: int) -> bool:
+    """Whether it creeps before it leaves: pressed onto a stop of rubber, or a chain that gives.
+
+    Such a stop holds it back longer than friction and weight would, so what the voltage was when it
+    came off says nothing about either.
+    """
+    way = np.abs(run.position[: go + 1] - run.position[0])
+    creeps = run.time[go] - run.time[int(np.argmax(way > CREPT * way[-1]))]
+    return bool(way[-1] > GIVEN * float(np.ptp(run.position)) and creeps > CREEPS)
 
 
 def _telling(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -4,9 +4,11 @@ import math
 from collections.abc import Mapping
 
 from sim.errors import NotIdentifiable
+from sim.fit.closest import Followed
 from sim.log import Log
 
 TELLS = 0.25  # [share of a gain] a larger standard error leaves it unknown
+FOLLOWS = 0.5  # [share of the velocity's variance] a simulation of less is of something else
 LEAST = {
     "kS": 0.35,
     "kG": 0.2,
@@ -51,6 +53,23 @@ def refuse_unknown(
         f"this log cannot tell {said}",
         where=log.source,
         advice=TOGETHER if pair else SETTLES[unknown[-1]],
+    )
+
+
+def refuse_astray(followed: Followed, *, log: Log) -> None:
+    """Refuse gains whose simulation has little to do with the log.
+
+    Raises:
+        NotIdentifiable: the model lacks what matters most.
+    """
+    if followed.r2 >= FOLLOWS:
+        return
+    raise NotIdentifiable(
+        f"no gains follow this log: the closest simulation leaves it by {_size(followed.rmse)} "
+        f"where its top speed is {_size(followed.top)}",
+        where=log.source,
+        advice="Inspect the log for damage, check its type and units, then ask `sysid reconcile` "
+        "what is missing.",
     )
 
 

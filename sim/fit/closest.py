@@ -1,0 +1,137 @@
+"""A model that strays: the gains whose simulation, left to itself, comes closest.
+
+Where something is missing from a model, the likeliest innovations are those of a model that is
+corrected at every sample, and such a one says little about gains: inertia can pass for anything.
+What gains are for is to say a velocity ahead, so then the velocities of whole runs are compared.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.engine import State, move
+from sim.fit.innovations import model_of
+from sim.fit.search import ANEW, Point, Problem, better, covariance, white
+from sim.log import Array
+
+STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
+SMALL = 0.015  # [share of the top speed] error that is small whatever the noise
+STEPS = 30  # of the search
+ASIDE = 0.02  # [m or rad] that slack in a gear or a chain lets a start be from where it is seen
+TOGETHER = 0.5  # [s] for which what is missing errs one way
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """A simulation beside its log, sample by sample where there is a measurement.
+
+    Args:
+        velocity: (n,) measured [m/s or rad/s].
+        error: (n,) measured less simulated.
+        moving: (n,) where either moves.
+        noise: of the velocity, measured without a model.
+        astray: whether the likeliest gains strayed, and these only hide it better.
+    """
+
+    velocity: Array
+    error: Array
+    moving: NDArray[np.bool_]
+    noise: float
+    astray: bool = False
+
+    @property
+    def rmse(self) -> float:
+        """[m/s or rad/s] of what moves."""
+        return float(np.sqrt(np.mean(self.error[self.moving] ** 2))) if self.moving.any() else 0.0
+
+    @property
+    def r2(self) -> float:
+        """Share of the velocity's variance that is simulated."""
+        seen = self.velocity[self.moving]
+        spread = float(np.sum((seen - seen.mean()) ** 2)) if seen.size else 0.0
+        return 1.0 - float(np.sum(self.error[self.moving] ** 2)) / max(spread, 1e-300)
+
+    @property
+    def top(self) -> float:
+        """[m/s or rad/s] speed that hardly any sample exceeds."""
+        return float(np.quantile(np.abs(self.velocity), 0.98)) if self.velocity.size else 0.0
+
+    @property
+    def strays(self) -> bool:
+        """Whether it leaves the log by more than noise, and by more than a little."""
+        small = 0.0 if self.astray else SMALL * self.top
+        return self.rmse > max(STRAYS * self.noise, small)
+
+
+def follow(problem: Problem, point: Point, *, astray: bool = False) -> Followed:
+    """Simulate every run from where its first sample is seen, uncorrected.
+
+    The starts of a point that is corrected as it goes may lie anywhere, and do not count here.
+
+    Args:
+        problem: measurements.
+        point: the values.
+        astray: as of ``Followed``.
+    """
+    model = model_of(problem.type, point.values)
+    seen, errors, moving = [], [], []
+    for run in problem.seen:
+        state = State.at(run.position, run.velocity)
+        track = move(model, time=run.time, voltage=run.voltage, state=state)
+        fresh = ~np.isnan(run.measured[:, 1])
+        seen.append(run.measured[fresh, 1])
+        errors.append(run.measured[fresh, 1] - track.seen[fresh])
+        moving.append((run.moving | (track.velocity != 0.0))[fresh])
+    return Followed(
+        np.concatenate(seen), np.concatenate(errors), np.concatenate(moving),
+        noise=problem.noise.velocity, astray=astray,
+    )  # fmt: skip
+
+
+def closest(problem: Problem, point: Point) -> tuple[Problem, Point]:
+    """Where a model strays: velocities alone, and the point that simulates them best.
+
+    Args:
+        problem: what was searched.
+        point: the likeliest point.
+
+    Returns:
+        Both as they were if the model holds; or if the likeliest point is pardoned next to nothing,
+        for then it is a simulation already, of the position too.
+    """
+    if point.q <= ANEW * problem.noise.velocity**2 or not follow(problem, point).strays:
+        return problem, point
+    seen = []
+    for run in problem.seen:
+        measured = run.measured.copy()
+        measured[:, 0] = np.nan
+        seen.append(replace(run, measured=measured))
+    blind = replace(problem, seen=tuple(seen), aside=ASIDE)
+    found = better(
+        blind, blind.at(point.values, np.zeros(len(seen)), 0.0), steps=STEPS, enough=0.01
+    )
+    return blind, found
+
+
+def honest(problem: Problem, point: Point) -> Array:
+    """(values, values) covariance when errors come not sample by sample but for a while each.
+
+    Source: the sandwich of White (1980), with scores summed over ``TOGETHER``.
+    """
+    count = len(point.values)
+    table, rest = problem.columns(point, fine=True), white(problem, point, point.ahead)
+    whiles = np.repeat(_whiles(problem), 2)  # two measurements to a sample
+    scores = np.zeros((int(whiles.max()) + 1, table.shape[1]))
+    np.add.at(scores, whiles, table * rest[:, None])
+    bread = covariance(problem, point, starts=True)
+    return np.asarray((bread @ (scores.T @ scores) @ bread)[:count, :count])
+
+
+def _whiles(problem: Problem) -> NDArray[np.int_]:
+    """(n,) which while a sample lies in, counted through all runs."""
+    parts, first = [], 0
+    for run in problem.seen:
+        parts.append(first + ((run.time - run.time[0]) // TOGETHER).astype(int))
+        first = int(parts[-1][-1]) + 1
+    return np.concatenate(parts)

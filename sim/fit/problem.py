@@ -1,0 +1,176 @@
+"""What the search of method output-error searches, and what a point of it costs.
+
+-2 log L = N·log det Σ        Σ the covariance (2, 2) of the innovations
+"""
+
+import math
+import os
+from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+
+from sim.engine import NO_TRUST
+from sim.fit.innovations import innovations, model_of, trust_for
+from sim.fit.seen import Noise, Seen
+from sim.log import Array
+from sim.model import Model
+
+ROBUST = 1.4826  # standard deviations in a median absolute deviation
+STRAY = 6.0  # [standard deviations] farther than this no noise goes
+STARTS = 0.1  # [s] of a motion in which nothing is left out
+AROUND_STRAY = 2  # samples on both sides of one that strays
+LARGE = 10_000  # [samples] from which runs are simulated side by side
+NUDGE = 1e-4  # [of a gain's own size] by which it is moved for a derivative
+LEAST = {"kS": 0.02, "kG": 0.05, "level": 0.05, "upright": 0.05, "window": 0.004, "lag": 0.004}
+FLOOR = {"kS": 0.0, "window": 0.0, "lag": 0.0}
+POSITIVE = ("kV", "kA")
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """Where a search stands.
+
+    Args:
+        values: name -> value.
+        starts: (runs,) [unit] true position at a run's first sample, less the one seen there.
+        q: size of what pushes at random.
+        trust: (2, 2) by how much a measurement corrects, which follows from values and q.
+        ahead: (n, 2) innovations.
+        cost: -2 log L, up to a constant.
+    """
+
+    values: Mapping[str, float]
+    starts: Array
+    q: float
+    trust: Array
+    ahead: Array
+    cost: float
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What is searched: measurements, and how they are compared.
+
+    Args:
+        type: ``simple``, ``elevator`` or ``arm``.
+        seen: the runs.
+        noise: of the measurements, measured without a model.
+        period: [s] between samples.
+        aside: [m or rad] about how far from what is seen a start may be, beside the measurements.
+    """
+
+    type: str
+    seen: tuple[Seen, ...]
+    noise: Noise
+    period: float
+    aside: float = math.inf
+
+    def at(self, values: Mapping[str, float], starts: Array, q: float) -> Point:
+        """The point of these values; its cost is infinite where they are no physics."""
+        if any(not values[name] > 0.0 for name in POSITIVE):
+            return Point(values, starts, q, NO_TRUST, np.empty((0, 2)), math.inf)
+        model = model_of(self.type, values)
+        trust = trust_for(model, noise=self.noise, q=q, period=self.period)
+        ahead = self._ahead(model, starts, trust)
+        cost = self.cost(ahead) + float(np.sum(np.square(starts / self.aside)))
+        return Point(values, starts, q, trust, ahead, cost)
+
+    def _ahead(self, model: Model, starts: Array, trust: Array) -> Array:
+        """(n, 2) the innovations of every run, one after another."""
+
+        def one(run: Seen, start: float) -> Array:
+            return innovations(model, run, start=start, trust=trust)
+
+        if sum(run.time.size for run in self.seen) > LARGE:  # compiled code runs beside other
+            return np.concatenate(list(_threads().map(one, self.seen, starts.tolist())))
+        return np.concatenate(list(map(one, self.seen, starts.tolist())))
+
+    def without_strays(self, point: Point) -> "Problem":
+        """The same without the samples that no noise explains, and those around them.
+
+        A stop that was hit, a tooth that slipped, a voltage that was not applied: one such moment
+        may weigh more than all the rest. Their measurements still keep the simulation on course.
+        """
+        size = ROBUST * np.nanmedian(np.abs(point.ahead), axis=0)
+        strays = np.abs(point.ahead) > STRAY * np.maximum(size, self.noise.grain)
+        far = strays[:, 0] | strays[:, 1]
+        kept, first = [], 0
+        for run in self.seen:
+            mine = far[first : first + run.time.size].copy()
+            first += run.time.size
+            # a start is what shows inertia: there a stray is more likely the model's
+            begins = run.time[int(np.argmax(run.moving))]
+            mine[run.time < begins + STARTS] = False
+            wide = np.convolve(mine, np.ones(2 * AROUND_STRAY + 1), mode="same") > 0.0
+            kept.append(replace(run, telling=run.telling & ~wide[: run.time.size]))
+        return replace(self, seen=tuple(kept))
+
+    def columns(self, point: Point, *, fine: bool = False) -> Array:
+        """(2 n, values + runs) by how much the white innovations change with values and starts.
+
+        Args:
+            point: where.
+            fine: from both sides, so that values that do the same are seen to do the same.
+        """
+        by_value = (self._by_value(point, name, fine=fine) for name in point.values)
+        parts = [*by_value, *self._by_start(point)]
+        return np.column_stack([white(self, point, part) for part in parts])
+
+    def _by_value(self, point: Point, name: str, *, fine: bool) -> Array:
+        value = point.values[name]
+        step = NUDGE * max(abs(value), LEAST.get(name, 0.0))
+        model = model_of(self.type, {**point.values, name: value + step})
+        more = self._ahead(model, point.starts, point.trust)
+        if not fine or value - step < FLOOR.get(name, -math.inf):
+            return np.asarray((more - point.ahead) / step)
+        model = model_of(self.type, {**point.values, name: value - step})
+        return np.asarray((more - self._ahead(model, point.starts, point.trust)) / (2.0 * step))
+
+    def _by_start(self, point: Point) -> Iterator[Array]:
+        model = model_of(self.type, point.values)
+        first, step = 0, self.noise.position
+        for run, start in zip(self.seen, point.starts.tolist(), strict=True):
+            last = first + run.time.size
+            moved = innovations(model, run, start=start + step, trust=point.trust)
+            part = np.zeros_like(point.ahead)
+            part[first:last] = (moved - point.ahead[first:last]) / step
+            yield part
+            first = last
+
+    def cost(self, ahead: Array) -> float:
+        """-2 log L of innovations, up to a constant: of each sample what was measured there."""
+        spread, count = self._spread(ahead)
+        size = float(spread[0, 0] * spread[1, 1] - spread[0, 1] ** 2)
+        return count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
+
+    def spread(self, ahead: Array) -> Array:
+        """(2, 2) covariance of the innovations, never quite nothing."""
+        return self._spread(ahead)[0]
+
+    def _spread(self, ahead: Array) -> tuple[Array, int]:
+        """The covariance, and how many samples were measured at all."""
+        there = ~np.isnan(ahead)
+        first, second = there[:, 0], there[:, 1]
+        x, v = np.where(first, ahead[:, 0], 0.0), np.where(second, ahead[:, 1], 0.0)
+        both = max(int(np.count_nonzero(first & second)), 1)
+        xx = float(x @ x) / max(int(np.count_nonzero(first)), 1)
+        vv = float(v @ v) / max(int(np.count_nonzero(second)), 1)
+        most = 0.99 * math.sqrt(xx * vv)
+        xv = min(max(float(x @ v) / both, -most), most)
+        spread = np.array([[xx, xv], [xv, vv]])
+        return spread + np.diag(np.square(self.noise.grain)), int(np.count_nonzero(first | second))
+
+
+@cache
+def _threads() -> ThreadPoolExecutor:
+    """As many as there are cores, for logs that are worth it."""
+    return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="fit")
+
+
+def white(problem: Problem, point: Point, table: Array) -> Array:
+    """(2 n,) positions and velocities, made independent and of size one by the spread."""
+    inverse = np.linalg.inv(np.linalg.cholesky(problem.spread(point.ahead)))
+    return np.asarray((np.nan_to_num(table) @ inverse.T).ravel())
