@@ -1,6 +1,7 @@
 """How the benchmarks measure: repeat, sort, and print the least, the median and the most."""
 
 import time
+import tracemalloc
 from collections.abc import Callable
 from statistics import median
 
@@ -14,6 +15,17 @@ def seconds(work: Callable[[], object], *, repeats: int = 25) -> list[float]:
         work()
         taken.append(time.perf_counter() - start)
     return sorted(taken)
+
+
+def peak(work: Callable[[], object]) -> int:
+    """Bytes that a call holds at most, beyond what was there before, after one not counted."""
+    work()
+    tracemalloc.start()
+    try:
+        work()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
 
 
 def line(name: str, taken: list[float], *, target: float | None = None) -> str:
