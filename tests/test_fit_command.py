@@ -207,6 +207,16 @@ def test_a_direction_that_differs_is_said_with_numbers(fit, tmp_path):
     assert "directions-differ" not in [one["code"] for one in json.loads(data)["warnings"]]
 
 
+def test_a_long_log_is_not_fitted_three_times_unless_for_a_page(fit, drive, tmp_path, monkeypatch):
+    monkeypatch.setattr("sim.cli.fit.against.MANY", 100)
+
+    _, said, _ = fit(drive)
+    _, patient, _ = fit(drive, "--html", tmp_path / "drive.html")
+
+    assert "Forward and reverse were not compared" in said
+    assert "not compared" not in patient
+
+
 def test_sysids_recipe_is_tried_too(fit, drive):
     code, said, _ = fit(drive, "--method", "sysid")
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from page_flaws import page_flaws
 
+import sim
 from sim.doubt import Doubt
 from sim.errors import BadRequest
 from sim.feedback import PRESETS, Feedback
@@ -161,6 +162,18 @@ def test_an_arm_has_its_angle_and_its_gravity():
     assert page_flaws(told) == []
     assert "kG·cos(angle from horizontal)" in told
     assert "new ArmFeedforward(kS, kG, kV, kA)" in unescape(told)
+
+
+@pytest.mark.shared
+def test_a_real_arm_has_a_page_that_says_what_to_doubt(shared):
+    log = sim.read(shared / "data" / "real" / "sciborgs-2023-wrist-arm.json")
+    found = fit(log).in_log_units()
+
+    told = page(Report("wrist.json", found, log, DEFAULT, trials(found, DEFAULT)))
+
+    assert page_flaws(told) == []
+    assert told.count("<h3>Run ") == len(log.runs)
+    assert "<b>Look:</b> The simulation leaves the log by" in told
 
 
 def test_a_page_is_written_whole(brief, tmp_path, monkeypatch):

@@ -9,16 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.sides import compare, sides_of
+from sim.cli.fit.against import against_physics, parts_of, taken_apart
+from sim.cli.fit.sides import sides_of
 from sim.cli.options import FILE, as_json, read_together, reading
 from sim.command import DONE, NOT_RIGHT
 from sim.feedback import PRESETS, Feedback
 from sim.vocabulary import METHODS
 
 if TYPE_CHECKING:
-    from sim.doubt import Doubt
     from sim.fit import Fit
-    from sim.fit.physics import Parts
     from sim.log import Log
     from sim.trial import Own, Trial
 
@@ -111,8 +110,8 @@ def fit(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Find kS, kV, kA (and kG) in the logs of one mechanism: .wpilog, .csv, or SysId's old .json.
 
-    Directions, and the two sides of a drivetrain, are also fitted apart and compared, except with
-    --json and --paste, which other programs wait for.
+    Directions, and the two sides of a drivetrain, are also fitted apart and compared; not with
+    --json and --paste, which should be quick.
 
     For example: sysid fit drive.wpilog --html drive.html
     """
@@ -121,7 +120,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
-    parts = _parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
+    parts = parts_of(driven_by, count=count, ratio=ratio, radius=radius, load=load)
 
     def read_one(side: str | None) -> "Log":
         return read_together(files, units=units, type=type_, motor=side, entries=entries)
@@ -130,15 +129,15 @@ def fit(  # noqa: PLR0917 - click passes options by name
         return find_gains(log, type=type_ or "", method=method, median=median)
 
     log = read_one(motor)
-    found = _against_physics(find(log), log, parts=parts)
+    found = against_physics(find(log), log, parts=parts)
     notes: tuple[str, ...] = ()
     if not (as_json or paste):
         pair = None if motor else sides_of(log, read_one)
-        found, notes = _taken_apart(found, log, pair, find=find)
+        found, notes = taken_apart(found, log, pair, find=find, patient=html is not None)
     found = found.in_log_units()
     tried = trials(found, PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
-    told = _Told(", ".join(map(str, files)), found, log, preset, tried, notes)
+    told = _Told(files, found, log, preset, tried, notes)
     _write(told, html=html, plot=plot)
     if paste:
         from sim.paste import snippet  # noqa: PLC0415 - only with --paste
@@ -155,7 +154,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
 class _Told:
     """What the command found."""
 
-    title: str
+    files: tuple[Path, ...]
     found: "Fit"
     log: "Log"
     preset: str
@@ -178,10 +177,9 @@ class _Told:
         """Print it."""
         from sim.terminal import show_fit  # noqa: PLC0415 - only for people
 
-        show_fit(
-            self.found, preset=PRESETS[self.preset], title=self.title, tried=self.tried,
-            notes=self.notes,
-        )  # fmt: skip
+        title = ", ".join(map(str, self.files))
+        preset = PRESETS[self.preset]
+        show_fit(self.found, preset=preset, title=title, tried=self.tried, notes=self.notes)
 
 
 def _write(told: _Told, *, html: Path | None, plot: Path | None) -> None:
@@ -190,45 +188,12 @@ def _write(told: _Told, *, html: Path | None, plot: Path | None) -> None:
         return
     from sim.report import Report, write_page, write_picture  # noqa: PLC0415 - draws
 
-    report = Report(told.title, told.found, told.log, PRESETS[told.preset], told.tried, told.notes)
+    title = ", ".join(file.name for file in told.files)  # a page travels; folders are private
+    report = Report(title, told.found, told.log, PRESETS[told.preset], told.tried, told.notes)
     if html is not None:
         write_page(report, html)
     if plot is not None:
         write_picture(report, plot)
-
-
-def _against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit":
-    """The fit with what physics has against it in front of its doubts."""
-    import numpy as np  # noqa: PLC0415 - --help must not wait for it
-
-    from sim.fit.physics import physical_doubts  # noqa: PLC0415
-
-    period = float(np.median(np.concatenate([np.diff(run.time) for run in log.runs])))
-    return _doubted(found, *physical_doubts(found, parts=parts, period=period), first=True)
-
-
-def _taken_apart(
-    found: "Fit",
-    log: "Log",
-    pair: "tuple[Log, Log] | None",
-    *,
-    find: "Callable[[Log], Fit]",
-) -> "tuple[Fit, tuple[str, ...]]":
-    """The fit with what its directions and its sides, each fitted alone, say against it."""
-    from sim.fit.physics import compare_directions  # noqa: PLC0415
-
-    notes: tuple[str, ...] = ()
-    if found.method == METHODS[0]:
-        found = _doubted(found, *compare_directions(log, found.type))
-    if pair is not None:
-        doubts, notes = compare(pair, find)
-        found = _doubted(found, *doubts)
-    return found, notes
-
-
-def _doubted(found: "Fit", *doubts: "Doubt", first: bool = False) -> "Fit":
-    both = (doubts, found.doubts) if first else (found.doubts, doubts)
-    return replace(found, doubts=tuple(doubt for part in both for doubt in part))
 
 
 def _go_together(
@@ -259,18 +224,3 @@ def _own(loop: str | None, *, kp: float | None, kd: float | None) -> "Own | None
     if not (math.isfinite(kp) and math.isfinite(kd or 0.0)):
         raise click.UsageError("--own-kp and --own-kd are numbers. Give finite ones.")
     return Own(loop or LOOPS[0], Feedback(kp, kd or 0.0))
-
-
-def _parts(
-    name: str | None, *, count: int, ratio: float | None, radius: float, load: float | None
-) -> "Parts | None":
-    """What drives it, if that was said."""
-    if name is None:
-        return None
-    from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
-    from sim.motors import motor  # noqa: PLC0415
-
-    found = motor(name)
-    if ratio is None:
-        raise click.UsageError("Missing option '--ratio': motor turns per turn of the output.")
-    return Parts(found, count, ratio, radius=radius, load=load)

@@ -1,0 +1,72 @@
+"""What speaks against a fit besides its own doubts: physics, its directions, and its sides."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import click
+
+from sim.cli.fit.sides import compare
+from sim.vocabulary import METHODS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from sim.doubt import Doubt
+    from sim.fit import Fit
+    from sim.fit.physics import Parts
+    from sim.log import Log
+
+MANY = 20_000  # samples: of a longer log the directions take seconds; only a page waits for them
+
+
+def parts_of(
+    name: str | None, *, count: int, ratio: float | None, radius: float, load: float | None
+) -> "Parts | None":
+    """What drives it, if that was said."""
+    if name is None:
+        return None
+    from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
+    from sim.motors import motor  # noqa: PLC0415
+
+    found = motor(name)
+    if ratio is None:
+        raise click.UsageError("Missing option '--ratio': motor turns per turn of the output.")
+    return Parts(found, count, ratio, radius=radius, load=load)
+
+
+def against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit":
+    """The fit with what physics has against it in front of its doubts."""
+    import numpy as np  # noqa: PLC0415 - --help must not wait for it
+
+    from sim.fit.physics import physical_doubts  # noqa: PLC0415
+
+    period = float(np.median(np.concatenate([np.diff(run.time) for run in log.runs])))
+    return _doubted(found, *physical_doubts(found, parts=parts, period=period), first=True)
+
+
+def taken_apart(
+    found: "Fit",
+    log: "Log",
+    pair: "tuple[Log, Log] | None",
+    *,
+    find: "Callable[[Log], Fit]",
+    patient: bool,
+) -> "tuple[Fit, tuple[str, ...]]":
+    """The fit with what its directions and its sides, each fitted alone, say against it."""
+    from sim.fit.physics import compare_directions  # noqa: PLC0415
+
+    said: tuple[str, ...] = ()
+    if found.method == METHODS[0]:
+        if patient or sum(map(len, log.runs)) <= MANY:
+            found = _doubted(found, *compare_directions(log, found.type))
+        else:
+            said = ("Forward and reverse were not compared: this log is long. --html does it.",)
+    if pair is None:
+        return found, said
+    doubts, notes = compare(pair, find)
+    return _doubted(found, *doubts), (*said, *notes)
+
+
+def _doubted(found: "Fit", *doubts: "Doubt", first: bool = False) -> "Fit":
+    both = (doubts, found.doubts) if first else (found.doubts, doubts)
+    return replace(found, doubts=tuple(doubt for part in both for doubt in part))
