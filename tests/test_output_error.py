@@ -14,7 +14,7 @@ from sim.errors import BadRequest, NotIdentifiable
 from sim.fit import fit
 from sim.log import FOUR_TESTS, Log, Run
 from sim.mechanisms import MECHANISMS
-from sim.model import Model
+from sim.model import Model, Part
 from sim.routine import Routine
 from sim.simulate import motion, simulate
 
@@ -125,6 +125,18 @@ def test_a_late_and_averaged_velocity_is_allowed_for_and_told(kind):
     assert found.position_delay == pytest.approx(0.021, abs=0.005)
     assert found.velocity_delay == pytest.approx(0.061, abs=0.008)
     assert {"velocity-lag", "late-answer"} <= {doubt.code for doubt in found.doubts}
+
+
+@pytest.mark.parametrize("late", [0.0005, 0.001, 0.002])
+def test_an_answer_a_millisecond_late_does_not_pass_for_inertia(late):
+    # an intake with kA/kV = 35 ms logged every 20 ms: 1 ms too much inertia is 3 % of it
+    mechanism = replace(MECHANISMS["intake"], hidden=(Part("delay", {"lag": late}),))
+
+    found = fit(simulate(mechanism, GENTLE, rng=rng(2)))
+
+    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.002)
+    assert found.position_delay == pytest.approx(late, abs=1e-4)
+    assert "late-answer" not in [doubt.code for doubt in found.doubts]
 
 
 def test_frames_logged_four_times_over_are_counted_once():

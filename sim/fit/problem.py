@@ -106,7 +106,10 @@ class Problem:
             mine[run.time < begins + STARTS] = False
             wide = np.convolve(mine, np.ones(2 * AROUND_STRAY + 1), mode="same") > 0.0
             kept.append(replace(run, telling=run.telling & ~wide[: run.time.size]))
-        return replace(self, seen=tuple(kept))
+        same = all(
+            np.array_equal(a.telling, b.telling) for a, b in zip(kept, self.seen, strict=True)
+        )
+        return self if same else replace(self, seen=tuple(kept))
 
     def columns(self, point: Point, *, fine: bool = False) -> Array:
         """(2 n, values + runs) by how much the white innovations change with values and starts.

@@ -12,7 +12,16 @@ import numpy as np
 from sim.fit.problem import FLOOR, POSITIVE, Point, Problem, white
 from sim.log import Array
 
-__all__ = ["Point", "Problem", "better", "covariance", "far", "near", "promise", "white"]
+__all__ = [
+    "Point",
+    "Problem",
+    "better",
+    "covariance",
+    "far",
+    "near",
+    "promise",
+    "white",
+]
 
 ANEW = 1.0  # [1/s] q over the variance of a velocity: what pushes moves it by its noise in a second
 COARSE, FINE = 100.0, 4.0  # [1] steps of q
@@ -61,6 +70,11 @@ def promise(problem: Problem, point: Point, more: Sequence[Mapping[str, float]])
     now = left(point.ahead)
     tried = (problem.at({**point.values, **one}, point.starts, point.q) for one in more)
     return np.array([now - left(other.ahead) for other in tried])
+
+
+def again(problem: Problem, point: Point) -> Point:
+    """The best point from one to which something was added; its q stays."""
+    return better(problem, point, steps=STEPS, enough=0.05)
 
 
 def _finished(problem: Problem, point: Point) -> Point:

@@ -4,6 +4,7 @@ from sim.doubt import Doubt
 from sim.fit.closest import Followed
 
 FAR = 0.1  # [share of the top speed] error from which the gains cannot be right
+SOON = 0.004  # [s] a later answer is worth a word
 
 
 def opposed(way: float) -> tuple[Doubt, ...]:
@@ -32,7 +33,7 @@ def late(window: float, lag: float) -> tuple[Doubt, ...]:
                 "too: shorten the filter of the motor controller.",
             )
         )
-    if lag > 0.0:
+    if lag > SOON:
         said.append(
             Doubt(
                 "late-answer",
