@@ -287,6 +287,18 @@ def test_a_model_that_holds_is_not_doubted(kind):
         assert "model-strays" not in [doubt.code for doubt in found.doubts]
 
 
+@pytest.mark.parametrize(
+    ("mechanism", "asked", "said"),
+    [("left-Elevator", "", ["type-from-name"]), ("left-Elevator", "elevator", []), ("", "", [])],
+)
+def test_a_type_taken_from_a_name_is_told(mechanism, asked, said):
+    log = simulate(MECHANISMS["elevator"], GENTLE, rng=rng(1))
+
+    found = fit(replace(log, mechanism=mechanism, type="elevator"), type=asked)
+
+    assert [doubt.code for doubt in found.doubts if doubt.code == "type-from-name"] == said
+
+
 SUBSETS = [set(some) for n in range(5) for some in combinations(FOUR_TESTS, n)]
 
 

@@ -28,7 +28,12 @@ def test_a_routine_comes_back_as_its_four_runs(tmp_path: Path) -> None:
 
     log = sim.read(path)
 
-    assert (log.units, log.mechanism, log.type, log.source) == ("rotations", "Arm", "", str(path))
+    assert (log.units, log.mechanism, log.type, log.source) == (
+        "rotations",
+        "Arm",
+        "arm",
+        str(path),
+    )
     assert log.doubts == ()
     assert [run.test for run in log.runs] == list(FOUR)
     assert log.runs[0].time[0] == 1.0
@@ -38,6 +43,31 @@ def test_a_routine_comes_back_as_its_four_runs(tmp_path: Path) -> None:
         assert np.array_equal(run.position, x)
         assert np.array_equal(run.velocity, v)
         assert np.allclose(np.diff(run.time), 0.02, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "units", "type_"),
+    [
+        ("Arm", JAVA, "arm"),
+        ("left-Elevator", JAVA, "elevator"),
+        ("ElevatorSubsystem", JAVA, "elevator"),
+        ("ARM_1", JAVA, "arm"),
+        ("frontArm", JAVA, "arm"),
+        ("alarm", JAVA, ""),
+        ("Charm", JAVA, ""),
+        ("elevator-arm", JAVA, ""),
+        ("drive", JAVA, ""),
+        ("Arm", ("Volt", "Meter", "Meter per Second"), ""),  # what moves in meters is no arm
+        ("Elevator", ("Volt", "Meter", "Meter per Second"), "elevator"),
+    ],
+)
+def test_a_mechanism_may_say_its_type_by_its_name(
+    tmp_path: Path, mechanism: str, units: tuple[str, str, str], type_: str
+) -> None:
+    path = saved(tmp_path, Motor("main", units=units), mechanism=mechanism)
+
+    assert sim.read(path).type == type_
+    assert sim.read(path, type="simple").type == "simple"
 
 
 def test_the_first_loop_is_left_out_where_the_state_is_stamped_later(tmp_path: Path) -> None:

@@ -102,7 +102,18 @@ def test_units_are_read_in_either_language(
             id="a person says otherwise",
         ),
         pytest.param(
-            ("", "", ""), {}, ("meters", 1, 1, 1), ["units-assumed"] * 2, id="none stated"
+            ("", "", ""),
+            {"type": "simple"},
+            ("meters", 1, 1, 1),
+            ["units-assumed"] * 2,
+            id="none stated",
+        ),
+        pytest.param(
+            ("", "", ""),
+            {},
+            ("radians", 1, 1, 1),
+            ["units-assumed"] * 2,
+            id="none stated, of what is named an arm",
         ),
         pytest.param(
             ("", "", ""),

@@ -9,6 +9,7 @@ SysId 2026.2.2 to the last digit, with its silent failures spoken aloud: what Sy
 answers; what it answers with NaN or with nonsense, this refuses or doubts, and says why.
 """
 
+from sim.doubt import Doubt
 from sim.errors import BadRequest
 from sim.fit.output_error import output_error
 from sim.fit.recipe import sysid
@@ -42,6 +43,8 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
         raise BadRequest(
             f"unknown method {method!r}", advice=f"Choose one of: {', '.join(METHODS)}."
         )
+    if not type and chosen != "simple" and chosen in log.mechanism.lower():
+        log = log.with_doubts(_type_from_name(log))
     if method == "sysid":
         return sysid(log, type=chosen, median=median)
     if median != 1:
@@ -50,3 +53,11 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
             advice="It belongs to SysId's recipe: ask for --method sysid; this one needs none.",
         )
     return output_error(log, type=chosen)
+
+
+def _type_from_name(log: Log) -> Doubt:
+    return Doubt(
+        "type-from-name",
+        f"Fitted as of type {log.type}, as the log's mechanism is named {log.mechanism!r}. If "
+        "gravity does not act on it like that, say --type.",
+    )

@@ -7,6 +7,7 @@ signals, ``units`` what they are measured in, ``clock`` one time base, ``runs`` 
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,12 +18,13 @@ from sim.format import Reading
 from sim.formats.wpilog.contents import Damage, contents_of
 from sim.formats.wpilog.entry import Entry
 from sim.formats.wpilog.motors import motors_of
-from sim.formats.wpilog.names import quoted
+from sim.formats.wpilog.names import quoted, type_said
 from sim.formats.wpilog.records import MAGIC, load
 from sim.formats.wpilog.runs import cut
 from sim.formats.wpilog.state import FOREVER, State, Stretch, states, stretches
 from sim.formats.wpilog.writing import write
 from sim.log import Log
+from sim.units import UNITS
 
 __all__ = ["SUFFIXES", "knows", "read", "write"]
 
@@ -72,6 +74,26 @@ def _log(
 ) -> tuple[Log, tuple[Stretch, ...]]:
     """The log of one mechanism, and the times of its runs."""
     state = _state(entries, asked=asked, where=where)
+    if asked.type is None:
+        return _typed(entries, state, asked=asked, where=where)
+    return _of(state, entries, asked=asked, where=where)
+
+
+def _typed(
+    entries: Sequence[Entry], state: State, *, asked: Reading, where: str
+) -> tuple[Log, tuple[Stretch, ...]]:
+    """The log of a mechanism whose type nobody said; its name may."""
+    said = type_said(state.mechanism)
+    log, spans = _of(state, entries, asked=replace(asked, type=said or None), where=where)
+    if said == "arm" and not UNITS[log.units].angular:  # what moves in meters is no arm
+        log = replace(log, type="")
+    return log, spans
+
+
+def _of(
+    state: State, entries: Sequence[Entry], *, asked: Reading, where: str
+) -> tuple[Log, tuple[Stretch, ...]]:
+    """The log of one mechanism, as the tests that are named for it tell it."""
     motors, doubts = motors_of(state, entries, asked=asked, where=where)
     found, strange = stretches(state, where=where)
     result = cut(motors, found, asked=asked, where=where)

@@ -28,6 +28,16 @@ def split(name: str, word: str) -> Name | None:
     return Name(*found.groups()) if found else None
 
 
+def type_said(mechanism: str) -> str:
+    """``elevator`` or ``arm`` where that is a word of a mechanism's name; empty if not, or both.
+
+    ``left-Elevator``, ``ElevatorSubsystem`` and ``ARM_1`` say it, ``alarm`` does not.
+    """
+    words = {word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", mechanism)}
+    said = words & {"elevator", "arm"}
+    return said.pop() if len(said) == 1 else ""
+
+
 def asked_for(
     name: str, *, role: str, kinds: Collection[str], entries: Sequence[Entry], where: str
 ) -> Entry:
