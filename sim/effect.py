@@ -28,6 +28,8 @@ ASKS: Mapping[str, tuple[str, ...]] = {
     "grip": ("v", "way"),
     # inertia beyond kA [V·s²/unit]; ``clock`` is [s] since the log began
     "heft": ("clock",),
+    # share of the momentum that what joins takes from what moves: 1 if it was at rest
+    "jolt": (),
     # a path: the voltage that gets through, from the voltage ``u`` that arrives
     "passes": ("u", "v", "kv", "memory"),
     # [s] by which a command comes late
@@ -56,6 +58,8 @@ class Parameter:
         least: smallest value that is physics.
         most: largest.
         neutral: the value at which the effect is not there.
+        searched: a search may move it a little at a time; if not, it takes what a start says.
+        counts: the data decide on it, so that it makes a hypothesis less likely beforehand.
     """
 
     name: str
@@ -65,6 +69,8 @@ class Parameter:
     least: float = 0.0
     most: float = math.inf
     neutral: float = 0.0
+    searched: bool = True
+    counts: bool = True
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,8 @@ friction is a bound and not a value, and nothing is said.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from sim.log import Array, Log, Run
 
 ACROSS = 0.04  # [s] that a difference of velocities spans, at least two samples
 SHORTEST = 5  # [samples] of a run that can be differentiated
+HARDLY = 1e-9  # [1] of a combination of columns that the log says anything about
 MOVING = 0.03  # [share of the top speed] slower samples say nothing about a gain
 
 
@@ -53,18 +55,55 @@ class Evidence:
         """[m/s or rad/s] the fastest there was."""
         return float(np.max(np.abs(self.velocity), initial=0.0))
 
+    def every(self, some: slice) -> "Evidence":
+        """Some of the samples."""
+        arrays = {
+            name: getattr(self, name)[some]
+            for name in (
+                "run", "clock", "since", "voltage", "position", "velocity", "acceleration",
+                "missing",
+            )
+        }  # fmt: skip
+        return replace(self, **arrays)
+
     def share(self, *columns: Array) -> Array:
         """Least-squares weights with which columns (n,) sum up to ``missing``; kS, kV, kA adjust.
 
         A column that looks like friction, back-EMF, inertia or a constant is not credited with what
         those can explain by themselves: they are in the sum, and forgotten.
         """
-        known = (np.sign(self.velocity), self.velocity, self.acceleration)
-        table = np.column_stack([*columns, *known])
+        kept, rest = self._adjusted
+        table = np.column_stack(columns)
+        whole = np.linalg.norm(table, axis=0)
+        table = table - kept @ (kept.T @ table)
         size = np.linalg.norm(table, axis=0)
+        size[size <= HARDLY * whole] = np.inf
+        square = (table / size).T @ (table / size)
+        told, ways = np.linalg.eigh(square)
+        inverse = (ways / np.where(told > HARDLY, told, np.inf)) @ ways.T
+        return np.asarray(inverse @ ((table / size).T @ rest) / size)
+
+    def explained(self, column: Array) -> tuple[float, float]:
+        """The weight of one column (n,), and the sum of squares [V²] of ``missing`` that it takes.
+
+        kS, kV and kA adjust, as in ``share``.
+        """
+        kept, rest = self._adjusted
+        left = column - kept @ (kept.T @ column)
+        square = float(left @ left)
+        if square <= HARDLY**2 * float(column @ column):
+            return 0.0, 0.0
+        product = float(left @ rest)
+        return product / square, product**2 / square
+
+    @cached_property
+    def _adjusted(self) -> tuple[Array, Array]:
+        """(n, 3) friction, back-EMF and inertia, orthonormal, and (n,) what is missing off them."""
+        known = np.column_stack([np.sign(self.velocity), self.velocity, self.acceleration])
+        size = np.linalg.norm(known, axis=0)
         size[size == 0.0] = 1.0
-        weights = np.linalg.lstsq(table / size, self.missing, rcond=1e-10)[0] / size
-        return np.asarray(weights[: len(columns)])
+        kept, _ = np.linalg.qr(known / size)
+        return kept, self.missing - kept @ (kept.T @ self.missing)
 
 
 def gather(log: Log, gains: Mapping[str, float], *, type: str) -> Evidence:  # noqa: A002 - the field's own word

@@ -113,7 +113,9 @@ def test_a_filter_reports_the_mean_velocity_of_its_window():
 
 
 def test_inertia_that_joins_shares_its_momentum():
-    joined = PLAIN + Part("inertia-change", {"extra": 0.3, "onset": 0.5})
+    joined = PLAIN + Part(
+        "inertia-change", {"extra": 0.3, "onset": 0.5, "until": 1e6, "shared": 1.0}
+    )
     state = State.at(0.0, 1.0)
     free = replace(joined, gains={"kS": 0.0, "kV": 1e-9, "kA": 0.3})
 

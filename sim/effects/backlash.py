@@ -40,8 +40,8 @@ def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     """Shares of the way that was gone, each with a light and with a heavy motor."""
     length = float(np.ptp(seen.position)) if seen.position.size else 1.0
-    for part in (0.02, 0.005):
-        for own in (0.15, 0.5):
+    for part in (0.001, 0.002, 0.004, 0.008, 0.016, 0.03):
+        for own in (0.25, 0.55):
             yield {"slack": part * max(length, 1e-6), "share": own}
 
 

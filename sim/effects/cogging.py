@@ -14,6 +14,7 @@ from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
 FEWEST, MOST = 2.0, 80.0  # [1] times that it comes back within what a log covers
+ENOUGH = 1500  # samples that show a spectrum
 SHOWN = 3  # peaks of the spectrum that are worth a start
 
 
@@ -44,12 +45,10 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     if length <= 0.0:
         return
     tried = 2.0 * math.pi * np.arange(FEWEST, MOST, 0.25) / length
-    power, weights = [], []
-    for turns in tried:
-        columns = np.cos(turns * seen.position), np.sin(turns * seen.position)
-        pair = seen.share(*columns)
-        weights.append(pair)
-        power.append(float(np.hypot(*pair)))
+    some = slice(None, None, max(seen.position.size // ENOUGH, 1))
+    few = seen.every(some)
+    weights = [few.share(np.cos(t * few.position), np.sin(t * few.position)) for t in tried]
+    power = [float(np.hypot(*pair)) for pair in weights]
     left = np.array(power)
     for _ in range(SHOWN):
         best = int(np.argmax(left))

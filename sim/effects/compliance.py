@@ -9,12 +9,11 @@ of voltage. ``share`` of kA is on the motor's side.
 import math
 from collections.abc import Iterator, Mapping
 
-import numpy as np
-
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
-TRIED = (3.0, 6.0, 12.0, 20.0)  # [Hz] of swings that a log at 20 ms can show
+TRIED = (2.0, 3.0, 4.5, 6.0, 8.0, 10.5, 13.5, 17.0, 22.0)  # [Hz] of swings that a log can show
+HALF = 0.5  # [1] of the inertia on each side, from where a search finds other shares
 
 
 def softness(softness: float) -> float:
@@ -42,17 +41,10 @@ def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
 
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
-    """The swing that is strongest in what is missing from the steps, then others to try."""
-    power = []
-    since, missing = seen.since, seen.missing
+    """Swings of every pace that a log can show: between two of them a search finds its way."""
     for swing in TRIED:
-        turn = 2.0 * math.pi * swing * since
-        fade = np.exp(-2.0 * since)
-        power.append(float(np.hypot(*seen.share(fade * np.cos(turn), fade * np.sin(turn))))
-                     if missing.size else 0.0)  # fmt: skip
-    for best in np.argsort(power)[::-1][:3]:
-        stiff = 0.7 * abs(seen.gains["kA"]) * (2.0 * math.pi * TRIED[int(best)]) ** 2
-        yield {"softness": 1.0 / max(stiff, 1e-9), "share": 0.3}
+        reduced = HALF * (1.0 - HALF) * abs(seen.gains["kA"])
+        yield {"softness": 1.0 / max(reduced * (2.0 * math.pi * swing) ** 2, 1e-9), "share": HALF}
 
 
 EFFECT = Effect(

@@ -1,9 +1,9 @@
-"""Inertia change: from one moment on there is more, or less, to accelerate.
+"""Inertia change: for a while there is more, or less, to accelerate.
 
-    kA + extra from ``onset`` on
+    kA + extra from ``onset`` to ``until``
 
-A game piece taken up, a load that comes off, a second stage that is picked up. What joins was at
-rest, so momentum is shared; what leaves takes its own along.
+A game piece taken up, a load that comes off, a second stage that is picked up. What joins may have
+been at rest: then momentum is shared, and the velocity drops. What leaves takes its own along.
 """
 
 import math
@@ -15,47 +15,79 @@ from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
 RAMP = 0.5  # [V/s] of an ordinary quasistatic test
+PARTS = 12  # moments of a run that are tried
+SHOWN = 2  # of them that are worth a start
+MOMENT = 1e-6  # [s] so that the last sample is in
+LATER = 1e6  # [s] after any log
 
 
-def heft(clock: float, extra: float, onset: float) -> float:
+def heft(clock: float, extra: float, onset: float, until: float) -> float:
     """[V·s²/unit] beyond kA."""
-    return extra if clock >= onset else 0.0
+    return extra if onset <= clock < until else 0.0
+
+
+def jolt(shared: float) -> float:
+    """[1] of the momentum that what joins takes."""
+    return shared
 
 
 def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     """Half as much again, from about the first dynamic test of a routine on, for size 1."""
     ramps = 2.0 * min(10.0, math.sqrt(2.0 * scale.reach * scale.kv / RAMP)) + 2.0
-    return {"extra": 0.5 * scale.ka * size, "onset": ramps + 0.3 * scale.reach / scale.speed}
+    onset = ramps + 0.3 * scale.reach / scale.speed
+    return {"extra": 0.5 * scale.ka * size, "onset": onset, "until": LATER, "shared": 1.0}
 
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
-    """The best of the moments at which a run began, or was a quarter, a half on."""
-    found = []
-    for number, run in enumerate(seen.log.runs):
-        length = float(run.time[-1] - run.time[0])
-        mine = seen.run == number
-        if not mine.any():
-            continue
-        began = float(seen.clock[mine][0] - seen.since[mine][0])
-        for part in (0.0, 0.1, 0.25, 0.5):
-            onset = began + part * length
-            after = np.where(seen.clock >= onset, seen.acceleration, 0.0)
-            if after.any() and (seen.clock < onset).any():
-                (extra,) = seen.share(after)
-                found.append((float(np.sum((extra * after) ** 2)), float(extra), onset))
+    """The moments at which most changes: in each run to its end, and in the log for good."""
+    chosen: list[tuple[float, float, float, float]] = []
+    for_good = []
+    for began, ended in _runs(seen):
+        moments = began + (ended - began) * (np.arange(PARTS) + 0.5) / PARTS
+        within = [_tried(seen, onset, ended + MOMENT) for onset in (began, *moments)]
+        chosen += sorted(within, reverse=True)[:SHOWN]
+        for_good += [_tried(seen, onset, LATER) for onset in (began, *moments)]
+    chosen += sorted(for_good, reverse=True)[:SHOWN]
+    chosen.sort(reverse=True)
     least = -0.8 * seen.gains["kA"]
-    for _, extra, onset in sorted(found, reverse=True)[:3]:
-        yield {"extra": max(extra, least), "onset": onset}
+    for place, (_, extra, onset, until) in enumerate(chosen):
+        for shared in (0.0, 1.0) if place < SHOWN else (0.0,):
+            size = max(extra, least)
+            yield {"extra": size, "onset": onset, "until": until, "shared": shared}
+
+
+def _tried(seen: Evidence, onset: float, until: float) -> tuple[float, float, float, float]:
+    """What a change at that moment explains [V²], its size, and the moments."""
+    during = (seen.clock >= onset) & (seen.clock < until)
+    extra, gained = seen.explained(np.where(during, seen.acceleration, 0.0))
+    return gained, extra, onset, until
+
+
+def _runs(seen: Evidence) -> Iterator[tuple[float, float]]:
+    """[s] of the log's clock at which runs began and ended, of those that tell accelerations."""
+    for number, run in enumerate(seen.log.runs):
+        mine = seen.run == number
+        if mine.any():
+            began = float(seen.clock[mine][0] - seen.since[mine][0])
+            yield began, began + float(run.time[-1] - run.time[0])
 
 
 EFFECT = Effect(
     name="inertia-change",
     kind="term",
     summary="inertia that changes at one moment (a game piece taken up)",
-    formula="kA + extra from onset on",
+    formula="kA + extra from onset to until",
     parameters=(
         Parameter("extra", "inertia beyond kA", "V·s²/{u}", power=1, least=-1e6, most=1e6),
-        Parameter("onset", "moment, since the log began", "s", most=1e6),
+        Parameter("onset", "moment, since the log began", "s", most=1e6, searched=False),
+        Parameter(
+            "until", "moment at which it is as before", "s", most=1e6, neutral=LATER,
+            searched=False, counts=False,
+        ),
+        Parameter(
+            "shared", "share of the momentum that what joins takes", "1", most=1.0, searched=False,
+            counts=False,
+        ),
     ),
     fingerprint="Before one moment one kA fits, after it another.",
     inspect="What the mechanism carried, and what was changed between tests.",
@@ -65,5 +97,5 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"heft": heft},
+    acts={"heft": heft, "jolt": jolt},
 )

@@ -4,8 +4,10 @@ It is composed from the effects of the catalogue when first used: about ten seco
 cache on disk within a second after that.
 """
 
+import inspect
 import math
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from functools import cache
 from threading import Lock
@@ -20,7 +22,9 @@ from sim.engine.stepping import (
     BUS,
     CURRENT,
     EXPECTED,
+    HIGH,
     LOAD_POSITION,
+    LOW,
     POSITION,
     SEEN,
     VELOCITY,
@@ -29,10 +33,15 @@ from sim.engine.stepping import (
 from sim.log import Array
 from sim.model import Model, Part
 
-__all__ = ["COARSEST", "NO_WIRES", "State", "Track", "compiled", "finest", "move", "ready"]
+__all__ = [
+    "COARSEST", "NO_TRUST", "NO_WIRES", "Lead", "State", "Track", "compiled", "finest", "follow",
+    "move", "ready",
+]  # fmt: skip
 
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
 # middle rule is then far below a thousandth for anything slower than 10 ms
+SEARCHED = 0.01  # [s] the same while a search looks for an effect
+LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] nothing on a robot needs finer ones
 SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
 ONE_AT_A_TIME = Lock()
 NO_WIRES: Array = np.zeros(9)
@@ -134,6 +143,92 @@ def move(
     )  # fmt: skip
 
 
+@dataclass(frozen=True, eq=False)
+class Lead:
+    """A run that a model is to follow.
+
+    Args:
+        time: (n,) [s], increasing.
+        voltage: (n,) [V].
+        measured: (n, 2) position and velocity, nan where there is none.
+        position: [m or rad] it begins at.
+        velocity: [m/s or rad/s] it begins with.
+        low: [m or rad] a stop beneath it; minus infinity is none.
+        high: [m or rad] a stop above it.
+        clock: [s] since its log began.
+        session: which log; what effects remember goes on within one.
+    """
+
+    time: Array
+    voltage: Array
+    measured: Array
+    position: float
+    velocity: float
+    low: float
+    high: float
+    clock: float
+    session: int
+
+
+def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
+    """Move a model along many runs, quickly: what a search does some hundred times a second.
+
+    Steps are as coarse as a search can bear (``SEARCHED``): a tenth of a percent does not decide
+    between two effects.
+
+    Args:
+        model: what moves.
+        leads: the runs.
+        trust: (2, 2) by how much measurements correct; ``NO_TRUST`` leaves it alone.
+
+    Returns:
+        (n, 4) of all runs, one after another: position, velocity, the position before the
+        measurement corrected it, and the velocity that the sensor would report.
+    """
+    on, parameters = arrays(model)
+    fixed = constants(model)
+    simple = model.type != "arm" and all(map(_only_delays, model.parts))
+    longest = math.inf if simple else _searched(model)
+    memory, session = np.zeros(len(EFFECTS)), None
+    out = empty(sum(lead.time.size for lead in leads))
+    first, play, kernel = 0, _play(model), _compiled()
+    for lead in leads:
+        if lead.session != session:
+            memory, session = np.zeros(len(EFFECTS)), lead.session
+        last = first + lead.time.size
+        measured = lead.measured if trust.any() else UNSEEN
+        body = _hanging(model, lead, play)
+        stops = fixed.copy()
+        stops[LOW] = max(stops[LOW], lead.low + body[2] - body[0])
+        stops[HIGH] = min(stops[HIGH], lead.high + body[2] - body[0])
+        kernel.move(
+            lead.time, lead.voltage, body, stops, NO_WIRES, on, parameters, memory, lead.clock,
+            longest, simple, measured, trust, out[first:last],
+        )  # fmt: skip
+        first = last
+    return out[:, [POSITION, VELOCITY, EXPECTED, SEEN]]
+
+
+def _hanging(model: Model, lead: Lead, play: float) -> Array:
+    """(5,) the bodies of a run that begins: with free play, a weight hangs on its motor's teeth."""
+    load = model.gains.get("kG", 0.0)
+    if model.type == "arm":
+        load *= math.cos(lead.position + model.gains.get("offset_rad", 0.0))
+    y = lead.position - (0.5 * play * math.copysign(1.0, load) if load else 0.0)
+    return np.array([lead.position, lead.velocity, y, lead.velocity, 0.0])
+
+
+def _play(model: Model) -> float:
+    """[unit] between motor and load."""
+    total = 0.0
+    for part in model.parts:
+        slack = EFFECTS[part.effect].acts.get("slack")
+        if slack is not None:
+            asked = inspect.signature(slack).parameters
+            total += float(slack(*(part.parameters[name] for name in asked)))
+    return total
+
+
 def _only_delays(part: Part) -> bool:
     """Whether an effect changes when things happen and are seen, and no force."""
     return set(EFFECTS[part.effect].acts) <= {"late", "sees"}
@@ -172,13 +267,22 @@ def arrays(model: Model) -> tuple[Array, Array]:
 
 def finest(model: Model) -> float:
     """[s] the step that the fastest of a model's effects asks for."""
-    fastest = model.gains["kA"] / max(model.gains["kV"], 1e-9)
-    paces = [fastest]
+    return max(min(COARSEST, SHARE_OF_PACE * _fastest(model)), LEAST_STEP)
+
+
+def _searched(model: Model) -> float:
+    """[s] the same while a search looks for an effect."""
+    return max(min(SEARCHED, 2.0 * SHARE_OF_PACE * _fastest(model)), LEAST_SEARCHED)
+
+
+def _fastest(model: Model) -> float:
+    """[s] the shortest time scale of a model."""
+    paces = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
     for part in model.parts:
         pace = EFFECTS[part.effect].pace
         if pace is not None:
             paces.append(pace(part.parameters, model.gains))
-    return max(min(COARSEST, SHARE_OF_PACE * min(paces)), 5e-5)
+    return min(paces)
 
 
 def compiled() -> bool:

@@ -37,6 +37,7 @@ HOOKS: Mapping[str, tuple[str, str, str]] = {
     "pull": ("on, p, x, v", "0.0", "{0} + {1}"),
     "grip": ("on, p, v, way", "0.0", "{0} + {1}"),
     "heft": ("on, p, clock", "0.0", "{0} + {1}"),
+    "jolt": ("on, p", "0.0", "max({0}, {1})"),
     "slack": ("on, p", "0.0", "{0} + {1}"),
     "softness": ("on, p", "0.0", "{0} + {1}"),
     "share": ("on, p", "0.0", "max({0}, {1})"),

@@ -33,6 +33,11 @@ def heft(on: Array, p: Array, clock: float) -> float:
     return 0.0
 
 
+def jolt(on: Array, p: Array) -> float:
+    """[1] of the momentum it needs that joining inertia takes from what moves."""
+    return 0.0
+
+
 def slack(on: Array, p: Array) -> float:
     """[unit] of free play between motor and load."""
     return 0.0

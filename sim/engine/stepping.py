@@ -17,6 +17,7 @@ import numpy as np
 from sim.engine.hooks import (  # composed: begin
     grip,
     heft,
+    jolt,
     late,
     passes,
     pull,
@@ -234,13 +235,14 @@ def advance(
 ) -> float:  # fmt: skip
     """One step; returns the inertia [V·s²/unit] after it.
 
-    Inertia that joins on the way was at rest: the momentum is shared. Inertia that leaves takes its
+    Inertia that joins on the way and was at rest shares the momentum. Inertia that leaves takes its
     own momentum along.
     """
     after = c[KA] + heft(on, p, clock)
     if after > ka:
-        state[V] *= ka / after
-        state[W] *= ka / after
+        kept = 1.0 - jolt(on, p) * (1.0 - ka / after)
+        state[V] *= kept
+        state[W] *= kept
     off = clock < state[OFF_UNTIL]
     if w[REST] != 0.0 and not off:
         u = reaches(w, asked, state[V])
