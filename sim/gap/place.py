@@ -1,0 +1,40 @@
+"""A place where simulation and measurement disagree, in words and numbers."""
+
+from dataclasses import dataclass
+
+RUN, SPEED, POSITION = "run", "direction-speed", "direction-position"
+STEPS, REST = "after-steps", "at-rest"
+WHATS = (RUN, SPEED, POSITION, STEPS, REST)
+SIGNALS = ("position", "velocity")  # the columns of what is measured and simulated
+FASTER = {"position": ("ahead of", "behind"), "velocity": ("faster than", "slower than")}
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where simulation and measurement disagree, in words and numbers.
+
+    Args:
+        what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps`` or ``at-rest``.
+        where: which one: ``dynamic-forward, 0.2 to 0.4 s``.
+        error: [noises of the signal] mean of what the model leaves there, in the direction of
+            motion: above 0 the robot is faster, or farther, than the model says.
+        sure: [standard errors] how far from nothing that is.
+        signal: ``velocity`` or ``position``.
+    """
+
+    what: str
+    where: str
+    error: float
+    sure: float
+    signal: str = "velocity"
+
+    @property
+    def sentence(self) -> str:
+        """For a person: where, which way, by how much."""
+        ahead, behind = FASTER[self.signal]
+        way = ahead if self.error > 0.0 else behind
+        size = abs(self.error)
+        return (
+            f"{self.where}: the robot is {way} the model says, by {size:.2g} times the noise "
+            f"of its {self.signal}"
+        )

@@ -1,0 +1,103 @@
+"""Whether what a model leaves comes again when a test is repeated, or is another each time.
+
+    r = Σ a·b/√(Σ a²·Σ b²)        of the means a, b of short stretches, at equal times
+
+What comes again is physics that the model lacks; what does not is noise, a floor, a hand.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from sim.gap.residuals import Residuals
+from sim.log import Array
+
+SAME = 0.05  # [share of the largest voltage] RMS by which a repetition's voltage may differ
+STRETCHES, LEAST = 60, 5  # how many at most, and how many samples each at least
+ALIKE, SURE = 0.5, 3.0  # [1], [standard errors] of a correlation that comes again
+AGAIN, CHANGES, NOISE = "comes again", "changes from run to run", "is no more than noise"
+
+
+@dataclass(frozen=True)
+class Repeat:
+    """Two runs of the same test under the same voltage.
+
+    Args:
+        test: its name.
+        runs: which two, from 0.
+        correlation: [1] of what is left of the velocities.
+        sure: [standard errors] by which that is above nothing.
+        excess: [1] mean square of what is left over what noise alone would leave.
+        verdict: ``comes again``, ``changes from run to run`` or ``is no more than noise``.
+    """
+
+    test: str
+    runs: tuple[int, int]
+    correlation: float
+    sure: float
+    excess: float
+    verdict: str
+
+
+def repeats(runs: Sequence[Residuals], *, noise: float) -> tuple[Repeat, ...]:
+    """Every pair of runs that repeat each other.
+
+    Args:
+        runs: any.
+        noise: [unit/s] of a velocity.
+    """
+    pairs = [pair for pair in combinations(range(len(runs)), 2) if _same(*(runs[i] for i in pair))]
+    return tuple(found for pair in pairs for found in _compared(runs, pair, noise=noise))
+
+
+def _same(one: Residuals, other: Residuals) -> bool:
+    n = min(one.time.size, other.time.size)
+    if one.test != other.test or n < 2 * LEAST:
+        return False
+    across = np.interp(one.since[:n], other.since, other.voltage)
+    apart = math.sqrt(float(np.mean((one.voltage[:n] - across) ** 2)))
+    return apart <= SAME * float(np.abs(one.voltage).max())
+
+
+def _compared(
+    runs: Sequence[Residuals], pair: tuple[int, int], *, noise: float
+) -> Iterator[Repeat]:
+    one, other = (runs[number] for number in pair)
+    n = min(one.time.size, other.time.size)
+    ends = np.linspace(
+        0.0, min(one.since[n - 1], other.since[n - 1]), min(STRETCHES, n // LEAST) + 1
+    )
+    (a, enough), (b, too) = (_stretches(run, ends, noise=noise) for run in (one, other))
+    both = (enough >= LEAST - 1) & (too >= LEAST - 1)
+    a, b, counts = a[both], b[both], np.minimum(enough, too)[both]
+    if a.size < LEAST:
+        return
+    size = math.sqrt(float(a @ a) * float(b @ b))
+    correlation = float(a @ b) / size if size > 0.0 else 0.0
+    alike = _follows(a) * _follows(b)
+    sure = correlation * math.sqrt(a.size * (1.0 - alike) / (1.0 + alike))
+    excess = float(np.mean(counts * (a**2 + b**2))) / 2.0
+    if excess < 1.0 + SURE * math.sqrt(1.0 / a.size):
+        verdict = NOISE
+    else:
+        verdict = AGAIN if correlation >= ALIKE and sure >= SURE else CHANGES
+    yield Repeat(one.test, pair, correlation, sure, excess, verdict)
+
+
+def _stretches(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:
+    """Mean velocity missed in each stretch [noises], and of how many samples."""
+    missed = run.missed[:, 1] / noise
+    there = ~np.isnan(missed) & (run.since < ends[-1])
+    place = np.searchsorted(ends, run.since[there], side="right") - 1
+    count = np.bincount(place, minlength=ends.size - 1).astype(np.float64)
+    total = np.bincount(place, missed[there], minlength=ends.size - 1)
+    return total / np.maximum(count, 1.0), count
+
+
+def _follows(values: Array) -> float:
+    """Lag-one correlation, from 0."""
+    square = float(values @ values)
+    return min(max(float(values[1:] @ values[:-1]) / square, 0.0), 0.95) if square > 0.0 else 0.0
