@@ -2,7 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
+
+from numpy import bool_
+from numpy.typing import NDArray
 
 from sim.gap.place import Place
 from sim.log import Array, Log
@@ -113,6 +117,7 @@ class Story:
         shown: the log that was held out; or what stood in for it.
         how: how the logs were used, in a sentence.
         notes: other things a person should know.
+        compared: a run of ``shown`` -> (n,) which of its samples count; empty: all of them.
     """
 
     verdict: str
@@ -127,11 +132,32 @@ class Story:
     shown: Log
     how: str
     notes: tuple[str, ...] = ()
+    compared: tuple[NDArray[bool_], ...] = ()
 
     @property
     def model(self) -> Model:
         """The last model."""
         return self.chapters[-1].model
+
+    def plot_gap(self) -> Any:  # noqa: ANN401 - a picture, whose type draws and so stands above
+        """A ``sim.plot.Picture`` of where simulation and measurement disagree, before and after."""
+        return _pictures().gaps(self)
+
+    def plot_overlay(self, chapter: int = -1) -> Any:  # noqa: ANN401 - as above
+        """A ``sim.plot.Picture`` of the shown runs, simulated before and after a chapter."""
+        return _pictures().overlay(self, chapter)
+
+    def plot_suspects(self, chapter: int = 0) -> Any:  # noqa: ANN401 - as above
+        """A ``sim.plot.Picture`` of what was tried on top of a chapter's model."""
+        return _pictures().lineup(self, chapter)
+
+    def plot_shrinking(self) -> Any:  # noqa: ANN401 - as above
+        """A ``sim.plot.Picture`` of the gap, chapter by chapter."""
+        return _pictures().shrinking(self)
+
+    def table(self) -> Any:  # noqa: ANN401 - as above
+        """A ``sim.plot.Table`` of what was found."""
+        return _pictures().findings(self)
 
     def to_json(self) -> dict[str, Any]:
         """As ``sysid reconcile --json`` prints it."""
@@ -143,12 +169,23 @@ class Story:
             "gap_before": self.gap_before,
             "gap_after": self.gap_after,
             "where": [
-                {"what": one.what, "where": one.where, "error": one.error, "sure": one.sure}
+                {
+                    "what": one.what,
+                    "where": one.where,
+                    "signal": one.signal,
+                    "error": one.error,
+                    "sure": one.sure,
+                }
                 for one in self.where
             ],
             "how": self.how,
             "notes": [*self.notes, *([self.remains] if self.remains else [])],
         }
+
+
+def _pictures() -> Any:  # noqa: ANN401 - a module
+    """What draws, found by name: a solver that nobody looks at never loads it."""
+    return import_module("sim.plot.story")
 
 
 def _finding(one: Finding) -> dict[str, Any]:

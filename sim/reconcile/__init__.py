@@ -1,0 +1,105 @@
+"""Reconcile: find where simulation and data disagree, name what is missing, add it, show the gap.
+
+    story = reconcile(log, validation=other, held_out=third, type="arm")
+
+Damage to the record is set aside first. Then the base model is fitted, every effect of the
+catalogue is tried on top of it, one that narrows the gap on runs it was not fitted to is added, and
+everything is refitted, until none does. The held-out log is only ever shown.
+
+After the prediction-error method (Kristensen, Madsen and Jørgensen 2004) with a catalogue of
+physical effects in place of a regression's library.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from sim.evidence import clocks
+from sim.fit.start import first_guess, sensible
+from sim.log import Log
+from sim.reconcile.aside import Aside, judge_damage
+from sim.reconcile.damage import Damaged
+from sim.reconcile.descent import better, scanned, settle
+from sim.reconcile.gates import folds
+from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.lanes import lanes
+from sim.reconcile.naming import findings_of, verdict_of
+from sim.reconcile.problem import Point, Problem
+from sim.reconcile.remainder import worst
+from sim.reconcile.rounds import rounds
+from sim.reconcile.showing import Shown
+from sim.reconcile.story import Story
+from sim.reconcile.usable import check_logs
+from sim.units import unit
+
+__all__ = ["Damaged", "Story", "reconcile"]
+
+TRAIN, VALIDATION = "log", "validation"
+
+
+def reconcile(
+    log: Log,
+    *,
+    validation: Log | None = None,
+    held_out: Log | None = None,
+    type: str,  # noqa: A002 - the field's own word
+    travel: float | None = None,
+    damages: Mapping[str, Sequence[Damaged]] | None = None,
+    progress: Callable[[str, float], None] = lambda _, __: None,
+) -> Story:
+    """Hold logs of a mechanism against its model, and name what the model lacks.
+
+    Args:
+        log: runs to fit, the four tests at least.
+        validation: other runs, by which an effect is admitted; None: each run is predicted by the
+            others.
+        held_out: runs on which the gap is shown, used for nothing else; None shows the validation,
+            or the log itself.
+        type: the base model: ``simple``, ``elevator`` or ``arm``.
+        travel: [owner's unit] from stop to stop, if known.
+        damages: ``log``, ``validation``, ``held_out`` -> what an inspection found there.
+        progress: told what is done, and the share of it [1].
+
+    Raises:
+        BadRequest: a log of another mechanism, or positions beyond the travel.
+        NotIdentifiable: nothing moves, or too little was recorded; the message says what to record.
+    """
+    check_logs(log, validation, held_out, type=type, travel=travel)
+    aside = judge_damage(damages or {})
+    both = log if validation is None else replace(log, runs=log.runs + validation.runs)
+    problem = _problem(log, validation, aside)
+    progress("base model", 0.05)
+    base = _base(problem, log, type=type)
+    done = rounds(problem, base, both, folds([one.session for one in problem.lanes]), progress)
+    progress("what remains", 0.9)
+    shown = Shown.of({"log": log, "validation": validation, "held_out": held_out}, aside)
+    chapters = shown.chapters(done)
+    moment = worst(problem, done[-1].suspect.point)
+    per = unit(log.units)
+    findings = findings_of(problem, done, aside.found, chapters, per=per)
+    verdict, remainder, remains = verdict_of(findings, moment, problem)
+    return Story(
+        verdict=verdict, findings=findings, remainder=remainder, remains=remains,
+        noise_floor=shown.noise_floor,
+        gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
+        where=(), chapters=chapters, shown=shown.log, how=shown.how, notes=aside.notes,
+    )  # fmt: skip
+
+
+def _problem(log: Log, validation: Log | None, aside: Aside) -> Problem:
+    """All runs that may be fitted; the clock of the second log goes on where the first ended."""
+    every = lanes(log, aside=aside.of(TRAIN))
+    if validation is not None:
+        began = clocks(replace(log, runs=log.runs + validation.runs))[len(log.runs)]
+        every += lanes(validation, session=1, since=float(began), aside=aside.of(VALIDATION))
+    return Problem.of(every)
+
+
+def _base(problem: Problem, log: Log, *, type: str) -> Point:  # noqa: A002 - as above
+    """The best point without effects."""
+    guess = sensible(first_guess(log, type=type))
+    hypothesis = Hypothesis(type)
+    values = {name: guess[name] for name in hypothesis.names}
+    begin = problem.at(hypothesis, values, np.zeros(len(problem.lanes)), problem.noise.velocity**2)
+    return settle(problem, scanned(problem, better(problem, begin, steps=8, enough=1.0)))

@@ -1,0 +1,76 @@
+"""What an inspection found, judged: what is cut out, what is reported, what waits for the fit."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from sim.reconcile.damage import Damaged
+from sim.reconcile.lanes import SetAside
+from sim.reconcile.thresholds import SLIPPED, SPOILT
+
+FOR_GOOD = ("hard-stop",)
+"""Faults after which a run tells nothing more: it leans on a stop."""
+
+OF_THE_RECORD: Mapping[str, float] = {
+    "hard-stop": 0.5,
+    "encoder-slip": SLIPPED,
+    "voltage-dropout": SPOILT,
+    "stuck-sensor": SPOILT,
+    "sign-flip": SPOILT,
+}
+"""Fault -> confidence from which its stretch is cut out before anything is fitted. Others look like
+physics that is missing (a soft joint shakes as a slipping wheel does): they wait for the fit."""
+
+LONGEST = 0.3
+"""[s] of an encoder's slip, which is over in a moment: what takes longer is a start that sticks."""
+
+
+@dataclass(frozen=True)
+class Aside:
+    """Damage, judged.
+
+    Args:
+        cut: which log -> stretches that are left out.
+        found: what is reported as a finding, one of each fault.
+        suspected: what waits for the fit: reported if the last model leaves something there.
+        notes: what a person should know besides.
+    """
+
+    cut: Mapping[str, tuple[SetAside, ...]] = field(default_factory=dict)
+    found: tuple[Damaged, ...] = ()
+    suspected: tuple[Damaged, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def of(self, name: str) -> tuple[SetAside, ...]:
+        """What is left out of a log."""
+        return self.cut.get(name, ())
+
+
+def judge_damage(damages: Mapping[str, Sequence[Damaged]]) -> Aside:
+    """Sort out what an inspection found in each log."""
+    cut: dict[str, list[SetAside]] = {}
+    found: dict[str, Damaged] = {}
+    suspected: list[Damaged] = []
+    for name, every in damages.items():
+        for one in every:
+            if not _of_the_record(one):
+                suspected.append(one)
+                continue
+            if one.run is not None:
+                stretch = SetAside(one.run, one.start, one.end, one.fault in FOR_GOOD)
+                cut.setdefault(name, []).append(stretch)
+            if name != "held_out" and one.confidence > _confidence(found.get(one.fault)):
+                found[one.fault] = one
+    return Aside(
+        {name: tuple(some) for name, some in cut.items()}, tuple(found.values()), tuple(suspected)
+    )
+
+
+def _confidence(one: Damaged | None) -> float:
+    return -1.0 if one is None else one.confidence
+
+
+def _of_the_record(one: Damaged) -> bool:
+    """Whether it is damage to the record beyond doubt, and no physics."""
+    if one.confidence < OF_THE_RECORD.get(one.fault, 2.0):
+        return False
+    return one.fault != "encoder-slip" or one.end - one.start <= LONGEST

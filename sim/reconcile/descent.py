@@ -1,0 +1,125 @@
+"""Downhill: values whose innovations are as small as noise allows.
+
+Levenberg and Marquardt's steps on white innovations, in turn with a search for the size q of what
+pushes at random.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from sim.log import Array
+from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.problem import Point, Problem
+
+FIRST_DAMPING, TRIES = 1e-3, 5
+SOFTER = 4.0  # [1] steps of q
+LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which q is none
+SCANNED = (-12, -9, -6, -4, -2, 2, 4, 6)  # powers of it
+ROUNDS, STEPS = 3, 8
+ENOUGH = 0.3  # [of -2 log L] a step that gains less ends the search
+
+
+def settle(problem: Problem, point: Point) -> Point:
+    """The best point near one: q, then values, until neither gains."""
+    for _ in range(ROUNDS):
+        before = point.cost
+        point = better(problem, tuned(problem, point), steps=STEPS)
+        if before - point.cost < 2.0 * ENOUGH:
+            break
+    return point
+
+
+def tuned(problem: Problem, point: Point) -> Point:
+    """The same values with the likeliest q, to a factor of two."""
+    least = LEAST_Q * problem.noise.velocity**2
+    for way in (SOFTER, 1.0 / SOFTER):
+        other = problem.at(point.hypothesis, point.values, point.starts, point.q * way)
+        while other.cost < point.cost - 0.1 and other.q > least:
+            point = other
+            other = problem.at(point.hypothesis, point.values, point.starts, point.q * way)
+    return point
+
+
+def better(problem: Problem, point: Point, *, steps: int, enough: float = ENOUGH) -> Point:
+    """The point after some steps, fewer when one gains hardly anything."""
+    damping = FIRST_DAMPING
+    for _ in range(steps):
+        table, rest = _with_prior(problem, point)
+        size = np.linalg.norm(table, axis=0)
+        size[size == 0.0] = 1.0
+        table /= size
+        square, slope = table.T @ table, table.T @ rest
+        found = point
+        for _ in range(TRIES):
+            by = -np.linalg.solve(square + damping * np.eye(slope.size), slope) / size
+            moved = _moved(problem, point, by)
+            if moved.cost < point.cost:
+                found, damping = moved, max(damping / 10.0, 1e-9)
+                break
+            damping *= 10.0
+        gained, point = point.cost - found.cost, found
+        if not gained > enough:
+            break
+    return point
+
+
+def promise(
+    problem: Problem, point: Point, hypothesis: Hypothesis,
+    more: Sequence[Mapping[str, float]], *, kept: Array,
+) -> list[tuple[float, Point]]:  # fmt: skip
+    """What each start of a suspect may gain once the gains have adjusted to it, and its point.
+
+    Args:
+        problem: the measurements.
+        point: the best without the suspect.
+        hypothesis: with it.
+        more: values that it adds, one start after another.
+        kept: (2 n, k) of ``adjusting`` at that point.
+    """
+
+    def left(ahead: Array) -> float:
+        rest = problem.white(point, ahead)
+        return float(rest @ rest - np.sum((kept.T @ rest) ** 2))
+
+    now = left(point.ahead)
+    found = []
+    for one in more:
+        other = problem.at(hypothesis, {**point.values, **one}, point.starts, point.q)
+        if math.isfinite(other.cost):
+            found.append((now - left(other.ahead), other))
+    return found
+
+
+def adjusting(problem: Problem, point: Point) -> Array:
+    """(2 n, k) orthonormal: all that the values and starts of a point can make of it."""
+    kept, _ = np.linalg.qr(problem.columns(point))
+    return np.asarray(kept)
+
+
+def _with_prior(problem: Problem, point: Point) -> tuple[Array, Array]:
+    """Columns and white innovations, with a row for each start: it is priced as noise."""
+    table, rest = problem.columns(point), problem.white(point, point.ahead)
+    runs = len(problem.lanes)
+    prior = np.zeros((runs, table.shape[1]))
+    prior[:, -runs:] = np.eye(runs) / problem.loose
+    return np.vstack([table, prior]), np.concatenate([rest, point.starts / problem.loose])
+
+
+def _moved(problem: Problem, point: Point, by: Array) -> Point:
+    hypothesis = point.hypothesis
+    values = dict(point.values)
+    searched = hypothesis.searched
+    for name, step in zip(searched, by.tolist(), strict=False):
+        values[name] = hypothesis.stepped(name, values[name], step)
+    return problem.at(hypothesis, values, point.starts + by[len(searched) :], point.q)
+
+
+def scanned(problem: Problem, point: Point) -> Point:
+    """The same values with the likeliest q of all sizes: there may be more than one valley."""
+    tried = [
+        problem.at(point.hypothesis, point.values, point.starts, point.q * SOFTER**power)
+        for power in SCANNED
+    ]
+    return min([point, *tried], key=lambda one: one.cost)

@@ -1,0 +1,114 @@
+"""The runs of a log as reconcile compares them: fresh samples, where they began, stops, clocks."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from sim.evidence import clocks
+from sim.fit.seen import Seen, see
+from sim.log import Log
+
+FEWEST = 4  # samples of a run that can be compared, as ``see`` has it
+AT_REST = 0.05  # [share of the top speed] that a position may creep in one sample of a rest
+SAME_PLACE = 0.01  # [share of a run's way] within which a place is the place it began at
+AROUND = 0.03  # [s] on both sides of what is set aside
+
+
+@dataclass(frozen=True)
+class SetAside:
+    """A stretch of a run that is damage to the record, or no business of the model.
+
+    Args:
+        run: which one, from 0.
+        start: [s] on the run's own clock.
+        end: [s].
+        for_good: nothing after it is believed: it leans on a stop.
+    """
+
+    run: int
+    start: float
+    end: float
+    for_good: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Lane:
+    """One run.
+
+    Args:
+        seen: its measurements.
+        test: its name.
+        low: [unit] the stop on which it lay when it began; minus infinity if none shows.
+        high: [unit] the same above.
+        clock: [s] when it began, since its log did.
+        session: which log it is from: what is remembered does not go on from one to another.
+    """
+
+    seen: Seen
+    test: str
+    low: float
+    high: float
+    clock: float
+    session: int
+
+    def without(self, aside: SetAside) -> "Lane":
+        """The same, and that stretch says nothing."""
+        time = self.seen.time
+        end = np.inf if aside.for_good else aside.end + AROUND
+        out = (time >= aside.start - AROUND) & (time <= end)
+        seen = replace(self.seen, telling=self.seen.telling & ~out, moving=self.seen.moving & ~out)
+        return replace(self, seen=seen)
+
+
+def lanes(
+    log: Log, *, session: int = 0, since: float = 0.0, aside: Iterable[SetAside] = ()
+) -> tuple[Lane, ...]:
+    """All runs of a log that have enough samples.
+
+    Args:
+        log: any runs.
+        session: number of the log.
+        since: [s] of the clock at which it began.
+        aside: what to leave out.
+    """
+    places = [number for number, run in enumerate(log.runs) if len(run) >= FEWEST]
+    runs = [log.runs[number] for number in places]
+    began = clocks(log)
+    top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in runs), default=0.0)
+    found = {}
+    for number, run, one in zip(places, runs, see(log, friction=None), strict=True):
+        seen = _rested(one, top=top)
+        found[number] = Lane(seen, run.test, *_stops(seen), since + float(began[number]), session)
+    for part in aside:
+        if part.run in found:
+            found[part.run] = found[part.run].without(part)
+    return tuple(found.values())
+
+
+def _rested(seen: Seen, *, top: float) -> Seen:
+    """The same, beginning at rest if its position says so: a noisy velocity alone cannot tell."""
+    x = seen.measured[:, 0]
+    fresh = np.flatnonzero(~np.isnan(x))[:2]
+    if fresh.size < 2:  # noqa: PLR2004 - two make a rate
+        return seen
+    rate = abs(float((x[fresh[1]] - x[fresh[0]]) / (seen.time[fresh[1]] - seen.time[fresh[0]])))
+    return replace(seen, velocity=0.0) if rate < AT_REST * top else seen
+
+
+def _stops(seen: Seen) -> tuple[float, float]:
+    """What lies beneath a run that began at rest and was never beyond where it began.
+
+    Arms and elevators begin on a stop, and stay there whatever gravity does until the voltage
+    lifts them. Where it is friction that holds instead, a stop at that place changes nothing.
+    """
+    x = seen.measured[:, 0]
+    x = x[~np.isnan(x)]
+    if seen.velocity != 0.0 or not x.size:
+        return -np.inf, np.inf
+    near = SAME_PLACE * float(np.ptp(x))
+    low = x.min() > seen.position - near
+    high = x.max() < seen.position + near
+    if low == high:
+        return -np.inf, np.inf
+    return (seen.position, np.inf) if low else (-np.inf, seen.position)

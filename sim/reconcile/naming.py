@@ -1,0 +1,115 @@
+"""Findings and a verdict, from what the rounds admitted and what they left."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from sim.effects import EFFECTS
+from sim.reconcile.damage import Damaged
+from sim.reconcile.problem import Point, Problem
+from sim.reconcile.remainder import Moment
+from sim.reconcile.rounds import Round, apart
+from sim.reconcile.story import (
+    AMBIGUOUS,
+    EXPLAINED,
+    NOTHING_MISSING,
+    UNEXPLAINED,
+    Chapter,
+    Estimate,
+    Finding,
+)
+from sim.reconcile.thresholds import MAJOR, SHAKEN
+from sim.units import Unit
+
+
+def findings_of(
+    problem: Problem, done: Sequence[Round], damages: Sequence[Damaged],
+    chapters: Sequence[Chapter], *, per: Unit,
+) -> tuple[Finding, ...]:  # fmt: skip
+    """What was missing or wrong: faults first, then effects, the major ones first.
+
+    Args:
+        problem: the measurements.
+        done: the base and the rounds.
+        damages: of the record.
+        chapters: of the shown log, one for each round.
+        per: the owner's unit.
+    """
+    faults = [_fault(one, chapters[0].gap) for one in damages]
+    last = done[-1].suspect.point
+    errors = standard_errors(problem, last)
+    effects = [
+        _effect(done[n - 1], done[n], last, errors, chapters[n - 1].gap, chapters[n].gap, per=per)
+        for n in range(1, len(done))
+    ]
+    effects.sort(key=lambda one: (one.size != "major", -one.score))
+    return (*faults, *effects)
+
+
+def _fault(one: Damaged, gap: float) -> Finding:
+    return Finding(
+        effect=one.fault, kind="fault", size="major", ambiguous_with=(), parameters={},
+        gap_before=gap, gap_after=gap, score=math.inf, sentence=one.sentence, inspect=one.advice,
+        separating_test="",
+    )  # fmt: skip
+
+
+def _effect(  # noqa: PLR0917 - two rounds, and what to call them
+    before: Round, now: Round, last: Point, errors: Mapping[str, float], gap_before: float,
+    gap_after: float, *, per: Unit,
+) -> Finding:  # fmt: skip
+    name = now.suspect.effect
+    effect = EFFECTS[name]
+    major = now.gap.velocity <= MAJOR * before.gap.velocity
+    parameters = {}
+    for one in effect.parameters:
+        whole = f"{name}.{one.name}"
+        scale = per.si**one.power
+        error = errors.get(whole)
+        parameters[one.name] = Estimate(
+            last.values[whole] * scale, None if error is None else error * scale,
+            one.unit.format(u=per.symbol),
+        )  # fmt: skip
+    tests = [test for rival in now.rivals if (test := apart(name, rival))]
+    return Finding(
+        effect=name, kind="effect", size="major" if major else "minor", ambiguous_with=now.rivals,
+        parameters=parameters, gap_before=gap_before, gap_after=gap_after,
+        score=before.suspect.score - now.suspect.score,
+        sentence=f"{effect.summary[0].upper()}{effect.summary[1:]}. {effect.fingerprint}",
+        inspect=effect.inspect, separating_test=" ".join(dict.fromkeys(tests)),
+    )  # fmt: skip
+
+
+def standard_errors(problem: Problem, point: Point) -> dict[str, float]:
+    """Value -> one standard error, from how the innovations change with each."""
+    table = problem.columns(point)
+    size = np.linalg.norm(table, axis=0)
+    size[size == 0.0] = np.inf
+    table = table / size
+    told, ways = np.linalg.eigh(table.T @ table)
+    inverse = (ways / np.maximum(told, 1e-11)) @ ways.T
+    errors = np.sqrt(np.maximum(np.diag(inverse), 0.0)) / size
+    names = point.hypothesis.searched
+    return {name: float(error) for name, error in zip(names, errors, strict=False) if error > 0.0}
+
+
+def verdict_of(
+    findings: Sequence[Finding], moment: Moment, problem: Problem
+) -> tuple[str, bool, str]:
+    """The verdict, whether something remains, and a sentence about it."""
+    remains = ""
+    if moment.size > SHAKEN:
+        lane = problem.lanes[moment.lane]
+        remains = (
+            f"In {lane.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
+            f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
+        )
+    majors = [one for one in findings if one.size == "major"]
+    if remains and not majors:
+        return UNEXPLAINED, True, remains
+    if not majors:
+        return NOTHING_MISSING, bool(remains), remains
+    if any(one.ambiguous_with for one in majors):
+        return AMBIGUOUS, bool(remains), remains
+    return EXPLAINED, bool(remains), remains

@@ -1,0 +1,212 @@
+"""How well values of a hypothesis follow the measurements, run by run.
+
+    -2 log L = N·log det Σ + Σ (start/noise)²       Σ the covariance (2, 2) of the innovations
+
+A run may begin a little beside where its first sample was seen; that is priced as noise.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.engine import NO_TRUST, Lead, follow
+from sim.fit.innovations import trust_for
+from sim.fit.seen import Noise, noise
+from sim.log import Array
+from sim.model import Model
+from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.lanes import Lane
+
+LOOSE = 2.0  # [noises of a position] by which a run may begin beside its first sample
+TOP = 0.98  # quantile that stands for the largest, so that one bad sample does not
+NUDGE = 1e-3  # [of a value's size] for a derivative
+COARSE_NUDGE = 0.02  # [of it] where what it does comes in steps, as the samples do
+STEPWISE = ("band",)  # parameters of that kind
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """Values of a hypothesis, and how well they follow.
+
+    Args:
+        hypothesis: what is believed.
+        values: name -> value.
+        starts: (runs,) [unit] true position at a run's first sample, less the one seen there.
+        q: [unit²/s³] size of what pushes at random.
+        trust: (2, 2) by how much a measurement corrects.
+        ahead: (n, 2) innovations, nan where nothing is compared.
+        cost: -2 log L, up to a constant.
+    """
+
+    hypothesis: Hypothesis
+    values: Mapping[str, float]
+    starts: Array
+    q: float
+    trust: Array
+    ahead: Array
+    cost: float
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """The measurements of some runs.
+
+    Args:
+        lanes: the runs.
+        noise: of their samples, measured without a model.
+    """
+
+    lanes: tuple[Lane, ...]
+    noise: Noise
+
+    @classmethod
+    def of(cls, lanes: Sequence[Lane]) -> "Problem":
+        """The problem of these runs, with the noise that they show."""
+        return cls(tuple(lanes), noise(tuple(lane.seen for lane in lanes)))
+
+    @cached_property
+    def edges(self) -> NDArray[np.intp]:
+        """(runs + 1,) where each run begins among all samples."""
+        return np.concatenate(([0], np.cumsum([lane.seen.time.size for lane in self.lanes])))
+
+    @cached_property
+    def measured(self) -> Array:
+        """(n, 2) positions and velocities of all runs."""
+        return np.concatenate([lane.seen.measured for lane in self.lanes])
+
+    @cached_property
+    def telling(self) -> NDArray[np.bool_]:
+        """(n,) samples that are compared: not the first of a run, from which it starts."""
+        telling = np.concatenate([lane.seen.telling for lane in self.lanes])
+        telling[self.edges[:-1]] = False
+        return telling & ~np.isnan(self.measured).all(axis=1)
+
+    @cached_property
+    def moving(self) -> NDArray[np.bool_]:
+        """(n,) samples at which it moved."""
+        return np.concatenate([lane.seen.moving for lane in self.lanes])
+
+    @cached_property
+    def count(self) -> int:
+        """How many samples are compared."""
+        return int(np.count_nonzero(self.telling))
+
+    @cached_property
+    def period(self) -> float:
+        """[s] between samples."""
+        return float(np.median(np.concatenate([np.diff(lane.seen.time) for lane in self.lanes])))
+
+    @cached_property
+    def loose(self) -> float:
+        """[unit] by which a run may begin beside its first sample."""
+        return LOOSE * self.noise.position
+
+    def only(self, session: int) -> "Problem":
+        """The same with the runs of one log."""
+        return Problem(tuple(one for one in self.lanes if one.session == session), self.noise)
+
+    def where(self, session: int) -> NDArray[np.bool_]:
+        """(n,) samples of one log."""
+        sizes = np.diff(self.edges)
+        return np.repeat([lane.session == session for lane in self.lanes], sizes)
+
+    # -- simulate --------------------------------------------------------------------------------
+
+    def track(self, model: Model, starts: Array, trust: Array, *, only: int | None = None) -> Array:
+        """(n, 4) position, velocity, expected position, and velocity as the sensor sees it.
+
+        Args:
+            model: what moves.
+            starts: (runs,) [unit].
+            trust: (2, 2); ``NO_TRUST`` is an open loop.
+            only: one run, in place of all.
+        """
+        chosen = range(len(self.lanes)) if only is None else (only,)
+        leads = [self._lead(number, float(starts[number])) for number in chosen]
+        return follow(model, leads, trust=trust)
+
+    def _lead(self, number: int, start: float) -> Lead:
+        lane = self.lanes[number]
+        seen = lane.seen
+        return Lead(
+            time=seen.time, voltage=seen.voltage, measured=seen.measured,
+            position=seen.position + start, velocity=seen.velocity,
+            low=lane.low + start, high=lane.high + start, clock=lane.clock, session=lane.session,
+        )  # fmt: skip
+
+    def ahead(self, model: Model, starts: Array, trust: Array, *, only: int | None = None) -> Array:
+        """(n, 2) innovations: measured less expected."""
+        part = slice(None) if only is None else slice(*self.edges[only : only + 2])
+        ahead = self.measured[part] - self.track(model, starts, trust, only=only)[:, 2:]
+        ahead[~self.telling[part]] = np.nan
+        return np.asarray(ahead)
+
+    def at(
+        self, hypothesis: Hypothesis, values: Mapping[str, float], starts: Array, q: float
+    ) -> Point:
+        """The point of these values; its cost is infinite where they are no physics."""
+        nowhere = Point(hypothesis, values, starts, q, NO_TRUST, np.empty((0, 2)), math.inf)
+        if not (values["kV"] > 0.0 and values["kA"] > 0.0):
+            return nowhere
+        model = hypothesis.model(values)
+        trust = trust_for(model, noise=self.noise, q=q, period=self.period)
+        ahead = self.ahead(model, starts, trust)
+        if not np.isfinite(ahead[self.telling]).any() or np.isinf(ahead).any():
+            return nowhere
+        cost = self._cost(ahead) + float(np.sum((starts / self.loose) ** 2))
+        return Point(hypothesis, values, starts, q, trust, ahead, cost)
+
+    # -- compare ---------------------------------------------------------------------------------
+
+    def spread(self, ahead: Array) -> Array:
+        """(2, 2) covariance of innovations, never quite nothing."""
+        there = ~np.isnan(ahead)
+        first, second = there[:, 0], there[:, 1]
+        x, v = np.where(first, ahead[:, 0], 0.0), np.where(second, ahead[:, 1], 0.0)
+        xx = float(x @ x) / max(int(np.count_nonzero(first)), 1)
+        vv = float(v @ v) / max(int(np.count_nonzero(second)), 1)
+        most = 0.99 * math.sqrt(xx * vv)
+        xv = float(x @ v) / max(int(np.count_nonzero(first & second)), 1)
+        xv = min(max(xv, -most), most)
+        spread: Array = np.array([[xx, xv], [xv, vv]])
+        return spread + np.diag(np.square(self.noise.grain))
+
+    def _cost(self, ahead: Array) -> float:
+        size = float(np.linalg.det(self.spread(ahead)))
+        return self.count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
+
+    def white(self, point: Point, table: Array) -> Array:
+        """(2 n,) made independent and of size one by the spread at a point."""
+        inverse = np.linalg.inv(np.linalg.cholesky(self.spread(point.ahead)))
+        return np.asarray((np.nan_to_num(table) @ inverse.T).ravel())
+
+    def columns(self, point: Point) -> Array:
+        """(2 n, searched + runs) change of the white innovations with each value and start."""
+        hypothesis = point.hypothesis
+        parts = [self._by_value(point, name) for name in hypothesis.searched]
+        parts += [self._by_start(point, number) for number in range(len(self.lanes))]
+        return np.column_stack([self.white(point, part) for part in parts])
+
+    def _by_value(self, point: Point, name: str) -> Array:
+        hypothesis, value = point.hypothesis, point.values[name]
+        coarse = name.partition(".")[2] in STEPWISE
+        step = (COARSE_NUDGE if coarse else NUDGE) * hypothesis.size(name, value)
+        if hypothesis.within(name, value + step) != value + step:
+            step = -step
+        model = hypothesis.model({**point.values, name: value + step})
+        return np.asarray((self.ahead(model, point.starts, point.trust) - point.ahead) / step)
+
+    def _by_start(self, point: Point, number: int) -> Array:
+        step = self.noise.position
+        starts = point.starts.copy()
+        starts[number] += step
+        part = slice(*self.edges[number : number + 2])
+        model = point.hypothesis.model(point.values)
+        moved = self.ahead(model, starts, point.trust, only=number)
+        table = np.zeros_like(point.ahead)
+        table[part] = (moved - point.ahead[part]) / step
+        return table

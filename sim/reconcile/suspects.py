@@ -1,0 +1,117 @@
+"""Suspects: every effect of the catalogue, tried on top of a point, the likeliest first.
+
+A start of each is drawn from what the log shows (``Effect.starts``) and simulated once; the most
+promising go downhill a little, the best of those to the end. What shakes only for a moment after
+each change of voltage, as two bodies do, is tried on the lively runs first.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from sim.effect import Effect
+from sim.effects import EFFECTS
+from sim.evidence import Evidence
+from sim.reconcile.descent import adjusting, better, promise, settle
+from sim.reconcile.friction import varied
+from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.problem import Point, Problem
+
+TRIED, KEPT = 9, 5  # suspects that go downhill a little, and to the end
+A_LITTLE = 3  # steps
+LIVELIEST = 2  # starts of two bodies that are simulated over all runs
+OWN: dict[str, tuple[str, ...]] = {"elevator": ("constant-load",), "arm": ("gravity-cosine",)}
+"""Base type -> the effects that it has already."""
+
+
+@dataclass(frozen=True, eq=False)
+class Suspect:
+    """An effect on top of a point.
+
+    Args:
+        effect: its name; empty for the point itself.
+        point: the best with it.
+        score: [of -2 log L] of the point, friction that varies and the number of values priced in;
+            the smaller, the likelier.
+    """
+
+    effect: str
+    point: Point
+    score: float
+
+
+def judged(problem: Problem, point: Point, effect: str = "") -> Suspect:
+    """A point with its score: -2 log L + k·ln N, as of Schwarz (1978)."""
+    values = point.hypothesis.free * math.log(max(problem.count, 2))
+    return Suspect(effect, point, point.cost + varied(problem, point) + values)
+
+
+def suspects(
+    problem: Problem, point: Point, evidence: Evidence, *, only: Iterable[str] | None = None
+) -> list[Suspect]:
+    """The effects that explain most of what a point leaves, the likeliest first.
+
+    Args:
+        problem: the measurements.
+        point: the best without them.
+        evidence: what the point leaves, in volts.
+        only: names to choose from; None is the whole catalogue.
+    """
+    had = (*point.hypothesis.effects, *OWN.get(point.hypothesis.type, ()))
+    names = [name for name in (EFFECTS if only is None else only) if name not in had]
+    begun = _begun(problem, point, [EFFECTS[name] for name in names], evidence)
+    begun.sort(key=lambda one: -one[0])
+    gone = [better(problem, start, steps=A_LITTLE) for _, start in begun[:TRIED]]
+    gone.sort(key=lambda one: one.cost)
+    ended = [settle(problem, one) for one in gone[:KEPT]]
+    found = [judged(problem, one, one.hypothesis.effects[-1]) for one in ended]
+    return sorted(found, key=lambda one: one.score)
+
+
+def _begun(
+    problem: Problem, point: Point, effects: Iterable[Effect], evidence: Evidence
+) -> list[tuple[float, Point]]:
+    """The best start of each effect, with what it promises."""
+    kept = adjusting(problem, point)
+    found = []
+    lively = None
+    for effect in effects:
+        hypothesis = point.hypothesis + effect.name
+        more = [
+            {
+                f"{effect.name}.{one.name}": min(max(start[one.name], one.least), one.most)
+                for one in effect.parameters
+            }
+            for start in effect.starts(evidence)
+        ]
+        if effect.kind == "two-body":
+            lively = lively or _Lively(problem, point)
+            more = lively.best(hypothesis, more)
+        begun = promise(problem, point, hypothesis, more, kept=kept)
+        if begun:
+            found.append(max(begun, key=lambda one: one[0]))
+    return found
+
+
+class _Lively:
+    """The runs in which the voltage jumps, for a quick look at what shakes."""
+
+    def __init__(self, problem: Problem, point: Point) -> None:
+        chosen = [n for n, lane in enumerate(problem.lanes) if "quasistatic" not in lane.test]
+        self.there = bool(chosen)
+        if self.there:
+            self.problem = Problem(tuple(problem.lanes[n] for n in chosen), problem.noise)
+            self.point = self.problem.at(
+                point.hypothesis, point.values, point.starts[chosen], point.q
+            )
+            self.kept = adjusting(self.problem, self.point)
+
+    def best(self, hypothesis: Hypothesis, more: list[dict[str, float]]) -> list[dict[str, float]]:
+        """The starts that are worth a look at all runs: none if none promises anything."""
+        if not self.there:
+            return more
+        begun = promise(self.problem, self.point, hypothesis, more, kept=self.kept)
+        begun = sorted((one for one in begun if one[0] > 0.0), key=lambda one: -one[0])
+        effect = hypothesis.effects[-1]
+        names = [f"{effect}.{name}" for name in EFFECTS[effect].names]
+        return [{name: one.values[name] for name in names} for _, one in begun[:LIVELIEST]]

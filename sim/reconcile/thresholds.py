@@ -1,0 +1,36 @@
+"""Every number that decides a verdict, with its reason."""
+
+SURE = 20.0
+"""[of -2 log L] by which an effect must make the model likelier, prices paid: odds of e¹⁰, about
+twenty thousand to one, because some twenty suspects are asked several times."""
+
+NARROWER = 0.985
+"""[1] of the gap before: the validation's gap, geometric mean of velocity's and position's, must
+shrink by more than a refit by chance does."""
+
+NOT_WIDER = 1.005
+"""[1] the same of a gap that must not grow: half a percent is what another start changes."""
+
+MAJOR = 0.87
+"""[1] of the gap before: an effect that shrinks the validation's velocity gap by more is major.
+Everyday effects that nobody has to name (50 mV of Stribeck friction, 8 % of sag, 4 ms of delay)
+shrink it by up to a tenth."""
+
+CLOSE = 10.0
+"""[of -2 log L] within which another effect explains as much: odds below 150 to one."""
+
+SIMPLER = 8.0
+"""[of -2 log L] within which the effect with fewer parameters is taken."""
+
+MOST = 4
+"""Effects that are added at most: with more, anything can be explained."""
+
+SLIPPED = 0.97
+"""[1] confidence above which an encoder's slip is cut out: a start that sticks looks alike."""
+
+SPOILT = 0.9
+"""[1] the same of other faults of the record."""
+
+SHAKEN = 7.0
+"""[robust standard deviations] of the largest windowed innovation: beyond it a moment is not
+explained. A normal deviate among some thousand windows stays below 5."""
