@@ -8,13 +8,9 @@ On the page every figure has its words and its numbers, and what is doubted stan
 
 import os
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
-from uuid import uuid4
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from sim.compared import Compared, compared
@@ -28,11 +24,9 @@ from sim.plot.picture import Picture
 from sim.plot.step import steps
 from sim.plot.whole_fit import whole_fit
 from sim.report.rows import controllers, gains, measures, snippets
+from sim.report.written import page_at, templates, write_whole
 from sim.trial import Trial
 from sim.units import Unit, unit
-
-PAGES = (".html", ".htm")
-FOLDER = Path(__file__).parent
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,27 +69,8 @@ def write_page(report: Report, path: str | os.PathLike[str]) -> None:
     Raises:
         BadRequest: its name does not end as a page's, or it cannot be written.
     """
-    target = Path(path)
-    if target.suffix.lower() not in PAGES:
-        raise BadRequest(
-            f"no page ends in {target.suffix or 'nothing'!r}",
-            where=str(target),
-            advice="End its name in .html.",
-        )
-    text = page(report)
-    part = target.with_name(f".{uuid4().hex}.part")
-    try:
-        part.write_text(text, encoding="utf-8", newline="\n")
-        part.replace(target)
-    except OSError as error:
-        raise BadRequest(
-            f"cannot be written ({error.strerror or error})",
-            where=str(target),
-            advice="Choose a folder that exists and that you may write to.",
-        ) from None
-    finally:
-        with suppress(OSError):  # nothing is left to remove when all went well
-            part.unlink()
+    target = page_at(path)
+    write_whole(page(report), target)
 
 
 def write_picture(report: Report, path: str | os.PathLike[str]) -> None:
@@ -110,29 +85,26 @@ def write_picture(report: Report, path: str | os.PathLike[str]) -> None:
 
 def page(report: Report) -> str:
     """The page as text; the same fit always gives the same."""
-    templates = Environment(
-        loader=FileSystemLoader(FOLDER, encoding="utf-8"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    return templates.get_template("page.html.jinja").render(
-        title=report.title,
-        found=report.found,
-        per=report.per,
-        preset=report.preset.name,
-        gains=gains(report.found),
-        measures=measures(report.found),
-        grave=_messages(report.found.doubts, grave=True),
-        doubts=_messages(report.found.doubts, grave=False),
-        notes=report.notes,
-        overview=Markup(numbers(report.runs, per=report.per).html),  # noqa: S704 - it escapes
-        runs=[(run.run.test, _html(followed(run, per=report.per))) for run in report.runs],
-        steps=_html(steps(report.tried, per=report.per)) if report.tried else None,
-        tried=[(trial.whose, trial.loop, trial.verdict.words) for trial in report.tried],
-        controllers=controllers(report.found),
-        snippets=snippets(report.found),
+    return (
+        templates()
+        .get_template("page.html.jinja")
+        .render(
+            title=report.title,
+            found=report.found,
+            per=report.per,
+            preset=report.preset.name,
+            gains=gains(report.found),
+            measures=measures(report.found),
+            grave=_messages(report.found.doubts, grave=True),
+            doubts=_messages(report.found.doubts, grave=False),
+            notes=report.notes,
+            overview=Markup(numbers(report.runs, per=report.per).html),  # noqa: S704 - it escapes
+            runs=[(run.run.test, _html(followed(run, per=report.per))) for run in report.runs],
+            steps=_html(steps(report.tried, per=report.per)) if report.tried else None,
+            tried=[(trial.whose, trial.loop, trial.verdict.words) for trial in report.tried],
+            controllers=controllers(report.found),
+            snippets=snippets(report.found),
+        )
     )
 
 
