@@ -57,17 +57,17 @@ class GapMap:
         """All of them."""
         return (self.by_run, self.by_speed, self.by_position, self.after_steps, self.at_rest)
 
-    def places(self, most: int) -> tuple[Place, ...]:
+    def places(self, most: int, *, signal: str = "") -> tuple[Place, ...]:
         """Where it is beyond doubt that they disagree, the surest first; empty if nowhere is.
 
         Args:
             most: so many at most, and of one kind only two.
+            signal: ``position`` or ``velocity``; empty looks at both.
         """
-        kept = [
-            place
-            for cells in self.maps
-            for place in sorted(cells.places(), key=lambda one: -one.sure)[:OF_A_KIND]
-        ]
+        kept = []
+        for cells in self.maps:
+            mine = [one for one in cells.places() if signal in {"", one.signal}]
+            kept += sorted(mine, key=lambda one: -one.sure)[:OF_A_KIND]
         return tuple(sorted(kept, key=lambda one: -one.sure)[:most])
 
 

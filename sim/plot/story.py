@@ -1,0 +1,40 @@
+"""A story in pictures and a table: what ``Story.plot_gap()`` and its like return."""
+
+from sim.plot.story_bars import lineup, shrinking
+from sim.plot.story_gap import gaps
+from sim.plot.story_runs import overlay
+from sim.plot.table import Table
+from sim.reconcile.story import Story
+from sim.telling import in_floors, measured
+from sim.units import unit
+
+__all__ = ["findings", "gaps", "lineup", "overlay", "shrinking"]
+
+
+def findings(story: Story) -> Table:
+    """What was found, one row each: name, size, parameters with errors, the gap it changes."""
+    rows = []
+    for one in story.findings:
+        parameters = "; ".join(
+            f"{name} {value} ± {error} {estimate.unit}".rstrip(" 1")
+            if error[0].isdigit()
+            else f"{name} {value} {estimate.unit} ({error})"
+            for name, estimate in one.parameters.items()
+            for value, error in [measured(estimate)]
+        )
+        gap = f"{in_floors(one.gap_before, story)} to {in_floors(one.gap_after, story)}"
+        rivals = f" or {' or '.join(one.ambiguous_with)}" if one.ambiguous_with else ""
+        rows.append(
+            (
+                f"{one.effect}{rivals}",
+                "damage to the record" if one.kind == "fault" else one.size,
+                parameters or "-",
+                "-" if one.kind == "fault" else gap,
+            )
+        )
+    caption = (
+        f"Verdict: {story.verdict}. The noise is {story.noise_floor:.3g} "
+        f"{unit(story.shown.units).symbol}/s."
+    )
+    header = ("finding", "size", "parameters", "gap [times the noise]")
+    return Table(header, tuple(rows) or (("nothing", "-", "-", "-"),), caption)

@@ -1,0 +1,130 @@
+"""A story's bars: the suspects of a round, and the gap that shrinks."""
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from sim.errors import BadRequest
+from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
+from sim.plot.table import Table, shown
+from sim.reconcile.story import Story, Tried
+from sim.units import unit
+
+BARS = 10  # suspects that are drawn: the others explain nothing
+TAKEN, PASSED, REFUSED = "taken", "also possible", "not admitted"
+LOOKS = {TAKEN: (COLORS[0], ""), PASSED: (COLORS[4], ".."), REFUSED: ("#CCCCCC", "///")}
+
+
+def lineup(story: Story, chapter: int = 0) -> Picture:
+    """What was tried on top of a chapter's model, and what it would have explained.
+
+    Args:
+        story: what was found.
+        chapter: number of the chapter.
+
+    Raises:
+        BadRequest: no such chapter, or nothing was tried there.
+    """
+    count = len(story.chapters)
+    if not -count <= chapter < count:
+        raise BadRequest(f"no chapter {chapter}", advice=f"Choose one of 0 to {count - 1}.")
+    tried = story.chapters[chapter].tried
+    if not tried:
+        raise BadRequest("nothing was tried there", advice="Choose an earlier chapter.")
+    taken = next_of(story, chapter)
+    drawn = tried[:BARS]
+    figure, ((axes,),) = panels(1, 1, height=0.9 + 0.3 * len(drawn))
+    most = max((max(one.score, 0.0) for one in drawn), default=0.0) or 1.0
+    seen: set[str] = set()
+    for place, one in enumerate(drawn):
+        kind = kind_of(one, taken)
+        color, hatch = LOOKS[kind]
+        axes.barh(
+            place, max(one.score, 0.0), color=color, hatch=hatch, edgecolor=INK, linewidth=0.6,
+            height=0.7, label=kind if kind not in seen else None,
+        )  # fmt: skip
+        seen.add(kind)
+        _beside(axes, max(one.score, 0.0), place, f"{one.score:.0f}".replace("-", "−"))
+    axes.set_yticks(range(len(drawn)), [one.effect for one in drawn])
+    axes.set_ylim(len(drawn) - 0.4, -0.6)
+    axes.set_xlim(0.0, 1.15 * most)
+    axes.set_xlabel("how much likelier the model becomes with it [of −2 log L]", color=INK)
+    axes.grid(visible=False, axis="y")
+    axes.set_axisbelow(True)
+    axes.legend(fontsize=8, labelcolor=INK, loc="lower right")
+    told = ". ".join(f"{one.effect} {one.score:.0f}, {_why(one, taken)}" for one in drawn)
+    alt = f"Bars show what each suspect explains, the likeliest first: {told}."
+    return Picture(figure, alt.replace(" -", " −"), suspects_table(story, chapter))
+
+
+def suspects_table(story: Story, chapter: int) -> Table:
+    """The same in numbers, all of them."""
+    taken = next_of(story, chapter)
+    rows = tuple(
+        (one.effect, f"{one.score:.0f}".replace("-", "−"), shown(one.gap), _why(one, taken))
+        for one in story.chapters[chapter].tried
+    )
+    header = ("suspect", "likelier by", "gap becomes, times", "and so")
+    return Table(header, rows)
+
+
+def next_of(story: Story, chapter: int) -> str:
+    """The effect that was taken on top of a chapter's model; empty if none was."""
+    chapter %= len(story.chapters)
+    return story.chapters[chapter + 1].added if chapter + 1 < len(story.chapters) else ""
+
+
+def kind_of(one: Tried, taken: str) -> str:
+    """Whether a suspect was taken, could have been, or could not."""
+    if one.effect == taken:
+        return TAKEN
+    return PASSED if one.admitted else REFUSED
+
+
+def _why(one: Tried, taken: str) -> str:
+    kind = kind_of(one, taken)
+    return f"{kind}: {one.why}" if kind == REFUSED and one.why else kind
+
+
+def shrinking(story: Story) -> Picture:
+    """The gap on the shown log, chapter by chapter, in noise floors."""
+    names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
+    floor = story.noise_floor if story.noise_floor > 0.0 else 1.0
+    gaps = [one.gap / floor for one in story.chapters]
+    finite = [gap for gap in gaps if np.isfinite(gap)] or [1.0]
+    figure, ((axes,),) = panels(1, 1, height=1.1 + 0.42 * len(gaps))
+    for place, gap in enumerate(gaps):
+        length = min(gap, 1.5 * max(finite)) if np.isfinite(gap) else 1.5 * max(finite)
+        axes.barh(place, length, color=COLORS[0] if place else COLORS[1], height=0.6,
+                  hatch="" if place else "///", edgecolor=PAPER)  # fmt: skip
+        _beside(axes, length, place, shown(gap) if np.isfinite(gap) else "ran away")
+    axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2)
+    axes.annotate(
+        "the noise: no model comes below", (1.0, -0.55), xytext=(4, 0),
+        textcoords="offset points", fontsize=8, color=INK, va="center",
+    )  # fmt: skip
+    axes.set_yticks(range(len(gaps)), names)
+    axes.set_ylim(len(gaps) - 0.5, -0.85)
+    axes.set_xlim(0.0, 1.15 * max([*finite, 1.6]))
+    axes.set_xlabel("RMS velocity error of the simulation [times the noise]", color=INK)
+    axes.grid(visible=False, axis="y")
+    axes.set_axisbelow(True)
+    sizes = [shown(gap) if np.isfinite(gap) else "ran away" for gap in gaps]
+    told = list(zip(names, sizes, strict=True))
+    alt = "Bars show how far the simulation is off, in times the noise: " + ", ".join(
+        f"{name} {gap}" for name, gap in told
+    )
+    symbol = unit(story.shown.units).symbol
+    rows = tuple(
+        (name, shown(one.gap) if np.isfinite(one.gap) else "ran away", gap)
+        for one, (name, gap) in zip(story.chapters, told, strict=True)
+    )
+    return Picture(
+        figure, f"{alt}. A dashed line marks the noise, 1.",
+        Table(("model", f"gap [{symbol}/s]", "times the noise"), rows),
+    )  # fmt: skip
+
+
+def _beside(axes: Axes, x: float, y: float, text: str) -> None:
+    axes.annotate(
+        text, (x, y), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8, color=INK
+    )

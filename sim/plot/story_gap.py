@@ -1,0 +1,198 @@
+"""Where simulation and measurement disagree, as maps: one shade for slower, another for faster."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Rectangle
+
+from sim.errors import BadRequest
+from sim.fit.seen import noise, see
+from sim.gap import Cells, GapMap, Residuals, gap_map
+from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
+from sim.log import Array
+from sim.plot.picture import INK, PAPER, Picture
+from sim.plot.story_runs import FEWEST, Shown, shown_runs
+from sim.plot.table import Table
+from sim.reconcile.story import Story
+from sim.units import Unit, unit
+
+VELOCITY = 1  # of the two signals
+MOST_RUNS = 12  # rows of the first map
+LOUD = 20.0  # [noises] at which a shade is full; the scale is logarithmic beyond one noise
+TICKS = (-20, -5, -1, 0, 1, 5, 20)
+TOLD = 5  # places in words
+WIDE, ROW, SPARE = 8.4, 0.27, 0.72  # [in] of the picture, of a row, and around each map
+# Blue for slower, orange for faster: Okabe and Ito's, pale enough for dark numbers on top.
+SHADES = LinearSegmentedColormap.from_list("gap", ["#4C9BD1", PAPER, "#F08A4B"])
+NOWHERE = "#E9E9E9"  # no samples
+TITLES = {
+    RUN: "run by run, from its beginning to its end",
+    SPEED: "by speed",
+    POSITION: "by position",
+    STEPS: "after the voltage jumps (faster: it answers too much)",
+    REST: "where the model rests",
+}
+
+
+def gaps(story: Story) -> Picture:
+    """Where the base model disagrees with the shown log, and what is left of that at the end.
+
+    Raises:
+        BadRequest: there is nothing to compare.
+    """
+    runs = shown_runs(story, 0, len(story.chapters) - 1)
+    found = [_map(story, runs, after=False)]
+    titles = ["base model"]
+    if len(story.chapters) > 1:
+        found.append(_map(story, runs, after=True))
+        titles.append("with " + ", ".join(one.added for one in story.chapters[1:]))
+    per = unit(story.shown.units)
+    return Picture(_draw(found, titles, per=per), _words(found, titles), _numbers(found, titles))
+
+
+def _map(story: Story, runs: Sequence[Shown], *, after: bool) -> GapMap:
+    """What a model leaves of the shown runs, in noises of the samples."""
+    log = replace(story.shown, runs=tuple(r for r in story.shown.runs if len(r) >= FEWEST))
+    sizes = noise(see(log, friction=None))
+    left = []
+    for one in runs:
+        track = one.after if after else one.before
+        left.append(
+            Residuals(
+                one.run.test, one.run.time, one.run.voltage, np.nan_to_num(track), one.missed(track)
+            )
+        )
+    floor = story.noise_floor * unit(story.shown.units).si
+    if not floor > 0.0:
+        raise BadRequest("the noise is not known", advice="Give runs in which it moves.")
+    return gap_map(left, noise=replace(sizes, velocity=floor))
+
+
+def _draw(found: Sequence[GapMap], titles: Sequence[str], *, per: Unit) -> Figure:
+    first = found[0]
+    kinds = [number for number, cells in enumerate(first.maps) if np.isfinite(cells.mean).any()]
+    rows = [min(len(first.maps[number].rows), MOST_RUNS) for number in kinds]
+    height = sum(rows) * ROW + SPARE * len(rows) + 1.3
+    figure = Figure(figsize=(WIDE, height), layout="constrained", facecolor=PAPER)
+    grid = figure.subplots(
+        len(kinds), len(found), squeeze=False,
+        gridspec_kw={"height_ratios": [count * ROW + 0.3 for count in rows]},
+    )  # fmt: skip
+    for line, number in enumerate(kinds):
+        for column, one in enumerate(found):
+            cells = one.maps[number]
+            _heat(grid[line, column], cells, per=per, named=column == 0)
+            grid[line, column].set_title(TITLES[cells.what], fontsize=8, color=INK, loc="left")
+    _heads(figure, grid, titles)
+    return figure
+
+
+def _heads(figure: Figure, grid: "np.ndarray[tuple[int, int], np.dtype[np.object_]]",
+           titles: Sequence[str]) -> None:  # fmt: skip
+    """What each column is, and what shades mean."""
+    for column, title in enumerate(titles):
+        text = f"{title}\n{grid[0, column].get_title(loc='left')}"
+        grid[0, column].set_title(text, fontsize=8, color=INK, loc="left")
+    full = float(_shade(np.array(LOUD)))
+    bar = figure.colorbar(
+        ScalarMappable(Normalize(-full, full), SHADES), ax=grid.ravel().tolist(), location="bottom",
+        shrink=0.7, aspect=40, ticks=[float(_shade(np.array(float(tick)))) for tick in TICKS],
+    )  # fmt: skip
+    bar.ax.set_xticklabels([f"{tick:+d}".replace("-", "−") if tick else "0" for tick in TICKS])
+    bar.ax.tick_params(labelsize=8, colors=INK)
+    bar.set_label(
+        "the robot is slower (−) or faster (+) than the simulation, in noises of the velocity;\n"
+        "a number stands where it is more than the noise",
+        fontsize=8, color=INK,
+    )  # fmt: skip
+    figure.legend(
+        handles=[Patch(facecolor=NOWHERE, edgecolor="#AAAAAA", hatch="///", label="no samples")],
+        loc="outside lower right", fontsize=8, frameon=False, labelcolor=INK,
+    )  # fmt: skip
+
+
+def _heat(axes: Axes, cells: Cells, *, per: Unit, named: bool) -> None:
+    mean = cells.mean[VELOCITY][:MOST_RUNS]
+    loud = np.abs(np.nan_to_num(mean)) >= 1.0
+    full = float(_shade(np.array(LOUD)))
+    axes.set_facecolor(NOWHERE)
+    rows, columns = mean.shape
+    axes.add_patch(_nothing(columns, rows))
+    axes.imshow(
+        _shade(mean), cmap=SHADES, vmin=-full, vmax=full, aspect="auto", interpolation="nearest",
+        zorder=2,
+    )  # fmt: skip
+    for row, column in zip(*np.nonzero(loud), strict=True):
+        text = _whole(float(mean[row, column]))
+        axes.text(column, row, text, ha="center", va="center", fontsize=6, color=INK, zorder=3)
+    axes.set_yticks(range(rows), cells.rows[:MOST_RUNS] if named else [""] * rows)
+    axes.tick_params(labelsize=7, colors=INK, length=2)
+    axes.set_xticks(*_ticks(cells, per=per))
+    axes.spines[:].set_color("#AAAAAA")
+
+
+def _nothing(columns: int, rows: int) -> Patch:
+    """The ground that shows where no cell is."""
+    return Rectangle(
+        (-0.5, -0.5), columns, rows, facecolor=NOWHERE, edgecolor="#AAAAAA", hatch="///",
+        linewidth=0, zorder=1,
+    )  # fmt: skip
+
+
+def _ticks(cells: Cells, *, per: Unit) -> tuple[list[float], list[str]]:
+    """Where the edges of columns are, in the owner's unit."""
+    count = cells.edges.shape[1]
+    if cells.what == RUN:
+        return [-0.5, count / 2.0 - 1.0, count - 1.5], ["begins", "", "ends"]
+    some = range(0, count, 2 if count > 8 else 1)  # noqa: PLR2004 - more labels would touch
+    units = {SPEED: f"{per.symbol}/s", POSITION: per.symbol, STEPS: "s", REST: "V"}
+    scale = per.si if cells.what in {SPEED, POSITION} else 1.0
+    values = cells.edges[0] / scale
+    digits = max(1 - math.floor(math.log10(float(np.ptp(values)) / count or 1.0)), 0)
+    labels = [f"{values[edge]:.{min(digits, 4)}f}".replace("-", "−") for edge in some]
+    labels[-1] += f" {units[cells.what]}"
+    return [edge - 0.5 for edge in some], labels
+
+
+def _shade(mean: Array) -> Array:
+    """Shades that tell one noise from five, and five from twenty."""
+    return np.asarray(np.arcsinh(mean))
+
+
+def _whole(value: float) -> str:
+    text = f"{value:+.0f}" if abs(value) >= 1.0 else f"{value:+.1f}"
+    return text.replace("-", "−")
+
+
+def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
+    first = (
+        "Maps of where the robot is slower or faster than the simulation: run by run, by speed, by "
+        "position, after the voltage jumps, and where the model rests."
+    )
+    said = [first]
+    for one, title in zip(found, titles, strict=True):
+        places = one.places(TOLD, signal="velocity")
+        if places:
+            said.append(f"{title}: " + "; ".join(place.sentence for place in places) + ".")
+        else:
+            said.append(f"{title}: nowhere beyond doubt.")
+    again = [f"{pair.test}, repeated: what is left {pair.verdict}" for pair in found[0].repeats]
+    return " ".join(said + [". ".join(again) + "."] * bool(again))
+
+
+def _numbers(found: Sequence[GapMap], titles: Sequence[str]) -> Table:
+    rows = [
+        (title, place.where, f"{place.error:+.2g}".replace("-", "−"), f"{place.sure:.0f}")
+        for one, title in zip(found, titles, strict=True)
+        for place in one.places(TOLD, signal="velocity")
+    ]
+    if not rows:
+        rows = [(titles[-1], "nowhere beyond doubt", "", "")]
+    header = ("model", "where", "off by [noises]", "how sure [standard errors]")
+    return Table(header, tuple(rows), "Where the velocity is off: above 0 the robot is faster")
