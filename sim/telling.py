@@ -30,11 +30,18 @@ def headline(story: Story) -> str:
     if story.verdict == NOTHING_MISSING or not (majors or faults):
         return _nothing(story)
     if not majors:
-        return f"The record is damaged ({_listed(faults)}), and beside that nothing big is missing."
+        rest = (
+            "something remains that nothing explains"
+            if story.remainder
+            else "nothing big is missing"
+        )
+        return f"The record is damaged ({_listed(faults)}), and beside that {rest}."
     verb = "are" if len(majors) > 1 else "is"
     missing = _listed([_either(one) for one in story.findings if one.effect in majors])
     doubt = ", and these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
-    return f"Missing in the model {verb} {missing}{doubt}: {_gap(story)}."
+    also = f"; the record is damaged too ({_listed(faults)})" if faults else ""
+    more = "; and something remains that nothing explains" if story.remainder else ""
+    return f"Missing in the model {verb} {missing}{doubt}: {_gap(story)}{also}{more}."
 
 
 def effects_of(story: Story, size: str) -> list[str]:
@@ -62,6 +69,12 @@ def in_floors(gap: float, story: Story) -> str:
 def what_it_is(effect: str) -> str:
     """An effect or a fault in a few plain words; empty where none are known."""
     return EFFECTS[effect].summary if effect in EFFECTS else ""
+
+
+def meaning(effect: str, parameter: str) -> str:
+    """What a parameter of an effect means; empty where nobody knows."""
+    known = EFFECTS[effect].parameters if effect in EFFECTS else ()
+    return next((one.what for one in known if one.name == parameter), "")
 
 
 def measured(one: Estimate) -> tuple[str, str]:
@@ -109,20 +122,21 @@ def _off(story: Story) -> str:
 
 def _gap(story: Story) -> str:
     before, after = (in_floors(gap, story) for gap in (story.gap_before, story.gap_after))
+    with_ = "with all that was found" if len(story.chapters) > 2 else "with it"  # noqa: PLR2004 - a base and one effect
     if len(story.chapters) == 1:
         return _off(story)
     if shrinks(story.gap_before, story.gap_after):
-        return f"with it the gap shrinks from {before} to {after} times the noise of the velocity"
+        return f"{with_} the gap shrinks from {before} to {after} times the noise of the velocity"
     return (
-        f"with it the gap does not shrink, {before} before and {after} times the noise of the "
+        f"{with_} the gap does not shrink, {before} before and {after} times the noise of the "
         "velocity after"
     )
 
 
 def _either(one: Finding) -> str:
     """A finding with its look-alikes, and what the first is."""
-    is_ = what_it_is(one.effect)
-    told = f"{one.effect} ({is_})" if is_ else one.effect
+    short = what_it_is(one.effect).partition(" (")[0]
+    told = f"{one.effect} ({short})" if short else one.effect
     return _listed([told, *one.ambiguous_with], word="or")
 
 

@@ -1,8 +1,10 @@
 """``sysid reconcile``."""
 
 import json
+from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -10,15 +12,37 @@ from sim.cli.options import FILE, as_json, read_together, reading
 from sim.command import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from contextlib import AbstractContextManager
+
     from sim.log import Log
-    from sim.reconcile import Damaged
+    from sim.reconcile import Damaged, Story
+
+UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
+
+
+def holding(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options that say what is held against the model, and what is written."""
+    options = (
+        click.option(
+            "--validation", type=FILE, help="Other runs: what they do not confirm is not named."
+        ),
+        click.option(
+            "--held-out", type=FILE, help="More runs, on which the gap is shown and nothing else."
+        ),
+        click.option(
+            "--travel", type=float, help="From stop to stop, in the log's units, if known."
+        ),
+        click.option("--html", type=FILE, help="Write a page with every figure and number."),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
 
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=FILE)
-@click.option("--validation", type=FILE, help="Other runs, by which an effect is admitted.")
-@click.option("--held-out", type=FILE, help="Runs on which the gap is only shown.")
-@click.option("--travel", type=float, help="From stop to stop, in the log's units.")
+@holding
 @reading
 @as_json
 def reconcile(  # noqa: PLR0917 - click passes options by name
@@ -26,37 +50,89 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     validation: Path | None,
     held_out: Path | None,
     travel: float | None,
+    html: Path | None,
     type_: str | None,
     units: str | None,
     motor: str | None,
     as_json: bool,  # noqa: FBT001 - click passes it by name
     **entries: str | None,
 ) -> int:
-    """Find where logs disagree with their model, and name what the model lacks."""
-    from sim.reconcile import reconcile as solve  # noqa: PLC0415 - as all here: --help must not wait
+    """Find where logs disagree with their model, name what the model lacks, show the gap shrink.
 
-    def one(file: Path | None) -> "Log | None":
-        if file is None:
-            return None
-        return read_together((file,), units=units, type=type_, motor=motor, entries=entries)
+    FILES hold the four tests of one mechanism. What is named is admitted only if it predicts the
+    validation's runs better; without one, each run is predicted by the others.
 
-    log = read_together(files, units=units, type=type_, motor=motor, entries=entries)
-    logs = {"log": log, "validation": one(validation), "held_out": one(held_out)}
-    story = solve(
-        log, validation=logs["validation"], held_out=logs["held_out"],
-        type=type_ or log.type or "simple", travel=travel,
-        damages={name: damages(some) for name, some in logs.items() if some is not None},
-    )  # fmt: skip
+    For example: sysid reconcile arm.wpilog --validation faster.wpilog --html arm.html
+
+    Exit code 0 means that nothing is missing, or that what is missing was named; 1 that something
+    remains unexplained or ambiguous.
+    """
+    if html is not None:
+        from sim.report.written import page_at  # noqa: PLC0415 - draws, as all of its folder
+
+        page_at(html)  # a wrong name is told before the work, not after
+
+    def read(*some: Path) -> "Log":
+        return read_together(some, units=units, type=type_, motor=motor, entries=entries)
+
+    logs = {"log": read(*files)}
+    logs |= {
+        name: read(file)
+        for name, file in (("validation", validation), ("held_out", held_out))
+        if file is not None
+    }
+    with _watched(seen=not as_json) as progress:
+        story = _solved(logs, type_=type_, travel=travel, progress=progress)
+    if html is not None:
+        from sim.report.story import write_story  # noqa: PLC0415 - draws
+
+        names = ", ".join(file.name for file in files)  # a page travels; folders are private
+        write_story(story, html, title=names)
     if as_json:
         click.echo(json.dumps(story.to_json(), allow_nan=False))
     else:
-        click.echo(story.verdict)
-    return NOT_RIGHT if story.verdict in {"unexplained", "ambiguous"} else DONE
+        from sim.storyteller import show_story  # noqa: PLC0415 - only for people
+
+        show_story(story, title=", ".join(map(str, files)))
+    return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
+
+
+def _watched(*, seen: bool) -> "AbstractContextManager[Callable[[str, float], None]]":
+    """A progress bar for people; other programs do not wait for it to load."""
+    if not seen:
+        return nullcontext(lambda _, __: None)
+    from sim.storyteller import progress_bar  # noqa: PLC0415 - only for people
+
+    return progress_bar()
+
+
+def _solved(
+    logs: "Mapping[str, Log]", *, type_: str | None, travel: float | None,
+    progress: Callable[[str, float], None],
+) -> "Story":  # fmt: skip
+    """The story of these logs, what an inspection found of each told to the solver."""
+    from sim.reconcile import reconcile as solve  # noqa: PLC0415 - --help must not wait for it
+
+    progress("looking for damage", 0.0)
+    log = logs["log"]
+    return solve(
+        log,
+        validation=logs.get("validation"),
+        held_out=logs.get("held_out"),
+        type=type_ or log.type or "simple",
+        travel=travel,
+        damages={name: damages(some) for name, some in logs.items()},
+        progress=progress,
+    )
 
 
 def damages(log: "Log") -> "tuple[Damaged, ...]":
-    """What an inspection finds, in words that the solver understands."""
-    from sim.inspection import inspect  # noqa: PLC0415 - as above
+    """What an inspection finds, in words that the solver understands.
+
+    Args:
+        log: any.
+    """
+    from sim.inspection import inspect  # noqa: PLC0415 - --help must not wait for it
     from sim.reconcile import Damaged  # noqa: PLC0415
 
     return tuple(

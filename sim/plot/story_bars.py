@@ -43,7 +43,7 @@ def lineup(story: Story, chapter: int = 0) -> Picture:
             height=0.7, label=kind if kind not in seen else None,
         )  # fmt: skip
         seen.add(kind)
-        _beside(axes, max(one.score, 0.0), place, f"{one.score:.0f}".replace("-", "−"))
+        _beside(axes, max(one.score, 0.0), place, _points(one.score))
     axes.set_yticks(range(len(drawn)), [one.effect for one in drawn])
     axes.set_ylim(len(drawn) - 0.4, -0.6)
     axes.set_xlim(0.0, 1.15 * most)
@@ -51,16 +51,16 @@ def lineup(story: Story, chapter: int = 0) -> Picture:
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
     axes.legend(fontsize=8, labelcolor=INK, loc="lower right")
-    told = ". ".join(f"{one.effect} {one.score:.0f}, {_why(one, taken)}" for one in drawn)
+    told = ". ".join(f"{one.effect} {_points(one.score)}, {_why(one, taken)}" for one in drawn)
     alt = f"Bars show what each suspect explains, the likeliest first: {told}."
-    return Picture(figure, alt.replace(" -", " −"), suspects_table(story, chapter))
+    return Picture(figure, alt, suspects_table(story, chapter))
 
 
 def suspects_table(story: Story, chapter: int) -> Table:
     """The same in numbers, all of them."""
     taken = next_of(story, chapter)
     rows = tuple(
-        (one.effect, f"{one.score:.0f}".replace("-", "−"), shown(one.gap), _why(one, taken))
+        (one.effect, _points(one.score), shown(one.gap), _why(one, taken))
         for one in story.chapters[chapter].tried
     )
     header = ("suspect", "likelier by", "gap becomes, times", "and so")
@@ -83,6 +83,11 @@ def kind_of(one: Tried, taken: str) -> str:
 def _why(one: Tried, taken: str) -> str:
     kind = kind_of(one, taken)
     return f"{kind}: {one.why}" if kind == REFUSED and one.why else kind
+
+
+def _points(score: float) -> str:
+    """A score without digits that mean nothing."""
+    return f"{round(score)}".replace("-", "−") if np.isfinite(score) else "not known"
 
 
 def shrinking(story: Story) -> Picture:

@@ -53,7 +53,7 @@ def gaps(story: Story) -> Picture:
         found.append(_map(story, runs, after=True))
         titles.append("with " + ", ".join(one.added for one in story.chapters[1:]))
     per = unit(story.shown.units)
-    return Picture(_draw(found, titles, per=per), _words(found, titles), _numbers(found, titles))
+    return Picture(_draw(found, titles, per=per), _words(found, titles), _numbers(found))
 
 
 def _map(story: Story, runs: Sequence[Shown], *, after: bool) -> GapMap:
@@ -186,13 +186,13 @@ def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
     return " ".join(said + [". ".join(again) + "."] * bool(again))
 
 
-def _numbers(found: Sequence[GapMap], titles: Sequence[str]) -> Table:
+def _numbers(found: Sequence[GapMap]) -> Table:
     rows = [
-        (title, place.where, f"{place.error:+.2g}".replace("-", "−"), f"{place.sure:.0f}")
-        for one, title in zip(found, titles, strict=True)
+        (place.where, f"{place.error:+.2g}".replace("-", "−"), f"{place.sure:.0f}", title)
+        for one, title in zip(found, ("base", "last"), strict=False)
         for place in one.places(TOLD, signal="velocity")
     ]
     if not rows:
-        rows = [(titles[-1], "nowhere beyond doubt", "", "")]
-    header = ("model", "where", "off by [noises]", "how sure [standard errors]")
+        rows = [("nowhere beyond doubt", "", "", "any")]
+    header = ("where", "off by [noises]", "how sure [standard errors]", "model")
     return Table(header, tuple(rows), "Where the velocity is off: above 0 the robot is faster")

@@ -1,0 +1,139 @@
+"""A story on one page: verdict, findings, where simulation and log disagree, before and after.
+
+write_story(story, "arm.html", title="arm.wpilog")
+"""
+
+import os
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from sim.plot.picture import Picture
+from sim.plot.story import findings, gaps, lineup, overlay, shrinking
+from sim.plot.story_bars import suspects_table
+from sim.plot.table import Table
+from sim.reconcile.story import AMBIGUOUS, UNEXPLAINED, Finding, Story
+from sim.report.written import page_at, templates, write_whole
+from sim.telling import (
+    FAULT,
+    beside,
+    headline,
+    in_floors,
+    meaning,
+    measured,
+    next_tests,
+    what_it_is,
+)
+from sim.units import unit
+
+
+@dataclass(frozen=True)
+class Told:
+    """A finding, as text.
+
+    Args:
+        name: with its look-alikes.
+        summary: what it is, in a few words.
+        size: ``major``, ``minor`` or ``damage to the record``.
+        sentence: what it does.
+        parameters: name, value, error, unit, what it means.
+        gap: from where to where it brings the gap; empty for damage.
+        inspect: what to look at on the robot.
+        separating_test: which test tells it from its look-alikes.
+    """
+
+    name: str
+    summary: str
+    size: str
+    sentence: str
+    parameters: tuple[tuple[str, str, str, str, str], ...]
+    gap: str
+    inspect: str
+    separating_test: str
+
+
+def write_story(story: Story, path: str | os.PathLike[str], *, title: str) -> None:
+    """Write the page, whole or not at all.
+
+    Args:
+        story: what was found.
+        path: of the page.
+        title: where the log came from.
+
+    Raises:
+        BadRequest: its name does not end as a page's, or it cannot be written.
+    """
+    target = page_at(path)
+    write_whole(story_page(story, title=title), target)
+
+
+def story_page(story: Story, *, title: str) -> str:
+    """The page as text; the same story always gives the same.
+
+    Args:
+        story: what was found.
+        title: where the log came from.
+    """
+    last = len(story.chapters) - 1
+    tried = [number for number, chapter in enumerate(story.chapters) if chapter.tried]
+    told = range(1, last + 1) or (0,)  # the base alone has no before
+    return (
+        templates()
+        .get_template("story.html.jinja")
+        .render(
+            title=title,
+            story=story,
+            per=unit(story.shown.units),
+            headline=headline(story),
+            unsure=story.remainder or story.verdict in {AMBIGUOUS, UNEXPLAINED},
+            beside=beside(story),
+            findings=[_told(one, story) for one in story.findings],
+            overview=_html(findings(story)),
+            tests=next_tests(story),
+            shrinking=_html(shrinking(story)),
+            places=[(place.sentence, f"{place.sure:.0f}") for place in story.where],
+            gaps=_html(gaps(story)),
+            rounds=[(_base(story, n), _lineup(story, n)) for n in tried],
+            overlays=[(_base(story, n), _html(overlay(story, n))) for n in told],
+        )
+    )  # fmt: skip
+
+
+def _lineup(story: Story, chapter: int) -> Markup:
+    """The suspects of a round; where none explains anything, bars would show nothing."""
+    if max(one.score for one in story.chapters[chapter].tried) < 1.0:
+        return _html(suspects_table(story, chapter))
+    return _html(lineup(story, chapter))
+
+
+def _base(story: Story, chapter: int) -> str:
+    """What a chapter's model is called."""
+    added = [one.added for one in story.chapters[1 : chapter + 1]]
+    return " + ".join(["base model", *added])
+
+
+def _told(one: Finding, story: Story) -> Told:
+    fault = one.kind == FAULT
+    before, after = (in_floors(gap, story) for gap in (one.gap_before, one.gap_after))
+    return Told(
+        " or ".join([one.effect, *one.ambiguous_with]),
+        what_it_is(one.effect),
+        "damage to the record" if fault else one.size,
+        one.sentence,
+        tuple(
+            (
+                name,
+                *measured(estimate),
+                "" if estimate.unit == "1" else estimate.unit,
+                meaning(one.effect, name),
+            )
+            for name, estimate in one.parameters.items()
+        ),
+        "" if fault else f"from {before} to {after} times the noise",
+        one.inspect,
+        one.separating_test,
+    )
+
+
+def _html(shown: Picture | Table) -> Markup:
+    return Markup(shown.html)  # noqa: S704 - both escape what they say
