@@ -16,9 +16,11 @@ from sim.reconcile.problem import Point, Problem
 FIRST_DAMPING, TRIES = 1e-3, 5
 SOFTER = 4.0  # [1] steps of q
 LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which q is none
-SCANNED = (-12, -9, -6, -4, -2, 2, 4, 6)  # powers of it
+SCANNED = (-12, -9, -6, -4, -2)  # powers of it: what pushes is first thought too large
+SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size that are worth another look
+SURELY_MORE = 10.0  # [of -2 log L]
 ROUNDS, STEPS = 3, 8
-ENOUGH = 0.3  # [of -2 log L] a step that gains less ends the search
+ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
 
 
 def settle(problem: Problem, point: Point) -> Point:
@@ -71,6 +73,9 @@ def promise(
 ) -> list[tuple[float, Point]]:  # fmt: skip
     """What each start of a suspect may gain once the gains have adjusted to it, and its point.
 
+    A start that goes too far is tried again at the part of it that would gain most, if what it does
+    were proportional to its size.
+
     Args:
         problem: the measurements.
         point: the best without the suspect.
@@ -79,17 +84,41 @@ def promise(
         kept: (2 n, k) of ``adjusting`` at that point.
     """
 
-    def left(ahead: Array) -> float:
+    def off(ahead: Array) -> Array:
         rest = problem.white(point, ahead)
-        return float(rest @ rest - np.sum((kept.T @ rest) ** 2))
+        return np.asarray(rest - kept @ (kept.T @ rest))
 
-    now = left(point.ahead)
+    def tried(one: Mapping[str, float]) -> Point:
+        return problem.at(hypothesis, {**point.values, **one}, point.starts, point.q)
+
+    now = off(point.ahead)
+    square = float(now @ now)
     found = []
     for one in more:
-        other = problem.at(hypothesis, {**point.values, **one}, point.starts, point.q)
-        if math.isfinite(other.cost):
-            found.append((now - left(other.ahead), other))
+        other = tried(one)
+        if not math.isfinite(other.cost):
+            continue
+        after = off(other.ahead)
+        gained = square - float(after @ after)
+        change = after - now
+        along = float(change @ change)
+        part = -float(change @ now) / along if along > 0.0 else 0.0
+        found.append((gained, other))
+        if SMALL_PART < part < LARGE_PART and part**2 * along > gained + SURELY_MORE:
+            less = tried(_smaller(hypothesis, one, part))
+            if math.isfinite(less.cost):
+                after = off(less.ahead)
+                found.append((square - float(after @ after), less))
     return found
+
+
+def _smaller(hypothesis: Hypothesis, one: Mapping[str, float], part: float) -> dict[str, float]:
+    """A start at a part of its size: of the parameters that are nothing where it is not there."""
+    known = hypothesis.parameters
+    return {
+        name: value * part if known[name].neutral == 0.0 and known[name].searched else value
+        for name, value in one.items()
+    }
 
 
 def adjusting(problem: Problem, point: Point) -> Array:

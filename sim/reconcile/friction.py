@@ -18,6 +18,7 @@ from sim.reconcile.problem import Point, Problem
 
 SHARES = (0.0, 0.005, 0.01, 0.02, 0.04, 0.08)
 """[of kS] τ that are tried: more than a tenth of the friction is no accident."""
+MOST_VARIED = SHARES[-1]
 LEAST_KS = 0.05  # [V] of which they are shares where kS is less
 
 

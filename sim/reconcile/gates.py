@@ -2,12 +2,15 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.engine import NO_TRUST
 from sim.log import Array
 from sim.reconcile.descent import better
+from sim.reconcile.friction import LEAST_KS, MOST_VARIED
 from sim.reconcile.problem import Point, Problem
 
 REFIT = 4  # steps
@@ -67,17 +70,54 @@ def outside(problem: Problem, point: Point, parts: Sequence[Fold]) -> Gap:
         begin = fitted.at(point.hypothesis, point.values, point.starts[list(part.fitted)], point.q)
         found = better(fitted, begin, steps=REFIT)
         errors.append(
-            errors_of(_some(problem, part.predicted), found, point.starts[list(part.predicted)])
+            errors_of(
+                _some(problem, part.predicted),
+                found,
+                point.starts[list(part.predicted)],
+                eased=True,
+            )
         )
     return rms(np.concatenate(errors))
 
 
-def errors_of(problem: Problem, point: Point, starts: Array) -> Array:
-    """(n, 2) position and velocity, measured less simulated without correction, where it moves."""
-    model = point.hypothesis.model(point.values)
-    track = problem.track(model, starts, NO_TRUST)
+def errors_of(problem: Problem, point: Point, starts: Array, *, eased: bool = False) -> Array:
+    """(n, 2) position and velocity, measured less simulated without correction, where it moves.
+
+    Args:
+        problem: the runs.
+        point: values that are simulated.
+        starts: (runs,) [unit] beside the first samples.
+        eased: each run may have a friction of its own, as ``friction.py`` has it: what one run's
+            accident does to the gap says nothing about an effect.
+    """
+    track = problem.track(point.hypothesis.model(point.values), starts, NO_TRUST)
+    errors = problem.measured - track[:, [0, 3]]
     moves = problem.moving | ((track[:, 1] != 0.0) & problem.telling)
-    return np.asarray((problem.measured - track[:, [0, 3]])[moves])
+    if eased:
+        errors = _eased(problem, point, starts, track, moves)
+    return np.asarray(errors[moves])
+
+
+def _eased(
+    problem: Problem, point: Point, starts: Array, track: Array, moves: NDArray[np.bool_]
+) -> Array:
+    """The errors, less what the likeliest friction of each run's own makes of them."""
+    errors = problem.measured - track[:, [0, 3]]
+    most = MOST_VARIED * max(point.values["kS"], LEAST_KS)
+    values = {**point.values, "kS": point.values["kS"] + most}
+    more = problem.track(point.hypothesis.model(values), starts, NO_TRUST)
+    change = (track - more)[:, [0, 3]]  # of the errors, by so much friction
+    sizes = np.sqrt(np.nanmean(np.square(errors[moves]), axis=0)) + 1e-300
+    eased = errors.copy()
+    for first, last in pairwise(problem.edges.tolist()):
+        here = slice(first, last)
+        told = moves[here, None] & ~np.isnan(errors[here])
+        column = np.where(told, change[here] / sizes, 0.0).ravel()
+        rest = np.where(told, errors[here] / sizes, 0.0).ravel()
+        along = float(column @ column)
+        share = -float(column @ rest) / along if along > 0.0 else 0.0
+        eased[here] += min(max(share, -1.0), 1.0) * change[here]
+    return eased
 
 
 def rms(errors: Array) -> Gap:

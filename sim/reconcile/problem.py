@@ -153,11 +153,14 @@ class Problem:
         if not (values["kV"] > 0.0 and values["kA"] > 0.0):
             return nowhere
         model = hypothesis.model(values)
-        trust = trust_for(model, noise=self.noise, q=q, period=self.period)
-        ahead = self.ahead(model, starts, trust)
-        if not np.isfinite(ahead[self.telling]).any() or np.isinf(ahead).any():
+        with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
+            trust = trust_for(model, noise=self.noise, q=q, period=self.period)
+            ahead = self.ahead(model, starts, trust)
+            if not np.isfinite(ahead[self.telling]).any() or np.isinf(ahead).any():
+                return nowhere
+            cost = self._cost(ahead) + float(np.sum((starts / self.loose) ** 2))
+        if not math.isfinite(cost):
             return nowhere
-        cost = self._cost(ahead) + float(np.sum((starts / self.loose) ** 2))
         return Point(hypothesis, values, starts, q, trust, ahead, cost)
 
     # -- compare ---------------------------------------------------------------------------------
@@ -173,7 +176,7 @@ class Problem:
         xv = float(x @ v) / max(int(np.count_nonzero(first & second)), 1)
         xv = min(max(xv, -most), most)
         spread: Array = np.array([[xx, xv], [xv, vv]])
-        return spread + np.diag(np.square(self.noise.grain))
+        return np.asarray(spread + np.diag(np.square(self.noise.grain)))
 
     def _cost(self, ahead: Array) -> float:
         size = float(np.linalg.det(self.spread(ahead)))

@@ -11,8 +11,10 @@ from sim.reconcile.gates import Fold, Gap, outside
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.story import Tried
 from sim.reconcile.suspects import Suspect, judged, suspects
-from sim.reconcile.thresholds import CLOSE, MOST, NARROWER, NOT_WIDER, SIMPLER, SURE
+from sim.reconcile.thresholds import CLOSE, MOST, MOST_QUIET, NARROWER, NOT_WIDER, SIMPLER, SURE
 
+HARDLY = "hardly narrows the gap"
+ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
 Progress = Callable[[str, float], None]
 
 
@@ -26,6 +28,7 @@ class Round:
         before: the gap without that effect; the same for the base.
         rivals: effects that would have explained as much.
         tried: the suspects of the next round.
+        quiet: effects of the model that make the log likelier and hardly narrow the gap.
     """
 
     suspect: Suspect
@@ -33,6 +36,7 @@ class Round:
     before: Gap
     rivals: tuple[str, ...] = ()
     tried: tuple[Tried, ...] = ()
+    quiet: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,10 +67,76 @@ def rounds(
         done[-1] = replace(now, tried=tuple(one.tried for one in weighed))
         admitted = [one for one in weighed if one.tried.admitted]
         if not admitted:
-            break
+            quiet = [one for one in weighed if one.tried.why == HARDLY]
+            if not quiet or now.quiet >= MOST_QUIET:
+                break
+            best = quiet[0]
+            done[-1] = replace(
+                now, suspect=best.suspect, gap=best.gap, quiet=now.quiet + 1,
+                tried=done[-1].tried,
+            )  # fmt: skip
+            continue
         best = _simplest(admitted)
-        done.append(Round(best.suspect, best.gap, now.gap, _rivals(best, weighed)))
+        done.append(Round(best.suspect, best.gap, now.gap, _rivals(best, weighed), quiet=now.quiet))
+        if len(done) > 2:  # noqa: PLR2004 - two effects may have masked another
+            done = _reconsidered(problem, done, log, parts)
     return done
+
+
+def _reconsidered(
+    problem: Problem, done: list[Round], log: Log, parts: Sequence[Fold]
+) -> list[Round]:
+    """The same, with an earlier effect in another's place where that is likelier by now."""
+    last = done[-1]
+    for place in range(1, len(done) - 1):
+        effect = done[place].suspect.effect
+        others = _others(done, place)
+        if not others:
+            continue
+        reduced = without(problem, last.suspect, effect)
+        if reduced.score - last.suspect.score < SURE:  # it has become needless
+            gap = outside(problem, reduced.point, parts)
+            rest = [*done[:place], *done[place + 1 : -1]]
+            return [
+                *rest,
+                replace(last, suspect=replace(reduced, effect=last.suspect.effect), gap=gap),
+            ]
+        model = reduced.point.hypothesis.model(reduced.point.values)
+        evidence = gather(log, dict(model.gains), type=reduced.point.hypothesis.type)
+        found = suspects(problem, reduced.point, evidence, only=others)
+        if not found or _gained(last.suspect, found[0]) < CLOSE:
+            continue
+        gap = outside(problem, found[0].point, parts)
+        if _why_not(gap, last.gap) == "widens the gap":
+            continue
+        return _replaced(done, place, found[0], gap)
+    return done
+
+
+def _gained(now: Suspect, other: Suspect) -> float:
+    """[of -2 log L] by which another model is likelier; one with fewer values wins when close."""
+    fewer = now.point.hypothesis.free - other.point.hypothesis.free
+    return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)
+
+
+def _others(done: Sequence[Round], place: int) -> list[str]:
+    """Effects that looked like one that was added, or are known to."""
+    effect = done[place].suspect.effect
+    had = {one.suspect.effect for one in done}
+    tried = done[place - 1].tried
+    best = max((one.score for one in tried), default=0.0)
+    alike = [one.effect for one in tried if one.score > ALIKE * best]
+    return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
+
+
+def _replaced(done: Sequence[Round], place: int, found: Suspect, gap: Gap) -> list[Round]:
+    """The rounds with another effect in the place of one."""
+    last = done[-1]
+    old = done[place]
+    swapped = replace(old.suspect, effect=found.effect)
+    middle = [*done[:place], replace(old, suspect=swapped, rivals=()), *done[place + 1 : -1]]
+    end = replace(found, effect=last.suspect.effect)
+    return [*middle, replace(last, suspect=end, gap=gap, rivals=())]
 
 
 def _weighed(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> list[_Weighed]:
@@ -95,7 +165,7 @@ def _why_not(gap: Gap, before: Gap) -> str:
     if velocity > NOT_WIDER and (velocity * position) ** 0.5 > NOT_WIDER:
         return "widens the gap"
     if (velocity * position) ** 0.5 > NARROWER and velocity > NARROWER:
-        return "hardly narrows the gap"
+        return HARDLY
     return ""
 
 

@@ -17,8 +17,10 @@ from sim.reconcile.friction import varied
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.problem import Point, Problem
 
-TRIED, KEPT = 9, 5  # suspects that go downhill a little, and to the end
-A_LITTLE = 3  # steps
+TRIED, KEPT = 8, 4  # suspects that go downhill a little, and to the end
+A_LITTLE = 2  # steps
+TRIED_CALM = 3  # more, where a large q hides what the base model lacks
+CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
 LIVELIEST = 2  # starts of two bodies that are simulated over all runs
 OWN: dict[str, tuple[str, ...]] = {"elevator": ("constant-load",), "arm": ("gravity-cosine",)}
 """Base type -> the effects that it has already."""
@@ -59,19 +61,31 @@ def suspects(
     """
     had = (*point.hypothesis.effects, *OWN.get(point.hypothesis.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
-    begun = _begun(problem, point, [EFFECTS[name] for name in names], evidence)
-    begun.sort(key=lambda one: -one[0])
-    gone = [better(problem, start, steps=A_LITTLE) for _, start in begun[:TRIED]]
-    gone.sort(key=lambda one: one.cost)
-    ended = [settle(problem, one) for one in gone[:KEPT]]
+    effects = [EFFECTS[name] for name in names]
+    begun = _begun(problem, point, effects, evidence)[:TRIED]
+    calm = CALM * problem.noise.velocity**2
+    if point.q > AGITATED * calm:
+        calmer = problem.at(point.hypothesis, point.values, point.starts, calm)
+        calmer = better(problem, calmer, steps=A_LITTLE)
+        begun += _begun(problem, calmer, effects, evidence)[:TRIED_CALM]
+    gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
+    ended = [settle(problem, one) for one in _each_once(gone)[:KEPT]]
     found = [judged(problem, one, one.hypothesis.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
+
+
+def _each_once(points: Iterable[Point]) -> list[Point]:
+    """The best point of each effect, the likeliest first."""
+    best: dict[str, Point] = {}
+    for one in sorted(points, key=lambda one: one.cost):
+        best.setdefault(one.hypothesis.effects[-1], one)
+    return list(best.values())
 
 
 def _begun(
     problem: Problem, point: Point, effects: Iterable[Effect], evidence: Evidence
 ) -> list[tuple[float, Point]]:
-    """The best start of each effect, with what it promises."""
+    """The best start of each effect, with what it promises; the most promising first."""
     kept = adjusting(problem, point)
     found = []
     lively = None
@@ -90,7 +104,7 @@ def _begun(
         begun = promise(problem, point, hypothesis, more, kept=kept)
         if begun:
             found.append(max(begun, key=lambda one: one[0]))
-    return found
+    return sorted(found, key=lambda one: -one[0])
 
 
 class _Lively:

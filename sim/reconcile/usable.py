@@ -9,7 +9,7 @@ from sim.units import unit
 
 FEWEST_RUNS, FEWEST_SAMPLES = 2, 60
 BEYOND = 1.1  # [of the travel] that positions may span
-OTHER = 2.0  # [factor] between two kV of one mechanism
+OTHER = 4.0  # [factor] between two kV of one mechanism
 
 
 def check_logs(
