@@ -1,6 +1,6 @@
 """Whether what a model leaves comes again when a test is repeated, or is another each time.
 
-    r = Σ a·b/√(Σ a²·Σ b²)        of the means a, b of short stretches, at equal times
+    share = 2·Σ a·b/Σ(a² + b² - noise)     of the means a, b of short stretches, at equal times
 
 What comes again is physics that the model lacks; what does not is noise, a floor, a hand.
 """
@@ -17,8 +17,10 @@ from sim.log import Array
 
 SAME = 0.05  # [share of the largest voltage] RMS by which a repetition's voltage may differ
 STRETCHES, LEAST = 60, 5  # how many at most, and how many samples each at least
-ALIKE, SURE = 0.5, 3.0  # [1], [standard errors] of a correlation that comes again
-AGAIN, CHANGES, NOISE = "comes again", "changes from run to run", "is no more than noise"
+MOSTLY, HARDLY = 0.7, 0.3  # [1] shares from which it comes again, and below which it does not
+LOUD = 3.0  # [standard errors] by which what is left is more than noise
+AGAIN, PARTLY = "comes again", "comes again in part"
+CHANGES, NOISE = "changes from run to run", "is no more than noise"
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,9 @@ class Repeat:
         correlation: [1] of what is left of the velocities.
         sure: [standard errors] by which that is above nothing.
         excess: [1] mean square of what is left over what noise alone would leave.
-        verdict: ``comes again``, ``changes from run to run`` or ``is no more than noise``.
+        share: [1] of what is left, beyond noise, that is the same in both; may be below 0.
+        verdict: ``comes again``, ``comes again in part``, ``changes from run to run`` or ``is no
+            more than noise``.
     """
 
     test: str
@@ -39,6 +43,7 @@ class Repeat:
     correlation: float
     sure: float
     excess: float
+    share: float
     verdict: str
 
 
@@ -80,11 +85,12 @@ def _compared(
     alike = _follows(a) * _follows(b)
     sure = correlation * math.sqrt(a.size * (1.0 - alike) / (1.0 + alike))
     excess = float(np.mean(counts * (a**2 + b**2))) / 2.0
-    if excess < 1.0 + SURE * math.sqrt(1.0 / a.size):
+    share = float(np.mean(counts * a * b)) / max(excess - 1.0, 1e-9)
+    if excess < 1.0 + LOUD * math.sqrt(1.0 / a.size):
         verdict = NOISE
     else:
-        verdict = AGAIN if correlation >= ALIKE and sure >= SURE else CHANGES
-    yield Repeat(one.test, pair, correlation, sure, excess, verdict)
+        verdict = AGAIN if share >= MOSTLY else PARTLY if share > HARDLY else CHANGES
+    yield Repeat(one.test, pair, correlation, sure, excess, share, verdict)
 
 
 def _stretches(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:

@@ -1,0 +1,269 @@
+"""Where simulation and data disagree: what is planted is found where it is, and only there."""
+
+import time
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from sim.errors import BadRequest
+from sim.fit.seen import Noise
+from sim.gap import Residuals, gap_map
+from sim.log import DIRECTIONS
+
+NOISE = Noise(position=1e-4, velocity=0.01, grain=(1e-9, 1e-9))
+SIZES = np.array([NOISE.position, NOISE.velocity])
+PERIOD, KS, KV = 0.02, 0.2, 2.0
+FOUR = [f"{kind}-{way}" for kind in ("quasistatic", "dynamic") for way in DIRECTIONS]
+VELOCITY = 1
+
+
+def expected(test):
+    """Voltage and motion without inertia: a ramp of 0.5 V/s, or 4 V after half a second."""
+    since = PERIOD * np.arange(400)
+    volts = 0.5 * since if test.startswith("quasistatic") else np.where(since < 0.5, 0.0, 4.0)
+    volts = volts if test.endswith("forward") else -volts
+    speed = np.sign(volts) * np.maximum(np.abs(volts) - KS, 0.0) / KV
+    return since, volts, np.column_stack([PERIOD * np.cumsum(speed), speed])
+
+
+def run_of(test, *, rng, plant=None, start=0.0):
+    """A run of which the model leaves noise and, in noises of a velocity, what is planted."""
+    since, volts, motion = expected(test)
+    missed = rng.normal(size=(since.size, 2)) * SIZES
+    if plant:
+        at = SimpleNamespace(t=since, u=volts, x=motion[:, 0], v=motion[:, 1])
+        missed[:, VELOCITY] += NOISE.velocity * plant(at)
+    return Residuals(test, start + since, volts, motion, missed)
+
+
+def runs_of(*tests, seed=0, plant=None):
+    rng = np.random.default_rng(seed)
+    return [run_of(test, rng=rng, plant=plant) for test in tests or FOUR]
+
+
+def since_jump(at):
+    return np.where(np.abs(at.u) == 4.0, at.t - at.t[np.argmax(np.abs(at.u) > 2.0)], np.nan)
+
+
+@pytest.mark.parametrize(
+    ("plant", "what", "where", "sign"),
+    [
+        (
+            lambda at: 3.0 * ((at.t > 4.0) & (at.t < 5.4) & (at.u > 0.0) & (at.u < 4.0)),
+            "run", "quasistatic-forward (1), 4.0 to", 1.0,
+        ),
+        (
+            lambda at: -4.0 * ((at.v > 0.48) & (at.v < 0.71)),
+            "direction-speed", "forward, 25 to 37% of the top speed", -1.0,
+        ),
+        (
+            lambda at: -4.0 * ((at.x < -4.8) & (at.x > -7.1)),
+            "direction-position", "reverse, 25 to 33% of the way", 1.0,
+        ),
+        (
+            lambda at: -6.0 * np.sign(at.u) * (since_jump(at) < 0.19),
+            "after-steps", "the voltage jumps up, 0.00 to 0.20 s after it", -1.0,
+        ),
+        (
+            lambda at: 3.0 * ((at.v == 0.0) & (at.u > 0.0)),
+            "at-rest", "at rest under forward voltage, ", 1.0,
+        ),
+    ],
+    ids=["run and time", "direction and speed", "direction and position", "after steps", "at rest"],
+)  # fmt: skip
+def test_a_disagreement_is_found_where_it_is(plant, what, where, sign):
+    found = gap_map(runs_of(*FOUR, *FOUR, plant=plant), noise=NOISE).places(10)
+
+    mine = [place for place in found if place.what == what]
+    assert any(place.where.startswith(where) for place in mine), found
+    assert {np.sign(place.error) for place in mine} == {sign}
+    assert {place.signal for place in mine} == {"velocity"}
+
+
+def test_noise_alone_is_nowhere_beyond_doubt():
+    # 300 cells beyond 4 standard errors: about one log of fifty
+    alarms = [bool(gap_map(runs_of(seed=seed), noise=NOISE).places(1)) for seed in range(60)]
+
+    assert sum(alarms) <= 4
+
+
+def test_a_place_says_how_much_and_how_sure():
+    (place, *_) = gap_map(
+        runs_of("quasistatic-forward", plant=lambda at: -2.0 * (at.v > 0.0)), noise=NOISE
+    ).places(1)
+
+    # 380 samples move: 2 noises, known to one noise/√380
+    assert place.error == pytest.approx(-2.0, abs=0.2)
+    assert place.sure == pytest.approx(2.0 * np.sqrt(380), rel=0.15)
+    assert "the robot is slower than the model says, by 2" in place.sentence
+
+
+def test_slower_is_slower_in_both_directions():
+    found = gap_map(runs_of(plant=lambda at: -3.0 * np.sign(at.v)), noise=NOISE)
+
+    means = found.by_speed.mean[VELOCITY]
+    assert np.nanmax(means) < -2.0
+
+
+def test_sorted_by_noisy_measurements_rest_would_show_what_is_not_there():
+    rng = np.random.default_rng(3)
+    still = Residuals(
+        "coast-forward", PERIOD * np.arange(400), np.zeros(400), np.zeros((400, 2)),
+        rng.normal(size=(400, 2)) * SIZES,
+    )  # fmt: skip
+    moving = runs_of("quasistatic-forward", seed=4)[0]
+    slow = replace(moving, predicted=moving.predicted * 0.02)  # as slow as the noise is large
+    mistaken = [replace(r, predicted=r.predicted + r.missed) for r in (still, slow)]
+
+    honest = gap_map([still, slow], noise=NOISE)
+    fooled = gap_map(mistaken, noise=NOISE)
+
+    assert honest.places(5) == ()
+    assert max(place.sure for place in fooled.places(5)) > 10.0
+
+
+@pytest.mark.parametrize("unit", [0.0254, 100.0], ids=["inches", "a hundredth"])
+def test_the_places_do_not_depend_on_the_unit(unit):
+    runs = runs_of(plant=lambda at: 3.0 * (at.v > 0.5))
+    scaled = [replace(r, predicted=r.predicted / unit, missed=r.missed / unit) for r in runs]
+    small = replace(NOISE, position=NOISE.position / unit, velocity=NOISE.velocity / unit)
+
+    mine, other = (
+        gap_map(*one, noise=n).places(5) for one, n in (([runs], NOISE), ([scaled], small))
+    )
+
+    assert [place.where for place in mine] == [place.where for place in other]
+    assert [place.error for place in mine] == pytest.approx([place.error for place in other])
+
+
+def test_what_wanders_is_less_sure_than_what_stands_alone():
+    rng = np.random.default_rng(5)
+    (run,) = runs_of("quasistatic-forward")
+    noise = rng.normal(size=400)
+    wander = np.zeros(400)
+    for i in range(1, 400):
+        wander[i] = 0.97 * wander[i - 1] + noise[i]
+    wandering = replace(run, missed=NOISE.velocity * np.column_stack([np.zeros(400), wander]))
+
+    sure = np.abs(gap_map([wandering], noise=NOISE).by_run.sure[VELOCITY])
+    naive = np.abs(gap_map([wandering], noise=NOISE).by_run.mean[VELOCITY]) * np.sqrt(400 / 12)
+
+    assert sure.max() < 0.4 * naive.max()
+
+
+# -- steps ---------------------------------------------------------------------------------------
+
+SINCE = PERIOD * np.arange(100)
+
+
+@pytest.mark.parametrize(
+    ("volts", "speed", "jumps"),
+    [
+        (np.where(SINCE < 0.999, 0.0, 4.0), 0.0, [50]),
+        (np.full(100, 4.0), 0.0, [0]),
+        (np.full(100, 4.0), 1.0, []),
+        (4.0 * np.sin(2.0 * np.pi * 2.0 * SINCE), 1.0, []),
+        (0.5 * SINCE, 0.0, []),
+        (np.where(SINCE < 0.999, 3.0, -3.0), 1.0, [50]),
+    ],
+    ids=["a step", "on from the start, at rest", "on before the start", "a chirp", "a ramp",
+         "a reversal"],
+)  # fmt: skip
+def test_only_jumps_are_jumps(volts, speed, jumps):
+    motion = np.column_stack([SINCE, np.full(100, speed)])
+    run = Residuals("dynamic-forward", SINCE, volts, motion, np.zeros((100, 2)))
+
+    since, _ = run.steps(largest=4.0, still=0.02)
+
+    assert np.flatnonzero(since == 0.0).tolist() == jumps
+
+
+# -- repeats -------------------------------------------------------------------------------------
+
+
+def bump(at):
+    return 5.0 * np.exp(-((at.t - 4.0) ** 2))
+
+
+def twice(plant, other):
+    rng = np.random.default_rng(6)
+    return [
+        run_of("quasistatic-forward", rng=rng, plant=one, start=50.0 * i)
+        for i, one in enumerate((plant, other))
+    ]
+
+
+@pytest.mark.parametrize(
+    ("plant", "other", "verdict"),
+    [
+        (bump, bump, "comes again"),
+        (bump, lambda at: 5.0 * np.exp(-((at.t - 6.0) ** 2)), "changes from run to run"),
+        (bump, lambda at: -bump(at), "changes from run to run"),
+        (bump, lambda at: 0.4 * bump(at), "comes again in part"),
+        (None, None, "is no more than noise"),
+    ],
+    ids=["the same twice", "elsewhere", "the other way", "weaker", "only noise"],
+)
+def test_what_comes_again_is_told_from_what_does_not(plant, other, verdict):
+    (found,) = gap_map(twice(plant, other), noise=NOISE).repeats
+
+    assert (found.verdict, found.runs) == (verdict, (0, 1))
+
+
+def test_another_step_is_no_repetition():
+    one, other = runs_of("dynamic-forward", "dynamic-forward")
+    other = replace(other, voltage=1.5 * other.voltage)
+
+    assert gap_map([one, other], noise=NOISE).repeats == ()
+
+
+# -- edges ---------------------------------------------------------------------------------------
+
+
+def test_what_is_not_compared_says_nothing():
+    runs = runs_of(plant=lambda at: 50.0 * (at.t > 4.0))
+    for run in runs:
+        run.missed[run.time > 4.0] = np.nan
+
+    assert gap_map(runs, noise=NOISE).places(5) == ()
+
+
+def test_nothing_to_compare_is_refused():
+    (run,) = runs_of("dynamic-forward")
+    run.missed[:] = np.nan
+
+    with pytest.raises(BadRequest, match="Give a run in which the mechanism moves."):
+        gap_map([run], noise=NOISE)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("samples", [1, 2, 3, 8])
+def test_a_few_samples_are_no_trouble(samples):
+    (run,) = runs_of("dynamic-forward")
+    few = Residuals(
+        run.test, run.time[:samples], run.voltage[:samples], run.predicted[:samples],
+        run.missed[:samples],
+    )  # fmt: skip
+
+    assert gap_map([few], noise=NOISE).places(5) == ()
+
+
+def test_eight_long_runs_take_no_time():
+    rng = np.random.default_rng(7)
+    runs = []
+    for test in 2 * FOUR:
+        since, volts, motion = expected(test)
+        long = np.linspace(0.0, since[-1], 2000)
+        motion = np.column_stack([np.interp(long, since, motion[:, i]) for i in (0, 1)])
+        missed = rng.normal(size=(2000, 2)) * SIZES
+        runs.append(Residuals(test, long, np.interp(long, since, volts), motion, missed))
+
+    took = []
+    for _ in range(8):
+        begun = time.process_time()
+        gap_map(runs, noise=NOISE)
+        took.append(time.process_time() - begun)
+
+    assert min(took) < 0.04  # 7 ms on the machine that wrote this; a slow one gets its share
