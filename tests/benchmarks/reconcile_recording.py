@@ -1,0 +1,191 @@
+"""Record a case's three sessions on the bench, clean or with everyday dirt."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from reconcile_sizes import Hidden
+
+from sim.effect import Scale
+from sim.log import Log, Run
+from sim.mechanism import Mechanism
+from sim.model import Part
+from sim.routine import Routine
+from sim.simulate import simulate
+
+FOUR = ("quasistatic", "dynamic")
+SESSIONS = {
+    "train": FOUR,
+    "validation": FOUR,
+    "test": (*FOUR, "coast", "triangle", "multistep"),
+}
+"""Name of a file -> kinds of tests in it."""
+
+TIMEOUT = 10.0  # [s] of a test, SysIdRoutine's own
+SHORT, LONG = 0.5, 0.75  # [V/s] of ramps, with and without an end of the travel to reach
+STEP = (5.6, 6.4)  # [V] of the largest level
+LESS = {"validation": (0.60, 0.78), "test": (0.70, 0.92)}  # [share of it] of the others
+ABOVE = 1.2  # [V] of a step beyond what it takes to hold still
+
+DIRT = {
+    "stribeck": (0.02, 0.05),  # [V]
+    "battery-sag": (0.02, 0.08),  # [share of the driving volts that the largest step loses]
+    "delay": (0.001, 0.004),  # [s]
+    "cogging": (0.02, 0.05),  # [V]
+}
+"""Everyday effect -> its size from to; nobody has to name it."""
+FRICTION = (0.02, 0.06)  # [share] by which it differs from run to run
+JITTER = (0.0004, 0.0015)  # [s]
+NOISE = (0.004, 0.012)  # [V] of the logged voltage
+
+MOMENT = (0.3, 0.7)  # [share of a run's motion] when something happens once
+ONCE = "onset"  # parameter of what happens at a moment
+MIRRORED = (1, 0, 3, 2)  # order of the four tests in which all voltages have the other sign
+
+
+@dataclass(frozen=True)
+class Levels:
+    """The voltages of a case's sessions.
+
+    Args:
+        ramp: [V/s].
+        steps: name of a session -> [V].
+    """
+
+    ramp: float
+    steps: dict[str, float]
+
+    @classmethod
+    def draw(cls, mechanism: Mechanism, rng: np.random.Generator) -> "Levels":
+        """Levels that move a mechanism."""
+        most = float(rng.uniform(*STEP))
+        least = mechanism.friction + abs(mechanism.gains.get("kG", 0.0)) + ABOVE
+        steps = {name: max(most * float(rng.uniform(*less)), least) for name, less in LESS.items()}
+        return cls(SHORT if mechanism.stops else LONG, {"train": most, **steps})
+
+
+def recorded(
+    hidden: Hidden,
+    levels: Levels,
+    *,
+    session: str,
+    period: float,
+    dirty: bool,
+    rng: np.random.Generator,
+) -> Log:
+    """One session.
+
+    Args:
+        hidden: the mechanism and what is hidden in it.
+        levels: its voltages.
+        session: one of ``SESSIONS``.
+        period: [s] between samples.
+        dirty: with everyday dirt.
+        rng: the source of chance.
+    """
+    routine = Routine(levels.ramp, levels.steps[session], TIMEOUT, SESSIONS[session])
+    parts = hidden.parts
+    mechanism = replace(hidden.mechanism, sensor=replace(hidden.mechanism.sensor, jitter=0.0))
+    wobble = noise = 0.0
+    if dirty:
+        parts = (*parts, *_everyday(mechanism.scale, levels, parts, rng))
+        jitter, wobble, noise = (float(rng.uniform(*each)) for each in (JITTER, FRICTION, NOISE))
+        mechanism = replace(mechanism, sensor=replace(mechanism.sensor, jitter=jitter))
+    lasting = tuple(part for part in parts if ONCE not in part.parameters)
+    sudden = [part for part in parts if ONCE in part.parameters]
+    built = replace(mechanism, hidden=lasting)
+    if sudden:
+        pilot = simulate(built, routine, rng=rng, period=period)
+        built = replace(built, hidden=(*lasting, *(_at(part, pilot, rng) for part in sudden)))
+    runs = _runs(built, routine, period=period, wobble=wobble, rng=rng)
+    runs = [replace(r, voltage=r.voltage + noise * rng.standard_normal(len(r))) for r in runs]
+    return Log(tuple(runs), units=mechanism.units, type=mechanism.type)
+
+
+def permuted(log: Log, *, rng: np.random.Generator) -> Log:
+    """The log with its voltages dealt out anew to all samples of all runs."""
+    volts = rng.permutation(np.concatenate([run.voltage for run in log.runs]))
+    ends = np.cumsum([len(run) for run in log.runs])[:-1]
+    return _with_voltages(log, np.split(volts, ends))
+
+
+def exchanged(log: Log, *, rng: np.random.Generator) -> Log:
+    """The log with every run's voltage from another run, and not merely of the other sign."""
+    count = len(log.runs)
+    while True:
+        order = rng.permutation(count)
+        if not np.any(order == np.arange(count)) and tuple(order[:4]) != MIRRORED:
+            break
+    stretched = [
+        np.interp(
+            np.linspace(0.0, 1.0, len(run)),
+            np.linspace(0.0, 1.0, len(log.runs[other])),
+            log.runs[other].voltage,
+        )
+        for run, other in zip(log.runs, order.tolist(), strict=True)
+    ]
+    return _with_voltages(log, stretched)
+
+
+def _with_voltages(log: Log, volts: list[np.ndarray]) -> Log:
+    runs = (replace(run, voltage=each) for run, each in zip(log.runs, volts, strict=True))
+    return replace(log, runs=tuple(runs))
+
+
+def _runs(
+    mechanism: Mechanism,
+    routine: Routine,
+    *,
+    period: float,
+    wobble: float,
+    rng: np.random.Generator,
+) -> list[Run]:
+    """The runs of a session, each with the friction of its own moment.
+
+    The bench has one friction for a session: so each run is taken from a session of its own, of
+    the same voltages before it, and what came before differs by that little friction only.
+    """
+    if wobble == 0.0:
+        return list(simulate(mechanism, routine, rng=rng, period=period).runs)
+    runs = []
+    for place in range(len(routine.tests)):
+        share = 1.0 + wobble * float(np.clip(rng.standard_normal(), -2.5, 2.5))
+        varied = replace(mechanism, friction=share * mechanism.friction)
+        until = replace(routine, kinds=routine.kinds[: place // 2 + 1])
+        runs.append(simulate(varied, until, rng=rng, period=period).runs[place])
+    return runs
+
+
+def _everyday(
+    scale: Scale, levels: Levels, parts: tuple[Part, ...], rng: np.random.Generator
+) -> Iterator[Part]:
+    """Small effects that any robot has, but for those that are hidden anyway."""
+    drawn = {name: float(rng.uniform(*sizes)) for name, sizes in DIRT.items()}
+    phase, waves = float(rng.uniform(0.0, 2.0 * math.pi)), float(rng.uniform(8.0, 25.0))
+    duty = levels.steps["train"] / 12.0
+    values = {
+        "stribeck": {"extra": drawn["stribeck"], "slow": 0.08 * scale.speed},
+        "battery-sag": {"share": drawn["battery-sag"] / (1.0 - drawn["battery-sag"]) / duty**2},
+        "delay": {"lag": drawn["delay"]},
+        "cogging": {
+            "cosine": drawn["cogging"] * math.cos(phase),
+            "sine": drawn["cogging"] * math.sin(phase),
+            "turns": 2.0 * math.pi * waves / scale.reach,
+        },
+    }
+    there = {part.effect for part in parts}
+    return (Part(name, each) for name, each in values.items() if name not in there)
+
+
+def _at(part: Part, pilot: Log, rng: np.random.Generator) -> Part:
+    """What happens at a moment, in the middle of some run's motion; what ends may end with it."""
+    run = pilot.runs[int(rng.integers(len(FOUR) * 2))]
+    speed = np.abs(run.velocity)
+    moving = run.time[speed > 0.1 * speed.max()]
+    onset = float(moving[0] + rng.uniform(*MOMENT) * (moving[-1] - moving[0]))
+    began = float(pilot.runs[0].time[0])
+    values = {**part.parameters, ONCE: onset - began}
+    if "until" in values and rng.random() < 0.4:
+        values["until"] = float(run.time[-1]) + 0.5 - began
+    return Part(part.effect, values)

@@ -1,0 +1,248 @@
+"""The benchmark of reconcile: fresh cases, solved blind, scored as the acceptance has it."""
+
+import json
+import os
+import shlex
+import subprocess
+import sys
+from collections import Counter
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from sim.effects import EFFECTS
+from sim.log import Log, Run
+from sim.mechanisms import MECHANISMS
+
+CONTROLS = 2
+NOSY = """
+import json, pathlib, sys
+here = pathlib.Path(sys.argv[1]).resolve().parent
+above = [here, *here.parents][:3]
+seen = sorted({path.name for folder in above[:2] for path in folder.rglob("*") if path.is_file()})
+said = {"verdict": "nothing-missing", "findings": [], "remainder": False, "noise_floor": 0.1}
+print(json.dumps(said | {"gap_before": 0.2, "gap_after": 0.2, "argv": sys.argv[1:], "seen": seen}))
+"""
+"""A stand-in for the solver that finds nothing missing, and says what it was told and saw."""
+
+
+@pytest.fixture(scope="session")
+def benchmarks(root):
+    return root / "tests" / "benchmarks"
+
+
+@pytest.fixture
+def modules(benchmarks, monkeypatch):
+    """The benchmark's modules, by name."""
+    monkeypatch.syspath_prepend(benchmarks)
+
+    return lambda name: import_module(f"reconcile_{name}")
+
+
+@pytest.fixture(scope="module")
+def made(benchmarks, tmp_path_factory):
+    """What one whole run keeps and prints, and what making the same cases again leaves."""
+    where = tmp_path_factory.mktemp("reconcile")
+    (where / "nosy.py").write_text(NOSY, encoding="utf-8")
+    solver = shlex.join([sys.executable, str(where / "nosy.py")])
+    plan = ["--seed", "7", "--cases", "1", "--shuffled", str(CONTROLS)]
+    whole = [*plan, "--keep", str(where / "kept"), "--json", "--command", solver]
+    again = [*plan, "--out", str(where / "again"), "--key", str(where / "key.json")]
+    runs = [
+        subprocess.Popen(
+            [sys.executable, str(benchmarks / script), *words],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
+        )
+        for script, words in (("bench_reconcile.py", whole), ("reconcile_cases.py", again))
+    ]  # fmt: skip
+    said = [run.communicate(timeout=300) for run in runs]
+    for run, (_, problem) in zip(runs, said, strict=True):
+        assert run.returncode == 0, problem
+    return where, json.loads(said[0][0])
+
+
+def test_every_effect_stands_in_every_group_and_meets_every_mechanism_that_can_have_it(modules):
+    plan = modules("plan")
+    names = {*EFFECTS, "encoder-slip", "hard-stop"}
+    able = {(n, m) for n in names for m in MECHANISMS if not plan.why_not(m, n)}
+
+    cases = plan.plan(seed=3, cases=len(names))
+    many = plan.plan(seed=3, cases=6 * len(names))
+
+    for severity in ("real", "subtle"):
+        for dirty in (False, True):
+            group = [
+                c.hidden[0] for c in cases
+                if c.severity == severity and c.dirty == dirty and len(c.effects) == 1
+                and c.effects != ("unknown",)
+            ]  # fmt: skip
+            assert Counter(group) == Counter(names)
+    met = {(c.hidden[0], c.mechanism) for c in many if len(c.hidden) == 1}
+    assert {pair for pair in met if pair[0] in names} == able
+    assert set(modules("strangers").STRANGERS) <= {name for name, _ in met}
+
+
+def test_a_plan_is_the_same_for_the_same_seed_and_holds_nothing_that_cannot_be(modules):
+    plan = modules("plan")
+    cases = plan.plan(seed=11, cases=40, shuffled=20)
+
+    assert cases == plan.plan(seed=11, cases=40, shuffled=20)
+    assert cases != plan.plan(seed=12, cases=40, shuffled=20)
+    assert not [c for c in cases for name in c.hidden if plan.why_not(c.mechanism, name)]
+    assert Counter(c.shuffled for c in cases if c.shuffled) == {"permuted": 10, "exchanged": 10}
+    assert len(modules("strangers").STRANGERS) >= 4
+    assert not set(modules("strangers").STRANGERS) & set(EFFECTS)
+    assert {c.type for c in cases if "gravity-cosine" in c.hidden} == {"simple"}
+
+
+def test_the_same_seed_makes_the_same_files_again(made):
+    where, _ = made
+    kept, again = (
+        {path.relative_to(where / folder): path.read_bytes() for path in paths}
+        for folder in ("kept", "again")
+        for paths in [(where / folder).rglob("*.csv")]
+    )
+
+    assert len(kept) == 3 * (4 + 6 + CONTROLS)
+    assert kept == again
+    assert len(set(kept.values())) == len(kept)
+
+
+def test_a_case_says_what_a_team_knows_and_names_nothing_hidden(made, modules):
+    where, _ = made
+    names = (*EFFECTS, *modules("strangers").STRANGERS, "encoder-slip", "hard-stop", "dirty")
+    for file in (where / "again").rglob("*"):
+        if file.is_file():
+            text = file.read_text(encoding="utf-8")
+            assert file.name in {"train.csv", "validation.csv", "test.csv", "case.json"}
+            assert not [name for name in names if name in text]
+    known = json.loads(next((where / "again").rglob("case.json")).read_text(encoding="utf-8"))
+    assert set(known) == {"type", "mechanism", "travel", "period_s"}
+
+
+def test_the_solver_is_told_no_more_and_the_key_comes_after_the_answers(made):
+    where, _ = made
+    answers = json.loads((where / "kept" / "answers.json").read_text(encoding="utf-8"))
+    key = json.loads((where / "kept" / "key.json").read_text(encoding="utf-8"))
+    allowed = {"--validation", "--held-out", "--type", "--travel", "--json"}
+
+    assert {a["case"] for a in answers if not a["case"].startswith("shuffled")} == set(key)
+    for each in answers:
+        assert {word for word in each["said"]["argv"] if word.startswith("--")} <= allowed
+        assert not [name for name in each["said"]["seen"] if "key" in name or "answer" in name]
+    assert (where / "kept" / "shuffled" / "key.json").exists()
+
+
+def test_a_solver_that_finds_nothing_is_right_of_complete_models_alone(made):
+    _, told = made
+
+    marks = {one["case"]: (one["group"].split()[1], one["mark"]) for one in told["cases"]}
+
+    assert Counter(marks.values()) == {
+        ("complete", "right"): 2, ("unknown", "silent"): 2, ("two", "silent"): 2,
+        ("realistic", "silent"): 2, ("subtle", "silent"): 2,
+    }  # fmt: skip
+    assert told["shuffled"] == {"nothing-missing": CONTROLS}
+
+
+def test_a_key_beside_the_cases_is_refused(benchmarks, tmp_path):
+    command = [sys.executable, str(benchmarks / "reconcile_cases.py"), "--seed", "1"]
+    command += ["--cases", "1", "--shuffled", "0", "--out", str(tmp_path)]
+
+    run = subprocess.run(
+        [*command, "--key", str(tmp_path / "key.json")],
+        capture_output=True, encoding="utf-8", check=False,
+    )  # fmt: skip
+
+    assert run.returncode == 1
+    assert "Put the key elsewhere" in run.stderr
+
+
+def four_tests():
+    """Runs of different length whose voltages are all different."""
+    runs, at = [], 0.0
+    for place, test in enumerate(
+        ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
+    ):
+        n = 40 + 10 * place
+        time = at + 0.02 * np.arange(n)
+        volts = (1.0 - 2.0 * (place % 2)) * (place + np.linspace(0.1, 0.9, n))
+        runs.append(Run(test, time, volts, np.sin(time), np.cos(time)))
+        at = float(time[-1]) + 1.0
+    return Log(tuple(runs))
+
+
+def test_a_permuted_control_has_all_voltages_and_hardly_one_in_its_place(modules):
+    log = four_tests()
+
+    shuffled = modules("recording").permuted(log, rng=np.random.default_rng(1))
+
+    before, after = (np.concatenate([run.voltage for run in one.runs]) for one in (log, shuffled))
+    assert np.array_equal(np.sort(before), np.sort(after))
+    assert np.mean(before == after) < 0.05
+    assert abs(np.corrcoef(before, after)[0, 1]) < 0.2
+    for was, is_ in zip(log.runs, shuffled.runs, strict=True):
+        assert np.array_equal(was.velocity, is_.velocity)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_an_exchanged_control_has_no_run_with_its_own_voltage(modules, seed):
+    log = four_tests()
+
+    shuffled = modules("recording").exchanged(log, rng=np.random.default_rng(seed))
+
+    ends = [(float(run.voltage[0]), float(run.voltage[-1])) for run in log.runs]
+    given = [ends.index((float(r.voltage[0]), float(r.voltage[-1]))) for r in shuffled.runs]
+    assert sorted(given) == [0, 1, 2, 3]
+    assert all(place != other for place, other in enumerate(given))
+    assert given != [1, 0, 3, 2]  # all signs turned: damage that has a name
+
+
+def case_folder(tmp_path):
+    known = {"type": "arm", "travel": 2.2, "mechanism": "arm", "period_s": 0.02}
+    (tmp_path / "000").mkdir()
+    (tmp_path / "000" / "case.json").write_text(json.dumps(known), encoding="utf-8")
+    return tmp_path
+
+
+STRAY = {
+    "not JSON": ("print('kV is odd. Record again.')", "kV is odd. Record again.", 0),
+    "refused": ("import sys; sys.exit('too short. Record more.')", "too short. Record more.", 1),
+}
+
+
+@pytest.mark.parametrize("name", STRAY)
+def test_an_answer_that_is_none_is_kept_as_what_it_said(modules, tmp_path, name):
+    code, problem, exit_code = STRAY[name]
+    command = [sys.executable, "-c", code]
+
+    got = modules("blind").solve("000", root=case_folder(tmp_path), command=command)
+
+    assert (got.said, got.problem, got.code) == (None, problem, exit_code)
+
+
+def test_a_solver_that_takes_too_long_is_ended(modules, tmp_path, monkeypatch):
+    monkeypatch.setattr(modules("blind"), "LONGEST", 0.3)
+    command = [sys.executable, "-c", "import time; time.sleep(60)"]
+
+    got = modules("blind").solve("000", root=case_folder(tmp_path), command=command)
+
+    assert got.said is None
+    assert got.seconds < 20.0
+
+
+@pytest.mark.skipif(not hasattr(os, "wait4"), reason="this system does not count for each process")
+def test_memory_and_seconds_are_of_each_case_by_itself(modules, tmp_path):
+    root = case_folder(tmp_path)
+    large = "held = bytearray(b'x') * 150_000_000; print('{}')"
+    busy = "import time; t = time.process_time()\nwhile time.process_time() < t + 0.4: pass"
+
+    first, second, third = (
+        modules("blind").solve("000", root=root, command=[sys.executable, "-c", code])
+        for code in (large, busy, "print('{}')")
+    )
+
+    assert first.memory > 150.0 > second.memory
+    assert second.busy > 0.4
+    assert third.busy < 0.3
