@@ -1,5 +1,7 @@
 """A story's bars: the suspects of a round, and the gap that shrinks."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -33,6 +35,20 @@ def lineup(story: Story, chapter: int = 0) -> Picture:
     taken = next_of(story, chapter)
     drawn = tried[:BARS]
     figure, ((axes,),) = panels(1, 1, height=0.9 + 0.3 * len(drawn))
+    _bars(axes, drawn, taken)
+    axes.set_yticks(range(len(drawn)), [one.effect for one in drawn])
+    axes.set_ylim(len(drawn) - 0.4, -0.6)
+    axes.set_xlabel("how much likelier the model becomes with it [of −2 log L]", color=INK)
+    axes.grid(visible=False, axis="y")
+    axes.set_axisbelow(True)
+    axes.legend(fontsize=8, labelcolor=INK, loc="lower right")
+    told = ". ".join(f"{one.effect} {_points(one.score)}, {_why(one, taken)}" for one in drawn)
+    alt = f"Bars show what each suspect explains, the likeliest first: {told}."
+    return Picture(figure, alt, suspects_table(story, chapter))
+
+
+def _bars(axes: Axes, drawn: Sequence[Tried], taken: str) -> None:
+    """A bar for each suspect, as long as it explains."""
     most = max((max(one.score, 0.0) for one in drawn), default=0.0) or 1.0
     seen: set[str] = set()
     for place, one in enumerate(drawn):
@@ -44,23 +60,14 @@ def lineup(story: Story, chapter: int = 0) -> Picture:
         )  # fmt: skip
         seen.add(kind)
         _beside(axes, max(one.score, 0.0), place, _points(one.score))
-    axes.set_yticks(range(len(drawn)), [one.effect for one in drawn])
-    axes.set_ylim(len(drawn) - 0.4, -0.6)
     axes.set_xlim(0.0, 1.15 * most)
-    axes.set_xlabel("how much likelier the model becomes with it [of −2 log L]", color=INK)
-    axes.grid(visible=False, axis="y")
-    axes.set_axisbelow(True)
-    axes.legend(fontsize=8, labelcolor=INK, loc="lower right")
-    told = ". ".join(f"{one.effect} {_points(one.score)}, {_why(one, taken)}" for one in drawn)
-    alt = f"Bars show what each suspect explains, the likeliest first: {told}."
-    return Picture(figure, alt, suspects_table(story, chapter))
 
 
 def suspects_table(story: Story, chapter: int) -> Table:
     """The same in numbers, all of them."""
     taken = next_of(story, chapter)
     rows = tuple(
-        (one.effect, _points(one.score), shown(one.gap), _why(one, taken))
+        (one.effect, _points(one.score), _known(one.gap), _why(one, taken))
         for one in story.chapters[chapter].tried
     )
     header = ("suspect", "likelier by", "gap becomes, times", "and so")
@@ -95,13 +102,8 @@ def shrinking(story: Story) -> Picture:
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     floor = story.noise_floor if story.noise_floor > 0.0 else 1.0
     gaps = [one.gap / floor for one in story.chapters]
-    finite = [gap for gap in gaps if np.isfinite(gap)] or [1.0]
     figure, ((axes,),) = panels(1, 1, height=1.1 + 0.42 * len(gaps))
-    for place, gap in enumerate(gaps):
-        length = min(gap, 1.5 * max(finite)) if np.isfinite(gap) else 1.5 * max(finite)
-        axes.barh(place, length, color=COLORS[0] if place else COLORS[1], height=0.6,
-                  hatch="" if place else "///", edgecolor=PAPER)  # fmt: skip
-        _beside(axes, length, place, shown(gap) if np.isfinite(gap) else "ran away")
+    _lengths(axes, gaps)
     axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2)
     axes.annotate(
         "the noise: no model comes below", (1.0, -0.55), xytext=(4, 0),
@@ -109,24 +111,39 @@ def shrinking(story: Story) -> Picture:
     )  # fmt: skip
     axes.set_yticks(range(len(gaps)), names)
     axes.set_ylim(len(gaps) - 0.5, -0.85)
-    axes.set_xlim(0.0, 1.15 * max([*finite, 1.6]))
     axes.set_xlabel("RMS velocity error of the simulation [times the noise]", color=INK)
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
-    sizes = [shown(gap) if np.isfinite(gap) else "ran away" for gap in gaps]
-    told = list(zip(names, sizes, strict=True))
-    alt = "Bars show how far the simulation is off, in times the noise: " + ", ".join(
-        f"{name} {gap}" for name, gap in told
-    )
     symbol = unit(story.shown.units).symbol
     rows = tuple(
-        (name, shown(one.gap) if np.isfinite(one.gap) else "ran away", gap)
-        for one, (name, gap) in zip(story.chapters, told, strict=True)
+        (name, _known(one.gap), _known(gap))
+        for name, one, gap in zip(names, story.chapters, gaps, strict=True)
     )
+    told = ", ".join(f"{name} {times}" for name, _, times in rows)
     return Picture(
-        figure, f"{alt}. A dashed line marks the noise, 1.",
+        figure,
+        f"Bars show how far the simulation is off, in times the noise: {told}. A dashed line "
+        "marks the noise, 1.",
         Table(("model", f"gap [{symbol}/s]", "times the noise"), rows),
-    )  # fmt: skip
+    )
+
+
+def _lengths(axes: Axes, gaps: Sequence[float]) -> None:
+    """A bar for each gap; the base model's is hatched, and one that ran away the longest."""
+    longest = max([gap for gap in gaps if np.isfinite(gap)] or [1.0])
+    for place, gap in enumerate(gaps):
+        length = gap if np.isfinite(gap) else 1.3 * longest
+        axes.barh(
+            place, length, color=COLORS[0] if place else COLORS[1], height=0.6,
+            hatch="" if place else "///", edgecolor=PAPER,
+        )  # fmt: skip
+        _beside(axes, length, place, _known(gap))
+    away = not np.isfinite(gaps).all()
+    axes.set_xlim(0.0, max((1.6 if away else 1.15) * longest, 1.8))
+
+
+def _known(value: float) -> str:
+    return shown(value) if np.isfinite(value) else "ran away"
 
 
 def _beside(axes: Axes, x: float, y: float, text: str) -> None:
