@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.engine import State, move
-from sim.errors import BadRequest
+from sim.errors import BadRequest, NotIdentifiable
 from sim.fit.closest import Followed, closest, follow, honest
 from sim.fit.doubts import unsure
 from sim.fit.innovations import model_of
@@ -21,7 +21,7 @@ from sim.fit.seen import Seen, noise, see
 from sim.fit.start import first_guess, sensible
 from sim.fit.told import astray, late, opposed
 from sim.fit.unknown import refuse_astray, refuse_unknown
-from sim.log import Array, Log
+from sim.log import Array, Log, Run
 from sim.units import unit
 
 WORTH = 12.0  # [of -2 log L] what a lag must explain to be believed: odds of some hundred to one
@@ -31,6 +31,8 @@ SHORT_LAGS = {"lag": (0.05, 0.2)}
 
 An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
 """
+FASTEST, SLOWEST = 1e-4, 0.5  # [s] between samples; other clocks do not tell seconds
+HOLE = 10.0  # [s] in which anything might have happened
 LAGS = ("window", "lag")
 
 
@@ -52,16 +54,62 @@ def output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's word
             where=log.source,
             advice="Say --units radians, rotations or degrees, or --type elevator.",
         )
+    _timed(log)
+    try:
+        with np.errstate(all="ignore"):  # what overflows is refused
+            found = _found(log, type=type)
+    except np.linalg.LinAlgError:
+        found = None
+    if found is None or not all(
+        map(math.isfinite, (*found.gains.values(), *found.errors.values()))
+    ):
+        raise _nonsense(log)
+    return found
+
+
+def _timed(log: Log) -> None:
+    """Refuse times that are no seconds, and a run with a hole in it."""
+    steps = [(run.test, np.diff(run.time)) for run in log.runs if len(run) > 1]
+    if not steps:
+        return
+    period = _period(log.runs)
+    if not FASTEST <= period <= SLOWEST:
+        raise NotIdentifiable(
+            f"the samples are {period:.3g} s apart, where a robot logs every 0.001 to 0.1 s",
+            where=log.source,
+            advice="Give times in seconds.",
+        )
+    for test, some in steps:
+        if some.max() > HOLE:
+            raise NotIdentifiable(
+                f"{test} lacks {some.max():.3g} s between two samples",
+                where=log.source,
+                advice="Cut the run there, or record it again.",
+            )
+
+
+def _nonsense(log: Log) -> NotIdentifiable:
+    return NotIdentifiable(
+        "its motion does not go with its voltage",
+        where=log.source,
+        advice="Inspect the log: are units, signs, times and test names right?",
+    )
+
+
+def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     guess = first_guess(log, type=type)
     way = -1.0 if guess["kV"] < 0.0 else 1.0
     if way < 0.0:  # plus drives it backward: fitted as if the leads were swapped, and told
         runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
         guess = first_guess(replace(log, runs=runs), type=type)
         log = replace(log, runs=runs)
-    begin = sensible(guess)
+    begin = sensible(guess, period=_period(log.runs))
     seen = see(log, friction=None if type == "simple" else begin["kS"])
     problem = Problem(type, seen, noise(seen), _period(seen))
-    problem, likeliest = _best(problem, begin)
+    plain = near(problem, begin)
+    if not math.isfinite(plain.cost) or np.isnan(plain.ahead).all():
+        raise _nonsense(log)
+    problem, likeliest = _best(problem, plain)
     searched, point = closest(problem, likeliest)
     gains, errors = _gains(point, covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
@@ -77,14 +125,13 @@ def output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's word
     return _fit(log, problem, point, way=way, gains=gains, errors=errors, followed=followed)
 
 
-def _period(seen: tuple[Seen, ...]) -> float:
+def _period(seen: Sequence[Seen | Run]) -> float:
     """[s] between two samples."""
     return float(np.median(np.concatenate([np.diff(run.time) for run in seen])))
 
 
-def _best(problem: Problem, guess: Mapping[str, float]) -> tuple[Problem, Point]:
+def _best(problem: Problem, plain: Point) -> tuple[Problem, Point]:
     """The best point, with a velocity that is averaged, a late answer, or both, if worth it."""
-    plain = near(problem, guess)
     point = _with_lags(problem, plain, FIRST_LAGS, settle=near)
     everything, problem = problem, problem.without_strays(point)
     found = far(problem, point if problem is everything else near(problem, point.values))

@@ -22,6 +22,7 @@ ROBUST = 1.4826  # standard deviations in a median absolute deviation
 STRAY = 6.0  # [standard deviations] farther than this no noise goes
 STARTS = 0.1  # [s] of a motion in which nothing is left out
 AROUND_STRAY = 2  # samples on both sides of one that strays
+SHORTEST = 0.02  # [sample periods] a shorter kA/kV leaves no trace, and takes ever finer steps
 LARGE = 10_000  # [samples] from which runs are simulated side by side
 NUDGE = 1e-4  # [of a gain's own size] by which it is moved for a derivative
 LEAST = {"kS": 0.02, "kG": 0.05, "level": 0.05, "upright": 0.05, "window": 0.004, "lag": 0.004}
@@ -70,7 +71,8 @@ class Problem:
 
     def at(self, values: Mapping[str, float], starts: Array, q: float) -> Point:
         """The point of these values; its cost is infinite where they are no physics."""
-        if any(not values[name] > 0.0 for name in POSITIVE):
+        quick = values["kA"] < SHORTEST * self.period * values["kV"]
+        if quick or any(not values[name] > 0.0 for name in POSITIVE):
             return Point(values, starts, q, NO_TRUST, np.empty((0, 2)), math.inf)
         model = model_of(self.type, values)
         trust = trust_for(model, noise=self.noise, q=q, period=self.period)
@@ -94,7 +96,9 @@ class Problem:
         A stop that was hit, a tooth that slipped, a voltage that was not applied: one such moment
         may weigh more than all the rest. Their measurements still keep the simulation on course.
         """
-        size = ROBUST * np.nanmedian(np.abs(point.ahead), axis=0)
+        there = ~np.isnan(point.ahead).all(axis=0)
+        size = np.full(2, math.inf)
+        size[there] = ROBUST * np.nanmedian(np.abs(point.ahead[:, there]), axis=0)
         strays = np.abs(point.ahead) > STRAY * np.maximum(size, self.noise.grain)
         far = strays[:, 0] | strays[:, 1]
         kept, first = [], 0

@@ -36,9 +36,14 @@ def near(problem: Problem, values: Mapping[str, float]) -> Point:
     """The best point from a first guess, if each second may go its own way by as much as noise.
 
     There the search looks only a little ahead at a time, and is not easily led astray.
+
+    Returns:
+        The point; where nothing can be simulated from the guess, the guess, at an infinite cost.
     """
     q = ANEW * problem.noise.velocity**2
     point = problem.at(values, np.zeros(len(problem.seen)), q)
+    if not math.isfinite(point.cost):
+        return point
     return better(problem, point, steps=STEPS, enough=5.0)
 
 

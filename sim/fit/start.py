@@ -18,6 +18,7 @@ from sim.log import Array, Log, Run
 SHORTEST = 0.2  # [s] of a while; at least four samples
 SAME = 0.03  # [share of the voltage] a smaller change of it tells nothing
 STANDING = 0.02  # [share of the top speed] below which nothing is said about a gain
+LEAST_PERIODS = 0.05  # [sample periods] a shorter timescale leaves hardly a trace
 LEAST_TIMESCALE, MOST_TIMESCALE = 1e-3, 10.0  # [s] of anything on a robot
 
 
@@ -64,10 +65,15 @@ def _changes(paid: Array, ways: Array, *, where: str) -> None:
         )
 
 
-def sensible(gains: Mapping[str, float]) -> dict[str, float]:
-    """The same with gains that a simulation can begin from."""
+def sensible(gains: Mapping[str, float], *, period: float = 0.0) -> dict[str, float]:
+    """The same with gains that a simulation can begin from.
+
+    Args:
+        gains: a raw guess.
+        period: [s] between samples.
+    """
     kv = abs(gains["kV"])
-    low, high = LEAST_TIMESCALE * kv, MOST_TIMESCALE * kv
+    low, high = max(LEAST_TIMESCALE, LEAST_PERIODS * period) * kv, MOST_TIMESCALE * kv
     return {
         **gains,
         "kS": max(gains["kS"], 0.0),
