@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from reconcile_plan import Case
-from reconcile_recording import SESSIONS, Levels, exchanged, permuted, recorded
+from reconcile_plan import FAULTS, Case
+from reconcile_recording import SESSIONS, Levels, exchanged, heated, permuted, recorded
 from reconcile_sizes import hide
 
 from sim.contaminate import contaminate
@@ -45,12 +45,14 @@ def make(case: Case, *, seed: int) -> Made:
     quick = hidden.mechanism.stops is not None and rng.random() < QUICK
     period = 0.005 if quick else 0.02
     levels = Levels.draw(hidden.mechanism, rng)
+    hidden = heated(hidden, levels, period=period, rng=rng)
     logs = {
         name: recorded(hidden, levels, session=name, period=period, dirty=case.dirty, rng=rng)
         for name in SESSIONS
     }
-    for name, severity in hidden.faults.items():
-        logs["train"] = contaminate(logs["train"], name, severity=severity, rng=rng).log
+    for name in (one for one in case.hidden if one in FAULTS):
+        damaged = contaminate(logs["train"], name, severity=hidden.sizes[name], rng=rng)
+        logs["train"] = damaged.log
     if case.shuffled:
         spoil = permuted if case.shuffled == "permuted" else exchanged
         logs = {name: spoil(log, rng=rng) for name, log in logs.items()}

@@ -39,6 +39,8 @@ FRICTION = (0.02, 0.06)  # [share] by which it differs from run to run
 JITTER = (0.0004, 0.0015)  # [s]
 NOISE = (0.004, 0.012)  # [V] of the logged voltage
 
+WARMS, WARMER = "heating", 0.2  # [share] more resistance after a session's four tests: 50 K
+
 MOMENT = (0.3, 0.7)  # [share of a run's motion] when something happens once
 ONCE = "onset"  # parameter of what happens at a moment
 MIRRORED = (1, 0, 3, 2)  # order of the four tests in which all voltages have the other sign
@@ -101,6 +103,27 @@ def recorded(
     runs = _runs(built, routine, period=period, wobble=wobble, rng=rng)
     runs = [replace(r, voltage=r.voltage + noise * rng.standard_normal(len(r))) for r in runs]
     return Log(tuple(runs), units=mechanism.units, type=mechanism.type)
+
+
+def heated(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Generator) -> Hidden:
+    """The same, with a motor that warms by as much whatever it drives.
+
+    The catalogue's example goes by time, and leaves cold what draws current for a moment only.
+
+    Args:
+        hidden: the mechanism and what is hidden in it.
+        levels: its voltages.
+        period: [s] between samples.
+        rng: the source of chance.
+    """
+    if WARMS not in hidden.sizes:
+        return hidden
+    cold = replace(hidden, parts=tuple(p for p in hidden.parts if p.effect != WARMS))
+    log = recorded(cold, levels, session="train", period=period, dirty=False, rng=rng)
+    kv = hidden.mechanism.gains["kV"]
+    heat = sum(period * float(np.sum((run.voltage - kv * run.velocity) ** 2)) for run in log.runs)
+    warm = Part(WARMS, {"rate": WARMER * hidden.sizes[WARMS] / heat})
+    return replace(cold, parts=(*cold.parts, warm))
 
 
 def permuted(log: Log, *, rng: np.random.Generator) -> Log:

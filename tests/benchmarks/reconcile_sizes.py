@@ -35,14 +35,18 @@ class Hidden:
     Args:
         mechanism: as drawn, nothing hidden yet.
         parts: the effects; those with a moment have it for themselves in every session.
-        faults: name -> severity.
-        told: name -> its numbers, for the key.
+        sizes: name -> 1 if it is ordinary.
     """
 
     mechanism: Mechanism
     parts: tuple[Part, ...]
-    faults: Mapping[str, float]
-    told: Mapping[str, Mapping[str, float]]
+    sizes: Mapping[str, float]
+
+    @property
+    def told(self) -> dict[str, dict[str, float]]:
+        """Name -> its numbers, for the key."""
+        parts = {part.effect: dict(part.parameters) for part in self.parts}
+        return {name: {"size": size, **parts.get(name, {})} for name, size in self.sizes.items()}
 
 
 def hide(case: Case, *, rng: np.random.Generator) -> Hidden:
@@ -58,20 +62,16 @@ def hide(case: Case, *, rng: np.random.Generator) -> Hidden:
     if any((case.mechanism, name) in GIVEN_AS_SIMPLE for name in case.hidden):
         mechanism = replace(mechanism, lift=0.0, type="simple")
     scale = replace(mechanism.scale, step=SLOWEST_STEP)
-    parts, faults = [], {}
-    for name in case.hidden:
-        size = float(rng.uniform(*(A_THIRD if case.severity == SUBTLE else ORDINARY)))
-        if name in FAULTS:
-            faults[name] = size
-            continue
-        values = dict(find(name).example(scale, size))
+    bounds = A_THIRD if case.severity == SUBTLE else ORDINARY
+    sizes = {name: float(rng.uniform(*bounds)) for name in case.hidden}
+    parts = []
+    for name in (one for one in case.hidden if one not in FAULTS):
+        values = dict(find(name).example(scale, sizes[name]))
         shape = SHAPES.get(name)
         if shape is not None:
-            values = shape(values, mechanism, scale, size, rng)
+            values = shape(values, mechanism, scale, sizes[name], rng)
         parts.append(Part(name, values))
-    told = {part.effect: dict(part.parameters) for part in parts}
-    told |= {name: {"severity": severity} for name, severity in faults.items()}
-    return Hidden(mechanism, tuple(parts), faults, told)
+    return Hidden(mechanism, tuple(parts), sizes)
 
 
 Shape = Callable[[Values, Mechanism, Scale, float, np.random.Generator], Values]
