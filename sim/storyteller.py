@@ -10,7 +10,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
 from sim.reconcile.story import Finding, Story
-from sim.telling import FAULT, beside, headline, in_floors, measured, next_tests
+from sim.telling import FAULT, beside, headline, in_floors, next_tests, told_parameter
 
 COLUMNS, BAR = 80, 40  # [characters] of a line, and of the longest bar
 PLACES = 5  # that are told
@@ -88,10 +88,7 @@ def _finding(say: _Sayer, one: Finding, story: Story) -> None:
     say(f"{' or '.join([one.effect, *one.ambiguous_with])} ({size})", style="bold")
     say(one.sentence, indent=2)
     for name, estimate in one.parameters.items():
-        value, error = measured(estimate)
-        unit = "" if estimate.unit == "1" else f" {estimate.unit}"
-        known = f" ± {error}{unit}" if error[0].isdigit() else f"{unit} ({error})"
-        say(f"{name} = {value}{known}", indent=2)
+        say(told_parameter(name, estimate), indent=2)
     if one.kind != FAULT:
         before, after = (in_floors(gap, story) for gap in (one.gap_before, one.gap_after))
         say(f"The gap goes from {before} to {after} times the noise.", indent=2)

@@ -87,6 +87,14 @@ def measured(one: Estimate) -> tuple[str, str]:
     return _minus(f"{one.value:#.{min(max(digits + 1, 2), 6)}g}".rstrip(".")), f"{one.error:.2g}"
 
 
+def told_parameter(name: str, one: Estimate) -> str:
+    """A parameter in one phrase: ``level 0.3600 ± 0.0064 V``."""
+    value, error = measured(one)
+    unit = "" if one.unit == "1" else f" {one.unit}"
+    known = f" ± {error}{unit}" if error[0].isdigit() else f"{unit} ({error})"
+    return f"{name} {value}{known}"
+
+
 def next_tests(story: Story) -> tuple[str, ...]:
     """Which tests to record next, each once; empty if none would tell more."""
     tests = dict.fromkeys(one.separating_test for one in story.findings if one.separating_test)
@@ -122,7 +130,8 @@ def _off(story: Story) -> str:
 
 def _gap(story: Story) -> str:
     before, after = (in_floors(gap, story) for gap in (story.gap_before, story.gap_after))
-    with_ = "with all that was found" if len(story.chapters) > 2 else "with it"  # noqa: PLR2004 - a base and one effect
+    several = len([*effects_of(story, MAJOR), *effects_of(story, MINOR)]) > 1
+    with_ = "with all that was found" if several else "with it"
     if len(story.chapters) == 1:
         return _off(story)
     if shrinks(story.gap_before, story.gap_after):

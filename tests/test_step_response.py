@@ -153,7 +153,9 @@ def test_the_numbers_of_a_verdict_are_those_of_the_curve():
     assert told.reached == pytest.approx(0.45, abs=0.002)
     assert told.overshoot == pytest.approx(0.2, abs=0.001)
     assert told.settled == pytest.approx(0.75, abs=0.002)
-    assert told.words == "is 90% there after 450 ms, goes 20% past the target and is settled after 751 ms"
+    assert told.words == (
+        "is 90% there after 450 ms, goes 20% past the target and is settled after 751 ms"
+    )
 
 
 @settings(max_examples=60)

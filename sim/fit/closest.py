@@ -18,6 +18,7 @@ from sim.log import Array
 STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
 SMALL = 0.015  # [share of the top speed] error that is small whatever the noise
 STEPS = 30  # of the search
+LAGS = ("window", "lag")
 ASIDE = 0.02  # [m or rad] that slack in a gear or a chain lets a start be from where it is seen
 TOGETHER = 0.5  # [s] for which what is missing errs one way
 
@@ -92,26 +93,30 @@ def follow(problem: Problem, point: Point, *, astray: bool = False) -> Followed:
 def closest(problem: Problem, point: Point) -> tuple[Problem, Point]:
     """Where a model strays: velocities alone, and the point that simulates them best.
 
+    Lags stay: how late a velocity is shows beside the position, and alone it passes for inertia.
+
     Args:
         problem: what was searched.
         point: the likeliest point.
 
     Returns:
-        Both as they were if the model holds; or if the likeliest point is pardoned next to nothing,
-        for then it is a simulation already, of the position too.
+        Both as they were if the model holds, or if nothing comes closer; and if the likeliest point
+        is pardoned next to nothing, for then it is a simulation already, of the position too.
     """
-    if point.q <= ANEW * problem.noise.velocity**2 or not follow(problem, point).strays:
+    before = follow(problem, point)
+    if point.q <= ANEW * problem.noise.velocity**2 or not before.strays:
         return problem, point
     seen = []
     for run in problem.seen:
         measured = run.measured.copy()
         measured[:, 0] = np.nan
         seen.append(replace(run, measured=measured))
-    blind = replace(problem, seen=tuple(seen), aside=ASIDE)
+    blind = replace(problem, seen=tuple(seen), held=LAGS, aside=ASIDE)
     found = better(
         blind, blind.at(point.values, np.zeros(len(seen)), 0.0), steps=STEPS, enough=0.01
     )
-    return blind, found
+    # samples that were left out may weigh more than all that was gained
+    return (blind, found) if follow(problem, found).rmse < before.rmse else (problem, point)
 
 
 def honest(problem: Problem, point: Point) -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 
 from sim.engine import State, move
 from sim.errors import BadRequest, NotIdentifiable
-from sim.fit.closest import Followed, closest, follow, honest
+from sim.fit.closest import LAGS, Followed, closest, follow, honest
 from sim.fit.doubts import unsure
 from sim.fit.innovations import model_of
 from sim.fit.result import Fit
@@ -33,7 +33,6 @@ An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
 """
 FASTEST, SLOWEST = 1e-4, 0.5  # [s] between samples; other clocks do not tell seconds
 HOLE = 10.0  # [s] in which anything might have happened
-LAGS = ("window", "lag")
 
 
 def output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's word
@@ -138,6 +137,9 @@ def _best(problem: Problem, plain: Point) -> tuple[Problem, Point]:
     if point is not plain:
         without = far(problem, near(problem, plain.values))
         found = found if found.cost < without.cost - WORTH else without
+
+    if follow(problem, found).strays:  # a millisecond is not what is wrong
+        return problem, found
 
     def settle(problem: Problem, values: Mapping[str, float]) -> Point:
         return far(problem, again(problem, problem.at(values, found.starts, found.q)))

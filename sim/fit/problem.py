@@ -60,6 +60,7 @@ class Problem:
         seen: the runs.
         noise: of the measurements, measured without a model.
         period: [s] between samples.
+        held: names of values that are not searched.
         aside: [m or rad] about how far from what is seen a start may be, beside the measurements.
     """
 
@@ -67,6 +68,7 @@ class Problem:
     seen: tuple[Seen, ...]
     noise: Noise
     period: float
+    held: tuple[str, ...] = ()
     aside: float = math.inf
 
     def at(self, values: Mapping[str, float], starts: Array, q: float) -> Point:
@@ -127,6 +129,8 @@ class Problem:
         return np.column_stack([white(self, point, part) for part in parts])
 
     def _by_value(self, point: Point, name: str, *, fine: bool) -> Array:
+        if name in self.held:
+            return np.zeros_like(point.ahead)
         value = point.values[name]
         step = NUDGE * max(abs(value), LEAST.get(name, 0.0))
         model = model_of(self.type, {**point.values, name: value + step})

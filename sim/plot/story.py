@@ -5,7 +5,7 @@ from sim.plot.story_gap import gaps
 from sim.plot.story_runs import overlay
 from sim.plot.table import Table
 from sim.reconcile.story import Story
-from sim.telling import in_floors, measured
+from sim.telling import in_floors, told_parameter
 from sim.units import unit
 
 __all__ = ["findings", "gaps", "lineup", "overlay", "shrinking"]
@@ -16,11 +16,7 @@ def findings(story: Story) -> Table:
     rows = []
     for one in story.findings:
         parameters = "; ".join(
-            f"{name} {value} ± {error} {estimate.unit}".rstrip(" 1")
-            if error[0].isdigit()
-            else f"{name} {value} {estimate.unit} ({error})"
-            for name, estimate in one.parameters.items()
-            for value, error in [measured(estimate)]
+            told_parameter(name, estimate) for name, estimate in one.parameters.items()
         )
         gap = f"{in_floors(one.gap_before, story)} to {in_floors(one.gap_after, story)}"
         rivals = f" or {' or '.join(one.ambiguous_with)}" if one.ambiguous_with else ""

@@ -44,20 +44,29 @@ def gaps(story: Story) -> Picture:
     """Where the base model disagrees with the shown log, and what is left of that at the end.
 
     Raises:
-        BadRequest: there is nothing to compare.
+        BadRequest: there is nothing to compare, or each simulation ran away.
     """
     runs = shown_runs(story, 0, len(story.chapters) - 1)
-    found = [_map(story, runs, after=False)]
-    titles = ["base model"]
-    if len(story.chapters) > 1:
-        found.append(_map(story, runs, after=True))
-        titles.append("with " + ", ".join(one.added for one in story.chapters[1:]))
+    added = ", ".join(one.added for one in story.chapters[1:])
+    wanted = {"base model": False} | ({f"with {added}": True} if added else {})
+    maps = {title: _map(story, runs, after=after) for title, after in wanted.items()}
+    if not any(maps.values()):
+        raise BadRequest(
+            "there is too little to compare, or the simulation ran away",
+            advice="Give longer runs, or see what the fit doubts.",
+        )
+    titles = [title for title, one in maps.items() if one]
+    found = [one for one in maps.values() if one]
     per = unit(story.shown.units)
-    return Picture(_draw(found, titles, per=per), _words(found, titles), _numbers(found))
+    return Picture(
+        _draw(found, titles, per=per),
+        _words(found, titles),
+        _numbers(found, ["base" if one == "base model" else "last" for one in titles]),
+    )
 
 
-def _map(story: Story, runs: Sequence[Shown], *, after: bool) -> GapMap:
-    """What a model leaves of the shown runs, in noises of the samples."""
+def _map(story: Story, runs: Sequence[Shown], *, after: bool) -> GapMap | None:
+    """What a model leaves of the shown runs, in noises of the samples; None if nothing shows."""
     log = replace(story.shown, runs=tuple(r for r in story.shown.runs if len(r) >= FEWEST))
     sizes = noise(see(log, friction=None))
     left = []
@@ -71,12 +80,15 @@ def _map(story: Story, runs: Sequence[Shown], *, after: bool) -> GapMap:
     floor = story.noise_floor * unit(story.shown.units).si
     if not floor > 0.0:
         raise BadRequest("the noise is not known", advice="Give runs in which it moves.")
-    return gap_map(left, noise=replace(sizes, velocity=floor))
+    if not any(one.compared.any() for one in left):
+        return None
+    made = gap_map(left, noise=replace(sizes, velocity=floor))
+    return made if any(map(_there, made.maps)) else None
 
 
 def _draw(found: Sequence[GapMap], titles: Sequence[str], *, per: Unit) -> Figure:
     first = found[0]
-    kinds = [number for number, cells in enumerate(first.maps) if np.isfinite(cells.mean).any()]
+    kinds = [n for n in range(len(first.maps)) if any(_there(one.maps[n]) for one in found)]
     rows = [min(len(first.maps[number].rows), MOST_RUNS) for number in kinds]
     height = sum(rows) * ROW + SPARE * len(rows) + 1.3
     figure = Figure(figsize=(WIDE, height), layout="constrained", facecolor=PAPER)
@@ -91,6 +103,11 @@ def _draw(found: Sequence[GapMap], titles: Sequence[str], *, per: Unit) -> Figur
             grid[line, column].set_title(TITLES[cells.what], fontsize=8, color=INK, loc="left")
     _heads(figure, grid, titles)
     return figure
+
+
+def _there(cells: Cells) -> bool:
+    """Whether any cell has enough samples of the velocity."""
+    return bool(np.isfinite(cells.mean[VELOCITY]).any())
 
 
 def _heads(figure: Figure, grid: "np.ndarray[tuple[int, int], np.dtype[np.object_]]",
@@ -186,10 +203,10 @@ def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
     return " ".join(said + [". ".join(again) + "."] * bool(again))
 
 
-def _numbers(found: Sequence[GapMap]) -> Table:
+def _numbers(found: Sequence[GapMap], titles: Sequence[str]) -> Table:
     rows = [
         (place.where, f"{place.error:+.2g}".replace("-", "−"), f"{place.sure:.0f}", title)
-        for one, title in zip(found, ("base", "last"), strict=False)
+        for one, title in zip(found, titles, strict=True)
         for place in one.places(TOLD, signal="velocity")
     ]
     if not rows:

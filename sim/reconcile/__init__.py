@@ -22,8 +22,9 @@ from sim.reconcile.aside import Aside, judge_damage
 from sim.reconcile.damage import Damaged
 from sim.reconcile.descent import better, scanned, settle
 from sim.reconcile.gates import folds
+from sim.reconcile.glitch import glitches
 from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import lanes
+from sim.reconcile.lanes import SetAside, lanes
 from sim.reconcile.naming import findings_of, verdict_of
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.remainder import worst
@@ -71,14 +72,17 @@ def reconcile(
     problem = _problem(log, validation, aside)
     progress("base model", 0.05)
     base = _base(problem, log, type=type)
+    problem, base, slipped = _unslipped(problem, base)
     done = rounds(problem, base, both, folds([one.session for one in problem.lanes]), progress)
     progress("what remains", 0.9)
     shown = Shown.of({"log": log, "validation": validation, "held_out": held_out}, aside)
     chapters = shown.chapters(done)
     moment = worst(problem, done[-1].suspect.point)
     per = unit(log.units)
-    findings = findings_of(problem, done, aside.found, chapters, per=per)
-    verdict, remainder, remains = verdict_of(findings, moment, problem)
+    findings = findings_of(problem, done, _once(slipped, aside.found), chapters, per=per)
+    verdict, remainder, remains = verdict_of(
+        findings, moment, done[-1].gap.velocity / problem.noise.velocity, problem
+    )
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,
@@ -94,6 +98,27 @@ def _problem(log: Log, validation: Log | None, aside: Aside) -> Problem:
         began = clocks(replace(log, runs=log.runs + validation.runs))[len(log.runs)]
         every += lanes(validation, session=1, since=float(began), aside=aside.of(VALIDATION))
     return Problem.of(every)
+
+
+def _unslipped(problem: Problem, base: Point) -> tuple[Problem, Point, tuple[Damaged, ...]]:
+    """The same without moments at which the encoder slipped, and one of those for the findings."""
+    found = list(glitches(problem, base))
+    if not found:
+        return problem, base, ()
+    runs = list(problem.lanes)
+    for number, one in found:
+        runs[number] = runs[number].without(SetAside(number, one.start, one.end))
+    mended = Problem(tuple(runs), problem.noise)
+    begin = mended.at(base.hypothesis, base.values, base.starts, base.q)
+    return mended, settle(mended, scanned(mended, begin)), (found[0][1],)
+
+
+def _once(*several: Sequence[Damaged]) -> tuple[Damaged, ...]:
+    """One damage of each fault."""
+    found: dict[str, Damaged] = {}
+    for one in (damage for some in several for damage in some):
+        found.setdefault(one.fault, one)
+    return tuple(found.values())
 
 
 def _base(problem: Problem, log: Log, *, type: str) -> Point:  # noqa: A002 - as above

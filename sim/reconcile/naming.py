@@ -19,7 +19,7 @@ from sim.reconcile.story import (
     Estimate,
     Finding,
 )
-from sim.reconcile.thresholds import MAJOR, SHAKEN
+from sim.reconcile.thresholds import MAJOR, SHAKEN, STRAYS
 from sim.units import Unit
 
 
@@ -95,15 +95,27 @@ def standard_errors(problem: Problem, point: Point) -> dict[str, float]:
 
 
 def verdict_of(
-    findings: Sequence[Finding], moment: Moment, problem: Problem
+    findings: Sequence[Finding], moment: Moment, strays: float, problem: Problem
 ) -> tuple[str, bool, str]:
-    """The verdict, whether something remains, and a sentence about it."""
+    """The verdict, whether something remains, and a sentence about it.
+
+    Args:
+        findings: what was named.
+        moment: that the last model explains least.
+        strays: [noises of a velocity] by which the last model leaves runs it was not fitted to.
+        problem: the measurements.
+    """
     remains = ""
     if moment.size > SHAKEN:
         lane = problem.lanes[moment.lane]
         remains = (
             f"In {lane.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
             f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
+        )
+    elif strays > STRAYS:
+        remains = (
+            f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
+            "effect of the catalogue makes that less."
         )
     majors = [one for one in findings if one.size == "major"]
     if remains and not majors:

@@ -38,3 +38,9 @@ SPOILT = 0.9
 SHAKEN = 7.0
 """[robust standard deviations] of the largest windowed innovation: beyond it a moment is not
 explained. A normal deviate among some thousand windows stays below 5."""
+
+STRAYS = 2.5
+"""[noises of a velocity] of the gap that the last model leaves on runs it was not fitted to.
+
+A complete model of an arm, whose runs end where small errors of friction have added up, leaves two.
+"""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
+from sim.errors import BadRequest
 from sim.plot.picture import Picture
 from sim.plot.story import findings, gaps, lineup, overlay, shrinking
 from sim.plot.story_bars import suspects_table
@@ -92,11 +93,19 @@ def story_page(story: Story, *, title: str) -> str:
             tests=next_tests(story),
             shrinking=_html(shrinking(story)),
             places=[(place.sentence, f"{place.sure:.0f}") for place in story.where],
-            gaps=_html(gaps(story)),
+            gaps=_gaps(story),
             rounds=[(_base(story, n), _lineup(story, n)) for n in tried],
             overlays=[(_base(story, n), _html(overlay(story, n))) for n in told],
         )
     )  # fmt: skip
+
+
+def _gaps(story: Story) -> Markup:
+    """The map, or why there is none."""
+    try:
+        return _html(gaps(story))
+    except BadRequest as refusal:
+        return Markup("<p>{}</p>").format(str(refusal))
 
 
 def _lineup(story: Story, chapter: int) -> Markup:

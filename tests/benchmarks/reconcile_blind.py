@@ -20,11 +20,24 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
 from threading import Timer
+from typing import IO
 
 LONGEST = 120.0  # [s] for one case
 SHOWN = 300  # [characters] of what went wrong
 KILOBYTES = 1 if sys.platform == "darwin" else 1024  # [bytes] in which a system counts memory
 MEGA = 1e6
+COUNT = """
+import os, signal, subprocess, sys
+from threading import Timer
+process = subprocess.Popen(sys.argv[3:])
+ender = Timer(float(sys.argv[1]), os.kill, (process.pid, signal.SIGKILL))
+ender.start()
+_, status, took = os.wait4(process.pid, 0)
+ender.cancel()
+code = os.waitstatus_to_exitcode(status)
+with open(sys.argv[2], "w", encoding="utf-8") as report:
+    print(code, took.ru_utime + took.ru_stime, took.ru_maxrss, file=report)
+"""
 
 
 @dataclass(frozen=True)
@@ -70,11 +83,7 @@ def solve(name: str, *, root: Path, command: Sequence[str]) -> Answer:
     """
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         began = time.perf_counter()
-        process = subprocess.Popen(asked(root / name, command), stdout=out, stderr=err)
-        ender = Timer(LONGEST, process.kill)
-        ender.start()
-        busy, memory = _waited(process)
-        ender.cancel()
+        code, busy, memory = _run(asked(root / name, command), out=out, err=err)
         seconds = time.perf_counter() - began
         out.seek(0)
         err.seek(0)
@@ -84,18 +93,32 @@ def solve(name: str, *, root: Path, command: Sequence[str]) -> Answer:
     except ValueError:
         said = None
         problem = problem or text or f"nothing said within {seconds:.0f} s"
-    code = process.returncode
     return Answer(name, said, problem.strip()[-SHOWN:], code, seconds, busy, memory)
 
 
-def _waited(process: subprocess.Popen[bytes]) -> tuple[float | None, float | None]:
-    """Wait for the end: [s] of one core and [MB], where the system counts for each process."""
-    if not hasattr(os, "wait4"):  # Windows
+def _run(
+    command: Sequence[str], *, out: IO[bytes], err: IO[bytes]
+) -> tuple[int, float | None, float | None]:
+    """Run to the end: the exit code, [s] of one core and [MB], where the system counts those.
+
+    A new process counts the memory of the one that forked it as its own, so a small one stands
+    between.
+    """
+    counts = hasattr(os, "wait4")  # Windows does not
+    between = [sys.executable, "-S", "-c", COUNT, str(LONGEST)] if counts else []
+    with tempfile.TemporaryDirectory() as folder:
+        report = Path(folder) / "took"
+        if counts:
+            between.append(str(report))
+        process = subprocess.Popen([*between, *command], stdout=out, stderr=err)
+        ender = Timer(LONGEST + counts, process.kill)
+        ender.start()
         process.wait()
-        return None, None
-    _, status, took = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return took.ru_utime + took.ru_stime, took.ru_maxrss * KILOBYTES / MEGA
+        ender.cancel()
+        if not report.exists():
+            return process.returncode, None, None
+        code, busy, memory = report.read_text(encoding="utf-8").split()
+    return int(code), float(busy), float(memory) * KILOBYTES / MEGA
 
 
 def folders(root: Path) -> list[str]:

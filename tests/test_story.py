@@ -1,0 +1,505 @@
+"""A story as everybody meets it: sentences, terminal, page, pictures, JSON, and the command."""
+
+import io
+import json
+import math
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from html import unescape
+
+import numpy as np
+import pytest
+from page_flaws import page_flaws
+from rich.console import Console
+from story_made import (
+    DRAG,
+    FOOT,
+    NOISE,
+    REMAINS,
+    RIGHT,
+    SAG,
+    SLIP,
+    STORIES,
+    TESTS,
+    WRONG,
+    gap_of,
+    story,
+)
+
+import sim
+from sim.cli import sysid
+from sim.command import run
+from sim.effects import EFFECTS
+from sim.errors import BadRequest
+from sim.mechanisms import MECHANISMS
+from sim.report.story import story_page, write_story
+from sim.routine import Routine
+from sim.simulate import simulate
+from sim.storyteller import progress_bar, show_story
+from sim.telling import headline, measured, next_tests
+
+BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
+EXPLAINED = STORIES["explained"]
+PAGES = ("nothing missing", "explained", "damage and drag", "ambiguous", "unexplained")
+
+
+@pytest.fixture(scope="module")
+def pages():
+    """Each story's page."""
+    return {name: story_page(STORIES[name], title="drive.csv") for name in PAGES}
+
+
+def told(one):
+    """What a terminal of eighty columns shows of a story."""
+    out = io.StringIO()
+    show_story(one, title="drive.csv", console=Console(file=out, width=80, highlight=False))
+    return out.getvalue()
+
+
+# -- sentences -----------------------------------------------------------------------------------
+
+
+def test_the_numbers_of_the_story_are_those_of_its_log():
+    log = EXPLAINED.shown
+
+    # the base model is 1/0.9 - 1 = 11% too fast, of speeds about 1.6 m/s, in noises of 0.01 m/s
+    assert gap_of(log, WRONG) * FOOT / NOISE == pytest.approx(BEFORE, rel=0.01)
+    assert gap_of(log, RIGHT) * FOOT / NOISE == pytest.approx(AFTER, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("nothing missing", "Nothing is missing: the simulation is off by 1.01 times the noise"),
+        ("a little missing", "Nothing big is missing; a little of battery-sag shows: the sim"),
+        ("explained", "Missing in the model is drag (resistance that grows with the square of"),
+        ("explained", "with it the gap shrinks from 16.2 to 1.01 times the noise"),
+        ("explained, twice", "Missing in the model are drag (resistance that grows with the"),
+        ("explained, twice", "and cogging (a force that repeats along the way): with all that"),
+        ("only damage", "The record is damaged (encoder-slip), and beside that nothing big is"),
+        ("damage and drag", "the record is damaged too (encoder-slip)."),
+        ("ambiguous", "or stribeck, and these logs cannot tell which"),
+        ("unexplained", "Something is missing that no effect of the catalogue explains"),
+        ("explained, and something remains", "and something remains that nothing explains."),
+    ],
+)
+def test_the_verdict_is_one_plain_sentence(name, said):
+    sentence = headline(STORIES[name])
+
+    assert said in sentence
+    assert sentence.endswith(".")
+    assert ". " not in sentence
+
+
+def test_a_gap_that_does_not_shrink_is_said_so():
+    worse = story(DRAG, gap_after=1.2 * EXPLAINED.gap_before)
+
+    assert "with it the gap does not shrink" in headline(worse)
+    assert "do not trust the finding" in re.sub(r"\s+", " ", told(worse))
+
+
+def test_nothing_is_called_complete_that_is_far_off():
+    off = STORIES["nothing missing"]
+    off = replace(off, gap_after=3.0 * off.noise_floor)
+
+    assert headline(off).startswith("No effect of the catalogue would narrow the gap by much, thou")
+    assert "off by 3 times the noise" in headline(off)
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "said"),
+    [
+        (0.11234, 0.0021, ("0.1123", "0.0021")),
+        (-12.3456, 0.4, ("−12.35", "0.4")),
+        (8.152, None, ("8.152", "chosen, not searched")),
+        (8.152, math.nan, ("8.152", "not known")),
+        (0.0, 0.01, ("0.0", "0.01")),
+        (1.2, 15.0, ("1.2", "15")),
+    ],
+)
+def test_a_number_has_the_digits_it_deserves(value, error, said):
+    estimate = replace(DRAG.parameters["drag"], value=value, error=error)
+
+    assert measured(estimate) == said
+
+
+def test_tests_to_run_next_are_told_once():
+    unsure = STORIES["ambiguous"].findings[0]
+
+    assert next_tests(story(unsure, unsure)) == ("Record a coast: only drag is felt there.",)
+    assert next_tests(EXPLAINED) == ()
+
+
+# -- terminal ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", STORIES)
+def test_a_terminal_shows_plain_lines_of_eighty_columns(name):
+    said = told(STORIES[name])
+
+    assert max(map(len, said.splitlines())) <= 80
+    assert "\x1b" not in said
+    assert all(line == line.rstrip() for line in said.splitlines())
+    assert re.sub(r"\s+", " ", headline(STORIES[name])) in re.sub(r"\s+", " ", said)
+
+
+def test_a_terminal_shows_findings_gaps_and_what_to_do():
+    said = told(story(SLIP, *STORIES["ambiguous"].findings, SAG, verdict="ambiguous", **REMAINS))
+
+    assert "drag or stribeck (major)" in said
+    assert "  drag 0.1123 ± 0.0021 V·s²/ft²" in said
+    assert "  share 0.040 ± 0.01\n" in said
+    assert "  What to do: Tighten what holds the sensor." in said
+    assert "  Look at: Grease that has become stiff." in said
+    assert re.search(r"base model #{40} 16\.2\n", said)
+    assert re.search(r"\+ drag\.{4} #{2,3} 1\.01\n", said)  # 1.01 of 16.2 are 2.5 of 40
+    assert "Test to run next: Record a coast" in said
+    assert "look: In dynamic-reverse, 1.0 to 1.2 s, nobody knows." in said
+    assert "slower than the model says, by 12 times the noise" in re.sub(r"\s+", " ", said)
+
+
+def test_brackets_in_a_name_are_no_markup():
+    out = io.StringIO()
+
+    show_story(EXPLAINED, title="[red]drive[/].csv", console=Console(file=out, width=80))
+
+    assert out.getvalue().startswith("[red]drive[/].csv\n")
+
+
+def test_nobody_watches_a_bar_that_no_terminal_shows(capsys):
+    with progress_bar() as progress:
+        progress("round 1", 0.5)
+
+    assert capsys.readouterr() == ("", "")
+
+
+# -- page ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_the_page_is_alone_and_for_everybody(pages, name):
+    assert page_flaws(pages[name]) == []
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_the_page_opens_with_the_verdict(pages, name):
+    page, sentence = unescape(pages[name]), headline(STORIES[name])
+
+    assert page.index(sentence) < page.index("<nav") < page.index("<h2")
+
+
+def test_the_page_tells_every_part_of_the_story(pages):
+    said = unescape(pages["damage and drag"])
+
+    assert re.findall(r'<h3 id="finding-\d">(\S+) ', said) == [
+        "encoder-slip",
+        "drag",
+        "battery-sag",
+    ]
+    assert '<th scope="row">drag</th><td class="number">0.1123</td>' in said
+    assert EFFECTS["drag"].parameters[0].what in said
+    assert "Tighten what holds the sensor." in said
+    assert re.findall(r"<h3>Round (\d): on top of the ([^<]+)</h3>", said) == [
+        ("1", "base model"), ("2", "base model + drag"),
+    ]  # fmt: skip
+    assert "<summary>base model + drag</summary>" in said
+    assert said.count("The gap is shown on a log that nothing was fitted to.") == 2
+    assert "not admitted: widens the gap" in said
+    assert "One run was too short." in said
+    assert "dynamic-reverse, 0.2 to 0.4 s: the robot is slower than the model says" in said
+
+
+def test_the_page_says_what_remains_and_which_test_to_run(pages):
+    assert "<li>Record a coast: only drag is felt there.</li>" in pages["ambiguous"]
+    assert 'class="verdict unsure"' in pages["ambiguous"]
+    assert 'class="verdict"' in pages["explained"]
+    assert REMAINS["remains"] in pages["unexplained"]
+    assert "Use the gains of" in pages["nothing missing"]
+
+
+def test_a_round_that_explains_nothing_has_no_empty_picture(pages):
+    # the gap, the map, one lineup and one overlay; the second round is a table only
+    assert pages["explained"].count("<img ") == 4
+
+
+def test_the_same_story_gives_the_same_page(pages):
+    assert story_page(EXPLAINED, title="drive.csv") == pages["explained"]
+
+
+def test_what_a_file_is_called_is_no_code():
+    hostile = "<script>alert(1)</script>.csv"
+
+    page = story_page(story(replace(DRAG, sentence="<b onclick='x'>")), title=hostile)
+
+    assert page_flaws(page) == []
+    assert "&lt;script&gt;alert(1)" in page
+
+
+def test_a_simulation_that_ran_away_is_said_in_words():
+    away = tuple(np.full_like(track, np.inf) for track in WRONG)
+    base, last = EXPLAINED.chapters
+    mad = replace(
+        EXPLAINED,
+        chapters=(replace(base, tracks=away, gap=math.inf), last),
+        gap_before=math.inf,
+        findings=(replace(DRAG, gap_before=math.inf),),
+    )
+
+    page = story_page(mad, title="drive.csv")
+
+    assert page_flaws(page) == []
+    assert "ran away" in page
+    assert "inf " not in told(mad)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("nowhere/x.html", "Choose a folder that exists"), ("x.docx", "End its name in .html")],
+)
+def test_a_page_that_cannot_be_written_is_refused(tmp_path, name, said):
+    with pytest.raises(BadRequest, match=said):
+        write_story(EXPLAINED, tmp_path / name, title="drive.csv")
+
+    assert list(tmp_path.iterdir()) == []
+
+
+# -- notebook ------------------------------------------------------------------------------------
+
+
+def test_an_overlay_has_each_run_before_and_after():
+    picture = EXPLAINED.plot_overlay()
+
+    assert [row[0] for row in picture.table.rows] == [f"{i}: {t}" for i, t in enumerate(TESTS, 1)]
+    for i, (_, before, after) in enumerate(picture.table.rows):
+        missed = [
+            float(np.sqrt(np.mean((EXPLAINED.shown.runs[i].velocity - track[i][:, 1]) ** 2)))
+            for track in (WRONG, RIGHT)
+        ]
+        assert [float(before), float(after)] == pytest.approx(
+            [one / NOISE for one in missed], rel=0.01
+        )
+    assert "base model" in picture.table.header[1]
+    assert "with drag" in picture.table.header[2]
+
+
+def test_the_base_has_no_before():
+    picture = EXPLAINED.plot_overlay(0)
+
+    assert picture.table.header == ("run", "base model, off by [noises]")
+
+
+def test_the_map_shows_where_before_and_nowhere_after():
+    picture = EXPLAINED.plot_gap()
+
+    models = [row[-1] for row in picture.table.rows]
+    assert set(models) == {"base"}
+    assert all(row[1].startswith("−") for row in picture.table.rows)  # the robot is slower
+    assert "with drag: nowhere beyond doubt." in picture.alt
+
+
+def test_samples_that_do_not_count_are_not_on_the_map():
+    ramp_only = tuple(np.full(150, test.startswith("quasistatic")) for test in TESTS)
+
+    picture = replace(EXPLAINED, compared=ramp_only).plot_gap()
+
+    assert "quasistatic-forward" in picture.alt
+    assert "dynamic" not in picture.alt
+    assert "dynamic" in EXPLAINED.plot_gap().alt
+
+
+def test_a_map_of_nothing_is_refused_and_said_on_the_page():
+    none = replace(EXPLAINED, compared=tuple(np.zeros(150, dtype=bool) for _ in TESTS))
+
+    with pytest.raises(BadRequest, match="Give longer runs"):
+        none.plot_gap()
+    assert "there is too little to compare" in story_page(none, title="drive.csv")
+
+
+def test_suspects_and_the_gap_are_told_in_numbers():
+    lineup = EXPLAINED.plot_suspects()
+    shrinking = EXPLAINED.plot_shrinking()
+
+    assert [row[0] for row in lineup.table.rows] == ["drag", "stribeck", "battery-sag", "delay"]
+    assert [row[1] for row in lineup.table.rows] == ["812", "400", "120", "−9"]
+    assert [row[3] for row in lineup.table.rows] == [
+        "taken", "not admitted: widens the gap", "also possible",
+        "not admitted: explains too little",
+    ]  # fmt: skip
+    assert [row[2] for row in shrinking.table.rows] == ["16.2", "1.01"]
+    assert shrinking.table.header[1] == "gap [ft/s]"
+
+
+def test_the_table_has_a_row_for_each_finding():
+    rows = STORIES["damage and drag"].table().rows
+
+    assert [row[:2] for row in rows] == [
+        ("encoder-slip", "damage to the record"), ("drag", "major"), ("battery-sag", "minor"),
+    ]  # fmt: skip
+    assert rows[1][2] == "drag 0.1123 ± 0.0021 V·s²/ft²"
+    assert rows[2][2] == "share 0.040 ± 0.01"
+
+
+@pytest.mark.parametrize("chapter", [2, -3])
+def test_a_chapter_that_there_is_not_is_refused(chapter):
+    with pytest.raises(BadRequest, match="Choose one of 0 to 1."):
+        EXPLAINED.plot_overlay(chapter)
+
+
+def test_a_round_without_suspects_is_refused():
+    base, last = EXPLAINED.chapters
+    bare = replace(EXPLAINED, chapters=(base, replace(last, tried=())))
+
+    with pytest.raises(BadRequest, match="Choose an earlier chapter."):
+        bare.plot_suspects(1)
+    assert page_flaws(story_page(bare, title="drive.csv")) == []
+
+
+# -- command -------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def drive(tmp_path_factory):
+    """The four tests of a drivetrain, short, in a file."""
+    path = tmp_path_factory.mktemp("logs") / "drive.csv"
+    routine = Routine(ramp=1.0, step=4.0, timeout=2.0)
+    sim.write(simulate(MECHANISMS["drivetrain"], routine, rng=np.random.default_rng(2)), path)
+    return path
+
+
+@pytest.fixture
+def reconcile(capsys, monkeypatch):
+    """Run `sysid reconcile` with a solver that tells one story: exit code, output, complaints."""
+
+    def ran(one, *arguments):
+        asked = []
+
+        def solve(log, **how):
+            asked.append(how | {"log": log})
+            return one
+
+        monkeypatch.setattr("sim.reconcile.reconcile", solve)
+        capsys.readouterr()
+        code = run(sysid, name="sysid", arguments=["reconcile", *map(str, arguments)])
+        said = capsys.readouterr()
+        return code, said.out, said.err, asked
+
+    return ran
+
+
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [
+        ("nothing missing", 0),
+        ("a little missing", 0),
+        ("explained", 0),
+        ("only damage", 0),
+        ("ambiguous", 1),
+        ("unexplained", 1),
+        ("explained, and something remains", 1),
+    ],
+)
+def test_the_exit_code_says_whether_work_is_left(reconcile, drive, name, code):
+    assert reconcile(STORIES[name], drive)[0] == code
+
+
+def test_the_json_is_what_others_read(reconcile, drive):
+    one = STORIES["damage and drag"]
+
+    _, said, err, _ = reconcile(one, drive, "--json")
+
+    data = json.loads(said)
+    assert err == ""
+    assert set(data) >= {
+        "verdict", "findings", "remainder", "noise_floor", "gap_before", "gap_after", "where",
+    }  # fmt: skip
+    assert [found["effect"] for found in data["findings"]] == [
+        "encoder-slip",
+        "drag",
+        "battery-sag",
+    ]
+    assert data["findings"][1]["parameters"]["drag"] == {
+        "value": 0.11234, "error": 0.0021, "unit": "V·s²/ft²",
+    }  # fmt: skip
+    assert data["where"][0]["where"] == "dynamic-reverse, 0.2 to 0.4 s"
+
+
+def test_every_log_is_read_and_inspected(reconcile, drive, tmp_path):
+    other = tmp_path / "other.csv"
+    other.write_bytes(drive.read_bytes())
+
+    _, _, _, (asked,) = reconcile(
+        EXPLAINED, drive, "--validation", other, "--held-out", drive, "--type", "elevator",
+        "--travel", 1.5, "--units", "feet", "--json",
+    )  # fmt: skip
+
+    assert (asked["type"], asked["travel"]) == ("elevator", 1.5)
+    assert {asked[name].units for name in ("log", "validation", "held_out")} == {"feet"}
+    assert asked["validation"].source == str(other)
+    assert set(asked["damages"]) == {"log", "validation", "held_out"}
+
+
+def test_damage_reaches_the_solver_in_its_own_words(reconcile, drive, tmp_path):
+    spoilt = tmp_path / "spoilt.csv"
+    code = run(
+        sysid, name="sysid",
+        arguments=["contaminate", str(drive), "--fault", "unit-error:3", "-o", str(spoilt)],
+    )  # fmt: skip
+    assert code == 0
+
+    _, _, _, (asked,) = reconcile(EXPLAINED, spoilt, "--json")
+
+    faults = {one.fault: one for one in asked["damages"]["log"]}
+    assert "unit-error" in faults
+    assert faults["unit-error"].advice
+    assert 0.0 < faults["unit-error"].confidence <= 1.0
+
+
+def test_a_page_is_written_beside_what_is_said(reconcile, drive, tmp_path):
+    path = tmp_path / "drive.html"
+
+    code, said, err, _ = reconcile(EXPLAINED, drive, "--html", path)
+
+    assert (code, err) == (0, "")
+    page = path.read_text(encoding="utf-8")
+    assert page_flaws(page) == []
+    assert "<title>What the model of drive.csv lacks</title>" in page
+    assert str(drive.parent) not in page  # a page travels; folders are private
+    assert "Missing in the model is drag" in said
+
+
+def test_a_wrong_name_of_a_page_is_told_before_the_work(reconcile, drive):
+    code, out, err, asked = reconcile(EXPLAINED, drive, "--html", "drive.pdf")
+
+    assert (code, out, asked) == (2, "", [])
+    assert "End its name in .html." in err
+
+
+def test_a_validation_that_is_not_there_is_one_line(reconcile, drive):
+    code, out, err, asked = reconcile(EXPLAINED, drive, "--validation", "nowhere.csv")
+
+    assert (code, out, asked) == (2, "", [])
+    assert err.count("\n") == 1
+    assert "nowhere.csv" in err
+
+
+UNSEEN = """
+import sys
+from sim.cli import sysid
+from sim.command import run
+run(sysid, name="sysid", arguments=["reconcile", {path!r}, "--json"])
+seen = [name for name in ("matplotlib", "jinja2", "rich", "IPython") if name in sys.modules]
+print(seen, file=sys.stderr)
+"""
+
+
+def test_for_other_programs_nothing_is_loaded_that_draws(drive):
+    ran = subprocess.run(
+        [sys.executable, "-c", UNSEEN.format(path=str(drive))],
+        capture_output=True, check=True, encoding="utf-8",
+    )  # fmt: skip
+
+    assert json.loads(ran.stdout)["verdict"] in {"nothing-missing", "explained", "ambiguous",
+                                                  "unexplained"}  # fmt: skip
+    assert ran.stderr.splitlines()[-1] == "[]"
