@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,14 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from sim.errors import BadRequest
-from sim.fit.seen import noise, see
-from sim.gap import Cells, GapMap, Residuals, gap_map
+from sim.gap import Cells, GapMap
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
 from sim.log import Array
 from sim.plot.picture import INK, PAPER, Picture
-from sim.plot.story_runs import FEWEST, Shown, shown_runs
 from sim.plot.table import Table
 from sim.reconcile.story import Story
+from sim.reconcile.where import map_of
 from sim.units import Unit, unit
 
 VELOCITY = 1  # of the two signals
@@ -46,10 +44,11 @@ def gaps(story: Story) -> Picture:
     Raises:
         BadRequest: there is nothing to compare, or each simulation ran away.
     """
-    runs = shown_runs(story, 0, len(story.chapters) - 1)
-    added = ", ".join(one.added for one in story.chapters[1:])
-    wanted = {"base model": False} | ({f"with {added}": True} if added else {})
-    maps = {title: _map(story, runs, after=after) for title, after in wanted.items()}
+    base, *more = story.chapters
+    wanted = {"base model": base}
+    if more:
+        wanted[f"with {', '.join(one.added for one in more)}"] = more[-1]
+    maps = {title: _map(story, chapter.tracks) for title, chapter in wanted.items()}
     if not any(maps.values()):
         raise BadRequest(
             "there is too little to compare, or the simulation ran away",
@@ -65,25 +64,13 @@ def gaps(story: Story) -> Picture:
     )
 
 
-def _map(story: Story, runs: Sequence[Shown], *, after: bool) -> GapMap | None:
-    """What a model leaves of the shown runs, in noises of the samples; None if nothing shows."""
-    log = replace(story.shown, runs=tuple(r for r in story.shown.runs if len(r) >= FEWEST))
-    sizes = noise(see(log, friction=None))
-    left = []
-    for one in runs:
-        track = one.after if after else one.before
-        left.append(
-            Residuals(
-                one.run.test, one.run.time, one.run.voltage, np.nan_to_num(track), one.missed(track)
-            )
-        )
+def _map(story: Story, tracks: Sequence[Array]) -> GapMap | None:
+    """What a model leaves of the shown runs; None if no velocity shows."""
     floor = story.noise_floor * unit(story.shown.units).si
     if not floor > 0.0:
         raise BadRequest("the noise is not known", advice="Give runs in which it moves.")
-    if not any(one.compared.any() for one in left):
-        return None
-    made = gap_map(left, noise=replace(sizes, velocity=floor))
-    return made if any(map(_there, made.maps)) else None
+    made = map_of(story.shown, tracks, compared=story.compared, floor=floor)
+    return made if made and any(map(_there, made.maps)) else None
 
 
 def _draw(found: Sequence[GapMap], titles: Sequence[str], *, per: Unit) -> Figure:

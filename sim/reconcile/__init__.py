@@ -87,7 +87,8 @@ def reconcile(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
-        where=(), chapters=chapters, shown=shown.log, how=shown.how, notes=aside.notes,
+        where=shown.places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.how,
+        notes=aside.notes, compared=shown.compared,
     )  # fmt: skip
 
 

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.engine import NO_TRUST
+from sim.gap import Place
 from sim.log import Log
 from sim.reconcile.aside import Aside
 from sim.reconcile.gates import errors_of, rms
@@ -14,8 +16,10 @@ from sim.reconcile.lanes import lanes
 from sim.reconcile.problem import Problem
 from sim.reconcile.rounds import Round
 from sim.reconcile.story import Chapter
+from sim.reconcile.where import map_of
 from sim.units import unit
 
+TOLD = 5  # places
 HOW: Mapping[str, str] = {
     "held_out": "The gap is shown on a log that nothing was fitted to.",
     "validation": "No held-out log was given: the gap is shown on the validation's, by which the "
@@ -52,6 +56,17 @@ class Shown:
     def noise_floor(self) -> float:
         """[owner's unit/s] noise of its velocity."""
         return self.problem.noise.velocity / unit(self.log.units).si
+
+    @property
+    def compared(self) -> tuple[NDArray[np.bool_], ...]:
+        """A run -> (n,) its samples that count: where it moves, and nothing was set aside."""
+        return tuple(one.seen.telling for one in self.problem.lanes)
+
+    def places(self, base: Chapter) -> tuple[Place, ...]:
+        """Where the base model's velocity is off, the surest first."""
+        noise = self.problem.noise.velocity
+        found = map_of(self.log, base.tracks, compared=self.compared, floor=noise)
+        return found.places(TOLD, signal="velocity") if found else ()
 
     def chapters(self, done: Sequence[Round]) -> tuple[Chapter, ...]:
         """Each model's gap and simulated runs."""
