@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from sim.log import Log
     from sim.reconcile import Damaged, Story
 
+IN_MOMENTS = "voltage-dropout"  # a fault that an inspection tells as one stretch
 UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
 
 
@@ -134,11 +135,16 @@ def damages(log: "Log") -> "tuple[Damaged, ...]":
     """
     from sim.inspection import inspect  # noqa: PLC0415 - --help must not wait for it
     from sim.reconcile import Damaged  # noqa: PLC0415
+    from sim.reconcile.moments import moments  # noqa: PLC0415
 
-    return tuple(
-        Damaged(
-            one.where.run, one.where.start, one.where.end, one.fault, one.confidence,
-            one.evidence, one.advice,
-        )
-        for one in inspect(log).damages
-    )  # fmt: skip
+    found = []
+    for one in inspect(log).damages:
+        where = one.where
+        stretches: tuple[tuple[float, float], ...] = ((where.start, where.end),)
+        if one.fault == IN_MOMENTS and where.run is not None:
+            stretches = moments(log.runs[where.run], start=where.start, end=where.end)
+        found += [
+            Damaged(where.run, *stretch, one.fault, one.confidence, one.evidence, one.advice)
+            for stretch in stretches
+        ]
+    return tuple(found)
