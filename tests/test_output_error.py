@@ -70,6 +70,19 @@ def test_stated_intervals_hold_the_truth_about_as_often_as_they_say():
     assert 0.86 <= np.mean(inside) < 1.0
 
 
+@pytest.mark.parametrize("seed", [4, 6, 8])
+def test_a_model_that_holds_is_followed_though_the_way_there_is_less_likely(seed):
+    # turrets whose likelihood falls before it rises when less is pardoned; a search that stops
+    # there is off by 6 of its errors, and those are six times what the log allows
+    mechanism = drawn("turret", [seed, 1, 50])
+
+    found = fit(simulate(mechanism, GENTLE, rng=rng(seed), period=0.005))
+
+    assert found.errors["kA"] < 4e-5 * mechanism.gains["kA"]
+    for gain, truth in mechanism.gains.items():
+        assert abs(found.gains[gain] - truth) < 4.5 * found.errors[gain], gain
+
+
 @pytest.mark.parametrize(
     ("noise", "ka", "within"),
     [

@@ -5,7 +5,8 @@ corrected at every sample, and such a one says little about gains: inertia can p
 What gains are for is to say a velocity ahead, so then the velocities of whole runs are compared.
 """
 
-from dataclasses import dataclass, replace
+import math
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,8 @@ class Followed:
         moving: (n,) where either moves.
         noise: of the velocity, measured without a model.
         astray: whether the likeliest gains strayed, and these only hide it better.
+        change: (m,) [unit/s²] between two measured velocities, as long as it moves.
+        told: (m,) the same of the simulated ones.
     """
 
     velocity: Array
@@ -40,6 +43,8 @@ class Followed:
     moving: NDArray[np.bool_]
     noise: float
     astray: bool = False
+    change: Array = field(default_factory=lambda: np.empty(0))
+    told: Array = field(default_factory=lambda: np.empty(0))
 
     @property
     def rmse(self) -> float:
@@ -52,6 +57,14 @@ class Followed:
         seen = self.velocity[self.moving]
         spread = float(np.sum((seen - seen.mean()) ** 2)) if seen.size else 0.0
         return 1.0 - float(np.sum(self.error[self.moving] ** 2)) / max(spread, 1e-300)
+
+    @property
+    def acceleration(self) -> tuple[float, float]:
+        """R² and RMSE [unit/s²] of the changes of velocity."""
+        if not self.change.size:
+            return 0.0, 0.0
+        left = float(np.mean((self.change - self.told) ** 2))
+        return 1.0 - left / max(float(np.var(self.change)), 1e-300), math.sqrt(left)
 
     @property
     def top(self) -> float:
@@ -76,7 +89,7 @@ def follow(problem: Problem, point: Point, *, astray: bool = False) -> Followed:
         astray: as of ``Followed``.
     """
     model = model_of(problem.type, point.values)
-    seen, errors, moving = [], [], []
+    seen, errors, moving, changes = [], [], [], []
     for run in problem.seen:
         state = State.at(run.position, run.velocity)
         track = move(model, time=run.time, voltage=run.voltage, state=state)
@@ -84,13 +97,17 @@ def follow(problem: Problem, point: Point, *, astray: bool = False) -> Followed:
         seen.append(run.measured[fresh, 1])
         errors.append(run.measured[fresh, 1] - track.seen[fresh])
         moving.append((run.moving | (track.velocity != 0.0))[fresh])
+        going = np.flatnonzero(fresh & run.moving)
+        both = np.column_stack([run.measured[going, 1], track.seen[going]])
+        changes.append(np.diff(both, axis=0) / np.diff(run.time[going])[:, None])
+    change, told = np.concatenate(changes).T
     return Followed(
         np.concatenate(seen), np.concatenate(errors), np.concatenate(moving),
-        noise=problem.noise.velocity, astray=astray,
+        noise=problem.noise.velocity, astray=astray, change=change, told=told,
     )  # fmt: skip
 
 
-def closest(problem: Problem, point: Point) -> tuple[Problem, Point]:
+def closest(problem: Problem, point: Point, before: Followed) -> tuple[Problem, Point, Followed]:
     """Where a model strays: velocities alone, and the point that simulates them best.
 
     Lags stay: how late a velocity is shows beside the position, and alone it passes for inertia.
@@ -98,14 +115,14 @@ def closest(problem: Problem, point: Point) -> tuple[Problem, Point]:
     Args:
         problem: what was searched.
         point: the likeliest point.
+        before: how that follows.
 
     Returns:
-        Both as they were if the model holds, or if nothing comes closer; and if the likeliest point
+        All as they were if the model holds, or if nothing comes closer; and if the likeliest point
         is pardoned next to nothing, for then it is a simulation already, of the position too.
     """
-    before = follow(problem, point)
     if point.q <= ANEW * problem.noise.velocity**2 or not before.strays:
-        return problem, point
+        return problem, point, before
     seen = []
     for run in problem.seen:
         measured = run.measured.copy()
@@ -115,17 +132,22 @@ def closest(problem: Problem, point: Point) -> tuple[Problem, Point]:
     found = better(
         blind, blind.at(point.values, np.zeros(len(seen)), 0.0), steps=STEPS, enough=0.01
     )
+    after = follow(problem, found, astray=True)
     # samples that were left out may weigh more than all that was gained
-    return (blind, found) if follow(problem, found).rmse < before.rmse else (problem, point)
+    return (blind, found, after) if after.rmse < before.rmse else (problem, point, before)
 
 
 def honest(problem: Problem, point: Point) -> Array:
     """(values, values) covariance when errors come not sample by sample but for a while each.
 
+    Args:
+        problem: what was searched.
+        point: the best point, with fine slopes.
+
     Source: the sandwich of White (1980), with scores summed over ``TOGETHER``.
     """
     count = len(point.values)
-    table, rest = problem.columns(point, fine=True), white(problem, point, point.ahead)
+    table, rest = point.slopes, white(point, point.ahead)
     whiles = np.repeat(_whiles(problem), 2)  # two measurements to a sample
     scores = np.zeros((int(whiles.max()) + 1, table.shape[1]))
     np.add.at(scores, whiles, table * rest[:, None])

@@ -10,11 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.engine import State, move
 from sim.errors import BadRequest, NotIdentifiable
 from sim.fit.closest import LAGS, Followed, closest, follow, honest
 from sim.fit.doubts import unsure
-from sim.fit.innovations import model_of
 from sim.fit.result import Fit
 from sim.fit.search import Point, Problem, again, covariance, far, near, promise
 from sim.fit.seen import Seen, noise, see
@@ -25,6 +23,7 @@ from sim.log import Array, Log, Run
 from sim.units import unit
 
 WORTH = 12.0  # [of -2 log L] what a lag must explain to be believed: odds of some hundred to one
+HINT = 2.0  # [of -2 log L] what a short one must promise before longer ones are tried
 FIRST_LAGS = {"window": (0.5, 2.0, 6.0), "lag": (0.3, 1.0, 2.0, 4.0)}
 SHORT_LAGS = {"lag": (0.05, 0.2)}
 """[sample periods] from which a search begins, and from which again when gains are nearly right.
@@ -108,15 +107,16 @@ def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     plain = near(problem, begin)
     if not math.isfinite(plain.cost) or np.isnan(plain.ahead).all():
         raise _nonsense(log)
-    problem, likeliest = _best(problem, plain)
-    searched, point = closest(problem, likeliest)
+    problem, likeliest, followed = _best(problem, plain)
+    searched, point, followed = closest(problem, likeliest, followed)
+    if not point.fine:
+        point = searched.sloped(point, fine=True)
     gains, errors = _gains(point, covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
     # unknown is refused
-    share = searched.noise.velocity / float(np.sqrt(searched.spread(point.ahead)[1, 1]))
+    share = searched.noise.velocity / float(np.sqrt(point.spread[1, 1]))
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
     refuse_unknown(gains, least, log=log, type=type)
-    followed = follow(problem, point, astray=searched is not problem)
     refuse_astray(followed, log=log)
     if followed.strays:
         others = _gains(point, honest(searched, point), type=type)[1]
@@ -129,22 +129,25 @@ def _period(seen: Sequence[Seen | Run]) -> float:
     return float(np.median(np.concatenate([np.diff(run.time) for run in seen])))
 
 
-def _best(problem: Problem, plain: Point) -> tuple[Problem, Point]:
+def _best(problem: Problem, plain: Point) -> tuple[Problem, Point, Followed]:
     """The best point, with a velocity that is averaged, a late answer, or both, if worth it."""
     point = _with_lags(problem, plain, FIRST_LAGS, settle=near)
     everything, problem = problem, problem.without_strays(point)
-    found = far(problem, point if problem is everything else near(problem, point.values))
+    same = problem is everything
+    found = far(problem, point if same else near(problem, point.values))
     if point is not plain:
-        without = far(problem, near(problem, plain.values))
+        without = far(problem, plain if same else near(problem, plain.values))
         found = found if found.cost < without.cost - WORTH else without
-
-    if follow(problem, found).strays:  # a millisecond is not what is wrong
-        return problem, found
+    followed = follow(problem, found)
+    if followed.strays:  # a millisecond is not what is wrong
+        return problem, found, followed
 
     def settle(problem: Problem, values: Mapping[str, float]) -> Point:
         return far(problem, again(problem, problem.at(values, found.starts, found.q)))
 
-    return problem, _with_lags(problem, found, SHORT_LAGS, settle=settle)
+    found = problem.sloped(found, fine=True)
+    best = _with_lags(problem, found, SHORT_LAGS, settle=settle)
+    return problem, best, followed if best is found else follow(problem, best)
 
 
 def _with_lags(
@@ -158,12 +161,16 @@ def _with_lags(
 
     Args:
         problem: what is searched.
-        point: a best point.
+        point: a best point, with slopes.
         lags: name -> [sample periods] from which to try.
         settle: the best point near some values.
     """
     left = {name: sizes for name, sizes in lags.items() if name not in point.values}
     while left:
+        firsts = [{name: sizes[0] * problem.period} for name, sizes in left.items()]
+        # a lag of any size shows in what a short one promises
+        if not promise(problem, point, firsts).max() > HINT:
+            break
         tried = [{name: size * problem.period} for name, sizes in left.items() for size in sizes]
         worth = promise(problem, point, tried)
         if not worth.max() > WORTH:
@@ -208,7 +215,7 @@ def _fit(
     errors: Mapping[str, float], followed: Followed,
 ) -> Fit:  # fmt: skip
     """The result: gains, how well they follow, and what to doubt."""
-    change = _accelerations(problem, point)
+    change = followed.acceleration
     window, lag = (point.values.get(name, 0.0) for name in LAGS)
     signed = {name: value if name == "offset_rad" else way * value for name, value in gains.items()}
     return Fit(
@@ -244,22 +251,3 @@ def _used(log: Log, problem: Problem) -> dict[str, int]:
     for run, part in zip(long, problem.seen, strict=True):
         counts[run.test] = counts.get(run.test, 0) + int(part.moving.sum())
     return counts
-
-
-def _accelerations(problem: Problem, point: Point) -> tuple[float, float]:
-    """R² and RMSE of the differences of fresh velocities against the model's."""
-    model = model_of(problem.type, point.values)
-    got, told = [], []
-    for run, start in zip(problem.seen, point.starts.tolist(), strict=True):
-        state = State.at(run.position + start, run.velocity)
-        track = move(model, time=run.time, voltage=run.voltage, state=state)
-        fresh = np.flatnonzero(~np.isnan(run.measured[:, 1]) & run.moving)
-        if fresh.size > 2:  # noqa: PLR2004 - two make one difference
-            dt = np.diff(run.time[fresh])
-            got.append(np.diff(run.measured[fresh, 1]) / dt)
-            told.append(np.diff(track.seen[fresh]) / dt)
-    if not got:
-        return 0.0, 0.0
-    measured, model_said = np.concatenate(got), np.concatenate(told)
-    left = float(np.mean((measured - model_said) ** 2))
-    return 1.0 - left / max(float(np.var(measured)), 1e-300), math.sqrt(left)

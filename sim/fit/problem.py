@@ -7,7 +7,7 @@ import math
 import os
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 
 import numpy as np
@@ -40,7 +40,11 @@ class Point:
         q: size of what pushes at random.
         trust: (2, 2) by how much a measurement corrects, which follows from values and q.
         ahead: (n, 2) innovations.
+        spread: (2, 2) their covariance, never quite nothing.
         cost: -2 log L, up to a constant.
+        slopes: (2 n, values + runs) by how much the white innovations change with values and
+            starts, here or close by; none until it is asked.
+        fine: whether those are of this very point, and from both sides.
     """
 
     values: Mapping[str, float]
@@ -48,7 +52,10 @@ class Point:
     q: float
     trust: Array
     ahead: Array
+    spread: Array
     cost: float
+    slopes: Array = field(default_factory=lambda: np.empty((0, 0)))
+    fine: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,12 +82,13 @@ class Problem:
         """The point of these values; its cost is infinite where they are no physics."""
         quick = values["kA"] < SHORTEST * self.period * values["kV"]
         if quick or any(not values[name] > 0.0 for name in POSITIVE):
-            return Point(values, starts, q, NO_TRUST, np.empty((0, 2)), math.inf)
+            return Point(values, starts, q, NO_TRUST, np.empty((0, 2)), np.eye(2), math.inf)
         model = model_of(self.type, values)
         trust = trust_for(model, noise=self.noise, q=q, period=self.period)
         ahead = self._ahead(model, starts, trust)
-        cost = self.cost(ahead) + float(np.sum(np.square(starts / self.aside)))
-        return Point(values, starts, q, trust, ahead, cost)
+        spread, count = self._spread(ahead)
+        cost = _cost(spread, count) + float(np.sum(np.square(starts / self.aside)))
+        return Point(values, starts, q, trust, ahead, spread, cost)
 
     def _ahead(self, model: Model, starts: Array, trust: Array) -> Array:
         """(n, 2) the innovations of every run, one after another."""
@@ -117,16 +125,16 @@ class Problem:
         )
         return self if same else replace(self, seen=tuple(kept))
 
-    def columns(self, point: Point, *, fine: bool = False) -> Array:
-        """(2 n, values + runs) by how much the white innovations change with values and starts.
+    def sloped(self, point: Point, *, fine: bool = False) -> Point:
+        """The point with its slopes.
 
         Args:
             point: where.
             fine: from both sides, so that values that do the same are seen to do the same.
         """
         by_value = (self._by_value(point, name, fine=fine) for name in point.values)
-        parts = [*by_value, *self._by_start(point)]
-        return np.column_stack([white(self, point, part) for part in parts])
+        parts = np.stack([*by_value, *self._by_start(point)])
+        return replace(point, slopes=white(point, parts).T, fine=fine)
 
     def _by_value(self, point: Point, name: str, *, fine: bool) -> Array:
         if name in self.held:
@@ -151,18 +159,8 @@ class Problem:
             yield part
             first = last
 
-    def cost(self, ahead: Array) -> float:
-        """-2 log L of innovations, up to a constant: of each sample what was measured there."""
-        spread, count = self._spread(ahead)
-        size = float(spread[0, 0] * spread[1, 1] - spread[0, 1] ** 2)
-        return count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
-
-    def spread(self, ahead: Array) -> Array:
-        """(2, 2) covariance of the innovations, never quite nothing."""
-        return self._spread(ahead)[0]
-
     def _spread(self, ahead: Array) -> tuple[Array, int]:
-        """The covariance, and how many samples were measured at all."""
+        """(2, 2) covariance of innovations, and how many samples were measured at all."""
         there = ~np.isnan(ahead)
         first, second = there[:, 0], there[:, 1]
         x, v = np.where(first, ahead[:, 0], 0.0), np.where(second, ahead[:, 1], 0.0)
@@ -175,13 +173,19 @@ class Problem:
         return spread + np.diag(np.square(self.noise.grain)), int(np.count_nonzero(first | second))
 
 
+def _cost(spread: Array, count: int) -> float:
+    """-2 log L of innovations, up to a constant: of each sample what was measured there."""
+    size = float(spread[0, 0] * spread[1, 1] - spread[0, 1] ** 2)
+    return count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
+
+
 @cache
 def _threads() -> ThreadPoolExecutor:
     """As many as there are cores, for logs that are worth it."""
     return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="fit")
 
 
-def white(problem: Problem, point: Point, table: Array) -> Array:
-    """(2 n,) positions and velocities, made independent and of size one by the spread."""
-    inverse = np.linalg.inv(np.linalg.cholesky(problem.spread(point.ahead)))
-    return np.asarray((np.nan_to_num(table) @ inverse.T).ravel())
+def white(point: Point, table: Array) -> Array:
+    """(..., 2 n) of (..., n, 2) positions and velocities, independent and of size one."""
+    inverse = np.linalg.inv(np.linalg.cholesky(point.spread))
+    return np.asarray((np.nan_to_num(table) @ inverse.T).reshape(*table.shape[:-2], -1))

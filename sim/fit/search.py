@@ -6,6 +6,7 @@ size q of what pushes at random. Derivatives are differences of simulations.
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -24,10 +25,13 @@ __all__ = [
 ]
 
 ANEW = 1.0  # [1/s] q over the variance of a velocity: what pushes moves it by its noise in a second
+DEEP = 1e-7  # [1/s] the same where a simulation is all but left to itself
+BETWEEN = (1e-4, 1e-2)  # [1/s] the same where some models are likeliest
 COARSE, FINE = 100.0, 4.0  # [1] steps of q
 FARTHEST = 8  # steps of q in one round
 STEPS = 8  # of the gains in one round
 CEILING = {"window": 0.9, "lag": 0.45}  # [s] later than this nothing on a robot answers
+LITTLE = 0.3  # [share of the squares] that a step takes away near the end of its way
 HARDLY = 1e-11  # [1] of a combination of values that the log says anything about
 NOTHING = 1e-20  # [1] what it says of the rest
 
@@ -48,14 +52,26 @@ def near(problem: Problem, values: Mapping[str, float]) -> Point:
 
 
 def far(problem: Problem, point: Point) -> Point:
-    """The best point, from a near one: less and less is pardoned, as long as that is likelier."""
+    """The best point, from a near one.
+
+    Either a model holds, and is likeliest where next to nothing is pardoned, or something is
+    missing from it. On the way from one to the other it may be less likely than at both ends, so
+    the far end is tried first. Failing that less and less is pardoned, as long as that is likelier.
+    """
+    size = problem.noise.velocity**2
+    deep = problem.at(point.values, point.starts, DEEP * size)
+    deep = better(problem, deep, steps=STEPS, enough=0.05, goal=point.cost)
+    if deep.cost < point.cost:
+        others = [problem.at(deep.values, deep.starts, q * size) for q in BETWEEN]
+        best = _pardoning(problem, min(deep, *others, key=lambda one: one.cost))
+        return best if best is deep else better(problem, best, steps=STEPS, enough=0.05)
     for _ in range(FARTHEST):
         other = problem.at(point.values, point.starts, point.q / COARSE)
         other = better(problem, other, steps=1, enough=1.0)
         if not other.cost < point.cost - 0.5:
             break
         point = other
-    return _finished(problem, point)
+    return better(problem, _pardoning(problem, point), steps=STEPS, enough=0.05)
 
 
 def promise(problem: Problem, point: Point, more: Sequence[Mapping[str, float]]) -> Array:
@@ -63,14 +79,18 @@ def promise(problem: Problem, point: Point, more: Sequence[Mapping[str, float]])
 
     Args:
         problem: what is searched.
-        point: a best point.
+        point: a best point, with slopes.
         more: values to add, one set after another.
     """
-    kept, _ = np.linalg.qr(problem.columns(point))
+    table = point.slopes
+    size = np.linalg.norm(table, axis=0)
+    size[size == 0.0] = 1.0
+    adjusts = np.linalg.pinv(table.T @ table / np.outer(size, size), HARDLY, hermitian=True)
 
     def left(ahead: Array) -> float:
-        rest = white(problem, point, ahead)
-        return float(rest @ rest - np.sum((kept.T @ rest) ** 2))
+        rest = white(point, ahead)
+        slope = table.T @ rest / size
+        return float(rest @ rest - slope @ adjusts @ slope)
 
     now = left(point.ahead)
     tried = (problem.at({**point.values, **one}, point.starts, point.q) for one in more)
@@ -82,19 +102,25 @@ def again(problem: Problem, point: Point) -> Point:
     return better(problem, point, steps=STEPS, enough=0.05)
 
 
-def _finished(problem: Problem, point: Point) -> Point:
-    """The best point near one: q to a factor of ``FINE``, then the values."""
+def _pardoning(problem: Problem, point: Point) -> Point:
+    """The same values at the likeliest q, to a factor of ``FINE``."""
     for way in (FINE, 1.0 / FINE):
         other = problem.at(point.values, point.starts, point.q * way)
         while other.cost < point.cost - 0.1:
             point = other
             other = problem.at(point.values, point.starts, point.q * way)
-    return better(problem, point, steps=STEPS, enough=0.05)
+    return point
 
 
 def covariance(problem: Problem, point: Point, *, starts: bool = False) -> Array:
-    """(values, values) of the values, whatever the starts; with them, where asked for."""
-    columns = problem.columns(point, fine=True)
+    """(values, values) of the values, whatever the starts; with them, where asked for.
+
+    Args:
+        problem: what was searched.
+        point: the best point, with fine slopes.
+        starts: whether to add rows and columns for them.
+    """
+    columns = point.slopes
     square = columns.T @ columns + np.diag(_beside(problem, point))
     size = np.sqrt(np.maximum(np.diag(square), 1e-100))
     told, ways = np.linalg.eigh(square / np.outer(size, size))
@@ -104,40 +130,60 @@ def covariance(problem: Problem, point: Point, *, starts: bool = False) -> Array
     return np.asarray(inverse[:count, :count])
 
 
-def better(problem: Problem, point: Point, *, steps: int, enough: float) -> Point:
+def better(
+    problem: Problem, point: Point, *, steps: int, enough: float, goal: float = math.inf
+) -> Point:
     """The point after some steps of the values, fewer when one gains hardly anything.
 
     Args:
         problem: what is searched.
         point: where it begins; its q stays.
         steps: at most.
-        enough: [of -2 log L] what a step must gain for another.
+        enough: [of -2 log L] what a step must gain for another; one that gains what was foretold
+            has arrived.
+        goal: a cost that is to be beaten; it gives up when that is out of reach.
     """
-    names = list(point.values)
     damping = 1e-4
     for _ in range(steps):
-        table, rest = problem.columns(point), white(problem, point, point.ahead)
-        beside = _beside(problem, point)
+        point = problem.sloped(point)
+        table, rest = point.slopes, white(point, point.ahead)
         size = np.linalg.norm(table, axis=0)
         size[size == 0.0] = 1.0
-        table = table / size
-        square = table.T @ table + np.diag(beside / size**2)
-        slope = table.T @ rest
-        slope[len(names) :] += (beside / size)[len(names) :] * point.starts
-        better = point
+        beside = _beside(problem, point) / size**2
+        square = (table.T @ table) / np.outer(size, size) + np.diag(beside)
+        slope = table.T @ rest / size
+        slope[len(point.values) :] += (beside * size)[len(point.values) :] * point.starts
+        before = point
         for _ in range(6):
-            move = -np.linalg.solve(square + damping * np.eye(slope.size), slope) / size
-            values = _stepped(point.values, move)
-            starts = point.starts + move[len(names) :]
-            moved = problem.at(values, starts, point.q)
-            if moved.cost < point.cost:
-                better, damping = moved, max(damping / 10.0, 1e-9)
+            way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
+            foretold = -float(way @ slope)
+            if _hopeless(point, foretold, rest, goal):
+                return point
+            point = _moved(problem, before, way / size)
+            if point is not before:
+                damping = max(damping / 10.0, 1e-9)
                 break
             damping *= 10.0
-        gained, point = point.cost - better.cost, better
-        if not gained > enough:
+        gained = before.cost - point.cost
+        if not gained > enough or abs(gained - foretold) < enough:
             break
     return point
+
+
+def _moved(problem: Problem, point: Point, by: Array) -> Point:
+    """The point after a step, if that is better; its slopes are still about right."""
+    starts = point.starts + by[len(point.values) :]
+    moved = problem.at(_stepped(point.values, by), starts, point.q)
+    return replace(moved, slopes=point.slopes) if moved.cost < point.cost else point
+
+
+def _hopeless(point: Point, foretold: float, rest: Array, goal: float) -> bool:
+    """Whether a point is all but the best there is, and still far from its goal.
+
+    While much of the squares would go at once, what is foretold is only the beginning.
+    """
+    share = foretold / max(float(rest @ rest), 1e-300)
+    return share < LITTLE and point.cost + 3.0 * rest.size * math.log1p(-share) > goal
 
 
 def _beside(problem: Problem, point: Point) -> Array:
