@@ -88,7 +88,8 @@ def reconcile(
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.how,
-        notes=aside.notes, compared=shown.compared,
+        notes=(*aside.notes, *shown.notes(chapters[-1], done[-1].gap.velocity)),
+        compared=shown.compared,
     )  # fmt: skip
 
 

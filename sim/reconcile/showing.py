@@ -1,7 +1,7 @@
 """The log on which the gap is shown, and each model's simulation of it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -16,16 +16,22 @@ from sim.reconcile.lanes import lanes
 from sim.reconcile.problem import Problem
 from sim.reconcile.rounds import Round
 from sim.reconcile.story import Chapter
+from sim.reconcile.usable import repeated
 from sim.reconcile.where import map_of
 from sim.units import unit
 
 TOLD = 5  # places
+FAR = 5.0  # [of the gap on runs that were fitted] from which a held-out log is another matter
 HOW: Mapping[str, str] = {
     "held_out": "The gap is shown on a log that nothing was fitted to.",
     "validation": "No held-out log was given: the gap is shown on the validation's, by which the "
     "effects were chosen.",
     "log": "Only one log was given: an effect is admitted if the other runs, fitted with it, "
     "predict each run better; the gap is shown on the log that was fitted.",
+}
+AGAIN: Mapping[str, str] = {
+    "held_out": "The held-out log repeats runs that were fitted, so the gap on it proves nothing.",
+    "validation": "The validation repeats runs of the log, so it confirms nothing.",
 }
 
 
@@ -37,20 +43,49 @@ class Shown:
         log: the runs.
         problem: what is compared of them.
         how: a sentence about how it was used.
+        doubts: what a person should know of the logs.
+        held_out: whether nothing was fitted to it.
     """
 
     log: Log
     problem: Problem
     how: str
+    doubts: tuple[str, ...]
+    held_out: bool
 
     @classmethod
     def of(cls, logs: Mapping[str, Log | None], aside: Aside) -> "Shown":
         """The one that was used least: held out, else validation, else the log itself."""
-        name = next(name for name in HOW if logs.get(name) is not None)
-        log = logs[name]
-        if log is None:
+        given = {name: logs[name] for name in HOW if logs.get(name) is not None}
+        name, log = next(iter(given.items()))
+        first = logs["log"]
+        if log is None or first is None:
             raise KeyError(name)
-        return cls(log, Problem.of(lanes(log, aside=aside.of(name))), HOW[name])
+        log = replace(log, units=first.units)  # numbers of one story have one unit
+        again = _again(logs)
+        return cls(
+            log, Problem.of(lanes(log, aside=aside.of(name))),
+            again.get(name, HOW[name]),
+            (*(text for other, text in again.items() if other != name), *_said(given)),
+            name == "held_out" and name not in again,
+        )  # fmt: skip
+
+    def notes(self, last: Chapter, fitted: float) -> tuple[str, ...]:
+        """What a person should know of the logs.
+
+        Args:
+            last: the last model, on this log.
+            fitted: [unit/s] its gap on the runs that were fitted or chosen by.
+        """
+        gap = last.gap * unit(self.log.units).si
+        if not self.held_out or gap <= FAR * max(fitted, self.problem.noise.velocity):
+            return self.doubts
+        far = (
+            f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times what "
+            "it misses of the others: make sure that it is of the same mechanism, in the same "
+            "units, and that nothing was changed in between."
+        )
+        return (far, *self.doubts)
 
     @property
     def noise_floor(self) -> float:
@@ -80,3 +115,19 @@ class Shown:
         track = self.problem.track(model, at_seen, NO_TRUST)[:, [0, 3]]
         runs = tuple(track[first:last] for first, last in pairwise(self.problem.edges.tolist()))
         return Chapter(one.suspect.effect, model, one.tried, gap, runs)
+
+
+def _again(logs: Mapping[str, Log | None]) -> dict[str, str]:
+    """A log that repeats runs of those before it -> what that means."""
+    log, validation, held_out = (logs.get(name) for name in ("log", "validation", "held_out"))
+    pairs = (("validation", validation, (log,)), ("held_out", held_out, (log, validation)))
+    return {
+        name: AGAIN[name]
+        for name, one, others in pairs
+        if one is not None and repeated(one, others)
+    }
+
+
+def _said(logs: Mapping[str, Log | None]) -> tuple[str, ...]:
+    """What reading the logs left to say, each once."""
+    return tuple(dict.fromkeys(d.message for log in logs.values() if log for d in log.doubts))
