@@ -6,6 +6,7 @@ What gains are for is to say a velocity ahead, so then the velocities of whole r
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -13,11 +14,12 @@ from numpy.typing import NDArray
 
 from sim.engine import State, move
 from sim.fit.innovations import model_of
-from sim.fit.search import ANEW, Point, Problem, better, covariance, white
+from sim.fit.search import ANEW, DEEP, Point, Problem, better, covariance, white
 from sim.log import Array
 
 STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
-SMALL = 0.015  # [share of the top speed] error that is small whatever the noise
+SMALL = 0.0125  # [share of the top speed] error that is small whatever the noise
+HOLDS = 0.05  # [1/s] q over the variance of a velocity: a model that needs more lacks something
 STEPS = 30  # of the search
 LAGS = ("window", "lag")
 ASIDE = 0.02  # [m or rad] that slack in a gear or a chain lets a start be from where it is seen
@@ -137,14 +139,30 @@ def closest(problem: Problem, point: Point, before: Followed) -> tuple[Problem, 
     return (blind, found, after) if after.rmse < before.rmse else (problem, point, before)
 
 
-def honest(problem: Problem, point: Point) -> Array:
-    """(values, values) covariance when errors come not sample by sample but for a while each.
+def wider(problem: Problem, point: Point, followed: Followed) -> Iterator[Array]:
+    """(values, values) covariances when errors come not sample by sample but for a while each.
+
+    None where a model holds. Where it does not, what it lacks may be too small to be seen beside
+    noise and still be more than the errors that noise leaves. It shows in what is pardoned, and in
+    what a simulation left to itself makes of it.
 
     Args:
         problem: what was searched.
         point: the best point, with fine slopes.
+        followed: how it follows.
+    """
+    size = problem.noise.velocity**2
+    if followed.strays or point.q > HOLDS * size:
+        yield _by_whiles(problem, point)
+    if point.q > HOLDS * size:
+        alone = problem.at(point.values, point.starts, DEEP * size)
+        yield _by_whiles(problem, problem.sloped(alone))
 
-    Source: the sandwich of White (1980), with scores summed over ``TOGETHER``.
+
+def _by_whiles(problem: Problem, point: Point) -> Array:
+    """(values, values) covariance with scores summed over ``TOGETHER``.
+
+    Source: the sandwich of White (1980).
     """
     count = len(point.values)
     table, rest = point.slopes, white(point, point.ahead)

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.errors import BadRequest, NotIdentifiable
-from sim.fit.closest import LAGS, Followed, closest, follow, honest
+from sim.fit.closest import LAGS, Followed, closest, follow, wider
 from sim.fit.doubts import unsure
 from sim.fit.result import Fit
 from sim.fit.search import Point, Problem, again, covariance, far, near, promise
@@ -118,8 +118,8 @@ def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
     refuse_unknown(gains, least, log=log, type=type)
     refuse_astray(followed, log=log)
-    if followed.strays:
-        others = _gains(point, honest(searched, point), type=type)[1]
+    for spread in wider(searched, point, followed):
+        others = _gains(point, spread, type=type)[1]
         errors = {name: max(error, others[name]) for name, error in errors.items()}
     return _fit(log, problem, point, way=way, gains=gains, errors=errors, followed=followed)
 

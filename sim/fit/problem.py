@@ -30,6 +30,11 @@ FLOOR = {"kS": 0.0, "window": 0.0, "lag": 0.0}
 POSITIVE = ("kV", "kA")
 
 
+def _unasked() -> Array:
+    """What nobody has asked for yet."""
+    return np.empty((0, 0))
+
+
 @dataclass(frozen=True, eq=False)
 class Point:
     """Where a search stands.
@@ -45,6 +50,7 @@ class Point:
         slopes: (2 n, values + runs) by how much the white innovations change with values and
             starts, here or close by; none until it is asked.
         fine: whether those are of this very point, and from both sides.
+        begun: (n, 2) by how much the innovations of each run change with its own start.
     """
 
     values: Mapping[str, float]
@@ -54,8 +60,9 @@ class Point:
     ahead: Array
     spread: Array
     cost: float
-    slopes: Array = field(default_factory=lambda: np.empty((0, 0)))
+    slopes: Array = field(default_factory=_unasked)
     fine: bool = False
+    begun: Array = field(default_factory=_unasked)
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,16 +132,30 @@ class Problem:
         )
         return self if same else replace(self, seen=tuple(kept))
 
-    def sloped(self, point: Point, *, fine: bool = False) -> Point:
+    def sloped(self, point: Point, *, fine: bool = False, starts: bool = True) -> Point:
         """The point with its slopes.
 
         Args:
-            point: where.
+            point: where; what its starts do is taken over from a point close by.
             fine: from both sides, so that values that do the same are seen to do the same.
+            starts: whether with theirs.
         """
-        by_value = (self._by_value(point, name, fine=fine) for name in point.values)
-        parts = np.stack([*by_value, *self._by_start(point)])
-        return replace(point, slopes=white(point, parts).T, fine=fine)
+        parts = [self._by_value(point, name, fine=fine) for name in point.values]
+        begun = point.begun
+        if starts:
+            begun = begun if begun.size and not fine else self._by_start(point)
+            parts += self._apart(begun)
+        return replace(point, slopes=white(point, np.stack(parts)).T, fine=fine, begun=begun)
+
+    def _apart(self, begun: Array) -> Iterator[Array]:
+        """(n, 2) for each run: what its own start does, and nothing elsewhere."""
+        first = 0
+        for run in self.seen:
+            part = np.zeros_like(begun)
+            mine = slice(first, first + run.time.size)
+            part[mine] = begun[mine]
+            first = mine.stop
+            yield part
 
     def _by_value(self, point: Point, name: str, *, fine: bool) -> Array:
         if name in self.held:
@@ -148,16 +169,10 @@ class Problem:
         model = model_of(self.type, {**point.values, name: value - step})
         return np.asarray((more - self._ahead(model, point.starts, point.trust)) / (2.0 * step))
 
-    def _by_start(self, point: Point) -> Iterator[Array]:
-        model = model_of(self.type, point.values)
-        first, step = 0, self.noise.position
-        for run, start in zip(self.seen, point.starts.tolist(), strict=True):
-            last = first + run.time.size
-            moved = innovations(model, run, start=start + step, trust=point.trust)
-            part = np.zeros_like(point.ahead)
-            part[first:last] = (moved - point.ahead[first:last]) / step
-            yield part
-            first = last
+    def _by_start(self, point: Point) -> Array:
+        step = self.noise.position
+        moved = self._ahead(model_of(self.type, point.values), point.starts + step, point.trust)
+        return np.asarray((moved - point.ahead) / step)
 
     def _spread(self, ahead: Array) -> tuple[Array, int]:
         """(2, 2) covariance of innovations, and how many samples were measured at all."""

@@ -29,6 +29,8 @@ DEEP = 1e-7  # [1/s] the same where a simulation is all but left to itself
 BETWEEN = (1e-4, 1e-2)  # [1/s] the same where some models are likeliest
 COARSE, FINE = 100.0, 4.0  # [1] steps of q
 FARTHEST = 8  # steps of q in one round
+DAMPING, LEAST_DAMPING = 1e-6, 1e-9  # [1] of a step, first and at least
+TRIALS = 8  # of a step, each with ten times the damping
 STEPS = 8  # of the gains in one round
 CEILING = {"window": 0.9, "lag": 0.45}  # [s] later than this nothing on a robot answers
 LITTLE = 0.3  # [share of the squares] that a step takes away near the end of its way
@@ -39,7 +41,8 @@ NOTHING = 1e-20  # [1] what it says of the rest
 def near(problem: Problem, values: Mapping[str, float]) -> Point:
     """The best point from a first guess, if each second may go its own way by as much as noise.
 
-    There the search looks only a little ahead at a time, and is not easily led astray.
+    There the search looks only a little ahead at a time, and is not easily led astray. Where a run
+    began is soon forgotten, so that is left as it is seen.
 
     Returns:
         The point; where nothing can be simulated from the guess, the guess, at an infinite cost.
@@ -48,7 +51,7 @@ def near(problem: Problem, values: Mapping[str, float]) -> Point:
     point = problem.at(values, np.zeros(len(problem.seen)), q)
     if not math.isfinite(point.cost):
         return point
-    return better(problem, point, steps=STEPS, enough=5.0)
+    return better(problem, point, steps=STEPS, enough=5.0, starts=False)
 
 
 def far(problem: Problem, point: Point) -> Point:
@@ -106,7 +109,7 @@ def _pardoning(problem: Problem, point: Point) -> Point:
     """The same values at the likeliest q, to a factor of ``FINE``."""
     for way in (FINE, 1.0 / FINE):
         other = problem.at(point.values, point.starts, point.q * way)
-        while other.cost < point.cost - 0.1:
+        while other.cost < point.cost - 0.5:
             point = other
             other = problem.at(point.values, point.starts, point.q * way)
     return point
@@ -131,8 +134,9 @@ def covariance(problem: Problem, point: Point, *, starts: bool = False) -> Array
 
 
 def better(
-    problem: Problem, point: Point, *, steps: int, enough: float, goal: float = math.inf
-) -> Point:
+    problem: Problem, point: Point, *, steps: int, enough: float, goal: float = math.inf,
+    starts: bool = True,
+) -> Point:  # fmt: skip
     """The point after some steps of the values, fewer when one gains hardly anything.
 
     Args:
@@ -142,39 +146,56 @@ def better(
         enough: [of -2 log L] what a step must gain for another; one that gains what was foretold
             has arrived.
         goal: a cost that is to be beaten; it gives up when that is out of reach.
+        starts: whether they are searched, too.
     """
-    damping = 1e-4
+    damping = DAMPING
     for _ in range(steps):
-        point = problem.sloped(point)
+        point = problem.sloped(point, starts=starts)
         table, rest = point.slopes, white(point, point.ahead)
         size = np.linalg.norm(table, axis=0)
         size[size == 0.0] = 1.0
-        beside = _beside(problem, point) / size**2
+        beside = _beside(problem, point)[: size.size] / size**2
         square = (table.T @ table) / np.outer(size, size) + np.diag(beside)
         slope = table.T @ rest / size
-        slope[len(point.values) :] += (beside * size)[len(point.values) :] * point.starts
+        if starts:
+            slope[len(point.values) :] += (beside * size)[len(point.values) :] * point.starts
         before = point
-        for _ in range(6):
+        for _ in range(TRIALS):
             way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
             foretold = -float(way @ slope)
             if _hopeless(point, foretold, rest, goal):
                 return point
             point = _moved(problem, before, way / size)
             if point is not before:
-                damping = max(damping / 10.0, 1e-9)
+                damping = max(damping / 10.0, LEAST_DAMPING)
                 break
             damping *= 10.0
         gained = before.cost - point.cost
-        if not gained > enough or abs(gained - foretold) < enough:
+        arrived = damping <= DAMPING and abs(gained - foretold) < enough
+        if not gained > enough or arrived:
             break
     return point
 
 
 def _moved(problem: Problem, point: Point, by: Array) -> Point:
     """The point after a step, if that is better; its slopes are still about right."""
-    starts = point.starts + by[len(point.values) :]
+    count = len(point.values)
+    by = by * _allowed(point.values, by)
+    starts = point.starts + by[count:] if by.size > count else point.starts
     moved = problem.at(_stepped(point.values, by), starts, point.q)
-    return replace(moved, slopes=point.slopes) if moved.cost < point.cost else point
+    if not moved.cost < point.cost:
+        return point
+    return replace(moved, slopes=point.slopes, begun=point.begun)
+
+
+def _allowed(values: Mapping[str, float], by: Array) -> float:
+    """The share of a step that changes what is positive by at most a factor of three."""
+    ratios = [
+        change / value
+        for (name, value), change in zip(values.items(), by.tolist(), strict=False)
+        if name in POSITIVE
+    ]
+    return float(1.0 / max(1.0, max(ratios) / 2.0, -min(ratios) * 1.5))
 
 
 def _hopeless(point: Point, foretold: float, rest: Array, goal: float) -> bool:
@@ -191,13 +212,10 @@ def _beside(problem: Problem, point: Point) -> Array:
     return np.repeat([0.0, problem.aside**-2.0], [len(point.values), point.starts.size])
 
 
-def _stepped(values: Mapping[str, float], move: Array) -> dict[str, float]:
+def _stepped(values: Mapping[str, float], by: Array) -> dict[str, float]:
     """The values after a step, kept where they are physics."""
     after = {}
-    for (name, value), by in zip(values.items(), move.tolist(), strict=False):
-        if name in POSITIVE:  # at most a factor of three at once
-            after[name] = value * min(max(1.0 + by / value, 1.0 / 3.0), 3.0)
-        else:
-            low, high = FLOOR.get(name, -math.inf), CEILING.get(name, math.inf)
-            after[name] = min(max(value + by, low), high)
+    for (name, value), change in zip(values.items(), by.tolist(), strict=False):
+        low, high = FLOOR.get(name, -math.inf), CEILING.get(name, math.inf)
+        after[name] = min(max(value + change, low), high)
     return after
