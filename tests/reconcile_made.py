@@ -1,0 +1,70 @@
+"""Sessions of the bench with one thing hidden, short and quick to reconcile."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+from sim.battery import Battery
+from sim.effects import EFFECTS
+from sim.mechanisms import MECHANISMS
+from sim.model import Part
+from sim.reconcile import reconcile
+from sim.routine import Routine
+from sim.simulate import simulate
+
+FOUR = ("quasistatic", "dynamic")
+SESSIONS = {
+    "log": (6.0, FOUR),
+    "validation": (4.3, FOUR),
+    "held_out": (5.0, (*FOUR, "coast", "triangle")),
+}
+"""Name of a log -> the step [V], and the tests."""
+RAMP, TIMEOUT = 1.0, 4.0  # [V/s], [s]: short, so that a case takes some seconds
+SLOWEST = 3.5  # [V] of a step, for which the catalogue's examples are made
+
+
+def bench(name, effect="", *, size=1.0, simple=False):
+    """A mechanism that does what its log says, but for one effect that its team does not know.
+
+    Args:
+        name: of the mechanism.
+        effect: hidden in it.
+        size: 1 is ordinary.
+        simple: it lies on its side, and its team takes it as ``simple``.
+    """
+    one = replace(MECHANISMS[name], battery=Battery(resistance=0.0), stator=1e4, supply=1e4)
+    if simple:
+        one = replace(one, lift=0.0, type="simple")
+    if not effect:
+        return one
+    values = EFFECTS[effect].example(replace(one.scale, step=SLOWEST), size)
+    return replace(one, hidden=(Part(effect, dict(values)),))
+
+
+def session(mechanism, name):
+    """One of the three logs."""
+    step, kinds = SESSIONS[name]
+    routine = Routine(ramp=RAMP, step=step, timeout=TIMEOUT, kinds=kinds)
+    seed = [3, list(SESSIONS).index(name)]
+    return simulate(mechanism, routine, rng=np.random.default_rng(seed))
+
+
+@cache
+def logs(name, effect="", *, simple=False):
+    """All three of them."""
+    mechanism = bench(name, effect, simple=simple)
+    return {one: session(mechanism, one) for one in SESSIONS}
+
+
+def told(sessions, **changes):
+    """The story of three logs."""
+    given = dict(sessions) | changes
+    return reconcile(given.pop("log"), **{"type": "simple"} | given)
+
+
+@cache
+def solved(name, effect="", *, simple=False):
+    """The story of a case, found once however many tests look at it."""
+    mechanism = bench(name, effect, simple=simple)
+    return told(logs(name, effect, simple=simple), type=mechanism.type)
