@@ -349,6 +349,39 @@ def test_right_or_refused_whatever_tests_there_are(kind, tests):
         assert off < 0.35 * truth or off < 0.1, gain
 
 
+def test_an_elevator_that_rebounds_once_has_not_been_both_ways():
+    # two samples of a rebound, taken for a test down, make kS 5.3 ± 0.1 V where 0.16 is true
+    log = simulate(drawn("elevator", 0), GENTLE, rng=rng(0))
+    runs = []
+    for run in (run for run in log.runs if run.test.endswith("forward")):
+        end = run.time[-1] + 0.02 * np.arange(1, 3)
+        back = np.full(2, -0.15 * np.abs(run.velocity).max())
+        thrown = np.cumsum(back) * 0.02 + run.position[-1]
+        columns = ((run.time, end), (run.voltage, np.zeros(2)), (run.position, thrown),
+                   (run.velocity, back))  # fmt: skip
+        runs.append(Run(run.test, *map(np.concatenate, columns)))
+
+    with pytest.raises(NotIdentifiable, match="kS .* and kG .*Add the other direction"):
+        fit(replace(log, runs=tuple(runs)), type="elevator")
+
+
+def test_how_a_position_was_rounded_at_rest_is_no_matter():
+    # the same error of rounding again and again is one measurement: counted as five, half a step
+    # moved an arm's kG by 0.8 of its error
+    mechanism = MECHANISMS["arm"]
+    half = 0.5 * mechanism.sensor.resolution
+    log = simulate(mechanism, GENTLE, rng=rng(1))
+    runs = [
+        replace(run, position=run.position + half * np.cumprod(run.velocity == 0.0))
+        for run in log.runs
+    ]
+
+    found, moved = fit(log), fit(replace(log, runs=tuple(runs)))
+
+    for gain, error in found.errors.items():
+        assert abs(moved.gains[gain] - found.gains[gain]) < 0.05 * error, gain
+
+
 @pytest.mark.parametrize(
     ("log", "type_", "said"),
     [

@@ -100,5 +100,6 @@ def innovations(model: Model, run: Seen, *, start: float, trust: Array) -> Array
     )  # fmt: skip
     ahead = run.measured - np.column_stack([track.expected, track.seen])
     ahead[~run.telling] = np.nan
+    ahead[run.resting, 0] = np.nan
     ahead[0] = np.nan
     return np.asarray(ahead)

@@ -18,7 +18,7 @@ from sim.fit.search import Point, Problem, again, covariance, far, near, promise
 from sim.fit.seen import Seen, noise, see
 from sim.fit.start import first_guess, sensible
 from sim.fit.told import astray, late, opposed
-from sim.fit.unknown import refuse_astray, refuse_unknown
+from sim.fit.unknown import both_ways, refuse_astray, refuse_unknown
 from sim.log import Array, Log, Run
 from sim.units import unit
 
@@ -116,6 +116,8 @@ def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     # unknown is refused
     share = searched.noise.velocity / float(np.sqrt(point.spread[1, 1]))
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
+    if type == "elevator" and not both_ways(searched.seen):
+        least |= {"kS": math.inf, "kG": math.inf}
     refuse_unknown(gains, least, log=log, type=type)
     refuse_astray(followed, log=log)
     for spread in wider(searched, point, followed):

@@ -38,6 +38,8 @@ class Seen:
         moving: (n,) where it moves.
         telling: (n,) where it moves, or is about to: what is compared. That must not depend on a
             model, or a model could gain by looking away.
+        resting: (n,) where a position is read again at rest: the same error of rounding, so it says
+            no more than the first time.
         velocity: [m/s or rad/s] it begins with.
         position: [m or rad] it begins at.
     """
@@ -47,6 +49,7 @@ class Seen:
     measured: Array
     moving: NDArray[np.bool_]
     telling: NDArray[np.bool_]
+    resting: NDArray[np.bool_]
     position: float
     velocity: float
 
@@ -122,7 +125,7 @@ def _seen(run: Run, *, top: float, friction: float | None) -> Seen:
     start = float(run.velocity[first]) if moving[first] else 0.0
     return Seen(
         run.time[cut], run.voltage[cut], np.ascontiguousarray(measured[cut]), moving[cut],
-        _telling(run, moving)[cut], float(run.position[first]), start,
+        _telling(run, moving)[cut], _resting(run, moving)[cut], float(run.position[first]), start,
     )  # fmt: skip
 
 
@@ -168,9 +171,19 @@ def _yields(run: Run, go: int) -> bool:
     return bool(way[-1] > GIVEN * float(np.ptp(run.position)) and creeps > CREEPS)
 
 
+def _stirs(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) where a sensor that is quiet at rest is not; if it trembles, where it moves."""
+    stirs = np.abs(run.velocity) > 0.0
+    return np.asarray(stirs if stirs.mean() < MOSTLY else moving)
+
+
 def _telling(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(n,) where it moves, and a little around where the sensor stirs."""
-    quiet = np.abs(run.velocity) > 0.0
-    stirs = quiet if quiet.mean() < MOSTLY else moving
-    wide = np.convolve(stirs, np.ones(2 * AROUND + 1), mode="same") > 0.0
+    wide = np.convolve(_stirs(run, moving), np.ones(2 * AROUND + 1), mode="same") > 0.0
     return np.asarray(wide[: len(run)] | moving)
+
+
+def _resting(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) where a position is read again at rest."""
+    again = np.diff(run.position, prepend=np.nan) == 0.0
+    return np.asarray(again & ~_stirs(run, moving))

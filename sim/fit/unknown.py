@@ -1,14 +1,18 @@
 """Gains that a log cannot tell: said by name, with the test that would."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+
+import numpy as np
 
 from sim.errors import NotIdentifiable
 from sim.fit.closest import Followed
+from sim.fit.seen import Seen
 from sim.log import Log
 
 TELLS = 0.25  # [share of a gain] a larger standard error leaves it unknown
 FOLLOWS = 0.5  # [share of the velocity's variance] a simulation of less is of something else
+REBOUND = 0.02  # [share of what moves] that a stop throws back
 LEAST = {
     "kS": 0.35,
     "kG": 0.2,
@@ -20,6 +24,13 @@ SETTLES = {
     "kG": "Add the other direction: weight helps one way and hinders the other.",
 }
 TOGETHER = "Add the other direction: up they act together, down against each other."
+
+
+def both_ways(seen: Sequence[Seen]) -> bool:
+    """Whether what moves does so in both directions, and not only as it rebounds from a stop."""
+    speeds = np.concatenate([run.measured[run.moving, 1] for run in seen])
+    up, down = int(np.count_nonzero(speeds > 0.0)), int(np.count_nonzero(speeds < 0.0))
+    return min(up, down) >= REBOUND * (up + down)
 
 
 def refuse_unknown(
