@@ -128,6 +128,7 @@ class Effect:
         pace: [s] the fastest it acts, from parameters and gains; None if it is never fast.
         order: where it stands along the path from command to motor, for a path.
         cannot: why a mechanism cannot have it, from its scale; empty if it can.
+        everyday: whether it is as small, with these parameters, as on any robot in good order.
     """
 
     name: str
@@ -146,6 +147,7 @@ class Effect:
     pace: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
     order: int = 0
     cannot: Callable[[Scale], str] = field(default=lambda _: "")
+    everyday: Callable[[Mapping[str, float]], bool] = field(default=lambda _: False)
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ friction is a bound and not a value, and nothing is said.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -140,9 +141,18 @@ def clocks(log: Log) -> Array:
     """
     first = np.array([run.time[0] for run in log.runs])
     last = np.array([run.time[-1] for run in log.runs])
-    if (first[1:] > last[:-1]).all():
+    if follow_on(log):
         return np.asarray(first - first[0])
     return np.concatenate(([0.0], np.cumsum(last - first)[:-1]))
+
+
+def follow_on(log: Log) -> bool:
+    """Whether the runs' times follow one another, so that the pauses between them are known.
+
+    Where they do not, nobody knows how long a motor cooled: each run is taken to begin cold.
+    """
+    runs = log.runs
+    return all(one.time[-1] < other.time[0] for one, other in pairwise(runs))
 
 
 def _rows(run: Run, number: int, clock: float) -> Array:

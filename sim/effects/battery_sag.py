@@ -13,6 +13,7 @@ import numpy as np
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
+EVERYDAY = 0.1  # [1] of a battery in good order
 NOMINAL = 12.0  # [V] that a duty cycle of one stands for
 
 
@@ -38,6 +39,11 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     yield {"share": 6.0}
 
 
+def everyday(values: Mapping[str, float]) -> bool:
+    """What a good battery and good plugs make of it."""
+    return values["share"] <= EVERYDAY
+
+
 EFFECT = Effect(
     name="battery-sag",
     kind="path",
@@ -54,4 +60,5 @@ EFFECT = Effect(
     starts=starts,
     acts={"passes": passes},
     order=3,
+    everyday=everyday,
 )

@@ -13,6 +13,8 @@ import numpy as np
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
+EVERYDAY = 0.06  # [V]
+
 FEWEST, MOST = 2.0, 80.0  # [1] times that it comes back within what a log covers
 ENOUGH = 1500  # samples that show a spectrum
 SHOWN = 3  # peaks of the spectrum that are worth a start
@@ -60,6 +62,11 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
         left[max(best - 3, 0) : best + 4] = 0.0
 
 
+def everyday(values: Mapping[str, float]) -> bool:
+    """The ripple that teeth and magnets leave in any mechanism."""
+    return math.hypot(values["cosine"], values["sine"]) <= EVERYDAY
+
+
 EFFECT = Effect(
     name="cogging",
     kind="term",
@@ -84,4 +91,5 @@ EFFECT = Effect(
     symmetric=False,
     stores=stored,
     pace=pace,
+    everyday=everyday,
 )

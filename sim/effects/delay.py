@@ -12,6 +12,8 @@ import numpy as np
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
+EVERYDAY = 0.006  # [s]
+
 
 def late(lag: float) -> float:
     """[s] by which a command comes late."""
@@ -37,6 +39,11 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
         yield {"lag": lag}
 
 
+def everyday(values: Mapping[str, float]) -> bool:
+    """What a CAN bus and a loop of 200 Hz make of it anyway."""
+    return values["lag"] <= EVERYDAY
+
+
 EFFECT = Effect(
     name="delay",
     kind="path",
@@ -53,4 +60,5 @@ EFFECT = Effect(
     example=ordinary,
     starts=starts,
     acts={"late": late},
+    everyday=everyday,
 )

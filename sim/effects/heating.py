@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.evidence import Evidence, follow_on
 
 COOLING = 90.0  # [s] in which a motor's winding gives its heat to the case
 
@@ -40,9 +40,13 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     steps = np.diff(seen.clock, prepend=seen.clock[:1])
     heat = np.cumsum(np.clip(steps, 0.0, 0.1) * torque**2)
+    if not follow_on(seen.log):  # each run began cold
+        begins = np.searchsorted(seen.run, seen.run)
+        heat -= heat[begins]
     (rate,) = seen.share(torque * heat)
     yield {"rate": float(np.clip(rate, 1e-4, 1.0))}
-    yield {"rate": 0.01}
+    yield {"rate": 0.003}
+    yield {"rate": 0.02}
 
 
 EFFECT = Effect(

@@ -13,6 +13,8 @@ import numpy as np
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
+EVERYDAY = 0.06  # [V]
+
 
 def grip(v: float, extra: float, slow: float) -> float:
     """[V] beyond kS."""
@@ -37,6 +39,11 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
         yield {"extra": max(float(extra), 0.02), "slow": slow}
 
 
+def everyday(values: Mapping[str, float]) -> bool:
+    """Every gearbox starts a little harder than it runs."""
+    return values["extra"] <= EVERYDAY
+
+
 EFFECT = Effect(
     name="stribeck",
     kind="term",
@@ -57,4 +64,5 @@ EFFECT = Effect(
     starts=starts,
     acts={"grip": grip},
     pace=pace,
+    everyday=everyday,
 )

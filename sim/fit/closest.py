@@ -22,7 +22,6 @@ SMALL = 0.0125  # [share of the top speed] error that is small whatever the nois
 HOLDS = 0.05  # [1/s] q over the variance of a velocity: a model that needs more lacks something
 STEPS = 30  # of the search
 LAGS = ("window", "lag")
-ASIDE = 0.02  # [m or rad] that slack in a gear or a chain lets a start be from where it is seen
 TOGETHER = 0.5  # [s] for which what is missing errs one way
 
 
@@ -130,7 +129,7 @@ def closest(problem: Problem, point: Point, before: Followed) -> tuple[Problem, 
         measured = run.measured.copy()
         measured[:, 0] = np.nan
         seen.append(replace(run, measured=measured))
-    blind = replace(problem, seen=tuple(seen), held=LAGS, aside=ASIDE)
+    blind = replace(problem, seen=tuple(seen), held=LAGS)
     found = better(
         blind, blind.at(point.values, np.zeros(len(seen)), 0.0), steps=STEPS, enough=0.01
     )
@@ -139,23 +138,28 @@ def closest(problem: Problem, point: Point, before: Followed) -> tuple[Problem, 
     return (blind, found, after) if after.rmse < before.rmse else (problem, point, before)
 
 
+def misfits(problem: Problem, point: Point, followed: Followed) -> bool:
+    """Whether a model that does not stray needs more pardon than one that holds."""
+    return not followed.strays and point.q > HOLDS * problem.noise.velocity**2
+
+
 def wider(problem: Problem, point: Point, followed: Followed) -> Iterator[Array]:
     """(values, values) covariances when errors come not sample by sample but for a while each.
 
-    None where a model holds. Where it does not, what it lacks may be too small to be seen beside
-    noise and still be more than the errors that noise leaves. It shows in what is pardoned, and in
-    what a simulation left to itself makes of it.
+    None where a model holds. What it lacks may be too small to be seen beside noise, and still be
+    more than the errors that noise leaves: then it shows in what is pardoned, and in what a
+    simulation left to itself makes of it.
 
     Args:
         problem: what was searched.
         point: the best point, with fine slopes.
         followed: how it follows.
     """
-    size = problem.noise.velocity**2
-    if followed.strays or point.q > HOLDS * size:
+    small = misfits(problem, point, followed)
+    if followed.strays or small:
         yield _by_whiles(problem, point)
-    if point.q > HOLDS * size:
-        alone = problem.at(point.values, point.starts, DEEP * size)
+    if small:
+        alone = problem.at(point.values, point.starts, DEEP * problem.noise.velocity**2)
         yield _by_whiles(problem, problem.sloped(alone))
 
 

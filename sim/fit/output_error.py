@@ -6,18 +6,19 @@ whole mechanism answers late, that is fitted along and told.
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
+from sim.doubt import Doubt
 from sim.errors import BadRequest, NotIdentifiable
-from sim.fit.closest import LAGS, Followed, closest, follow, wider
+from sim.fit.another import another_type
+from sim.fit.closest import LAGS, Followed, closest, follow, misfits, wider
 from sim.fit.doubts import unsure
 from sim.fit.result import Fit
 from sim.fit.search import Point, Problem, again, covariance, far, near, promise
 from sim.fit.seen import Seen, noise, see
-from sim.fit.start import first_guess, sensible
-from sim.fit.told import astray, late, opposed
+from sim.fit.start import faced, sensible
+from sim.fit.told import astray, late, opposed, small
 from sim.fit.unknown import both_ways, refuse_astray, refuse_unknown
 from sim.log import Array, Log, Run
 from sim.units import unit
@@ -95,12 +96,7 @@ def _nonsense(log: Log) -> NotIdentifiable:
 
 
 def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
-    guess = first_guess(log, type=type)
-    way = -1.0 if guess["kV"] < 0.0 else 1.0
-    if way < 0.0:  # plus drives it backward: fitted as if the leads were swapped, and told
-        runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
-        guess = first_guess(replace(log, runs=runs), type=type)
-        log = replace(log, runs=runs)
+    log, guess, way = faced(log, type=type)  # fitted as if the leads were swapped, and told
     begin = sensible(guess, period=_period(log.runs))
     seen = see(log, friction=None if type == "simple" else begin["kS"])
     problem = Problem(type, seen, noise(seen), _period(seen))
@@ -118,12 +114,16 @@ def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
     if type == "elevator" and not both_ways(searched.seen):
         least |= {"kS": math.inf, "kG": math.inf}
-    refuse_unknown(gains, least, log=log, type=type)
-    refuse_astray(followed, log=log)
+    hint = another_type(log, problem, followed)
+    refuse_unknown(gains, least, log=log, type=type, hint=hint)
+    refuse_astray(followed, log=log, hint=hint)
     for spread in wider(searched, point, followed):
         others = _gains(point, spread, type=type)[1]
         errors = {name: max(error, others[name]) for name, error in errors.items()}
-    return _fit(log, problem, point, way=way, gains=gains, errors=errors, followed=followed)
+    said = (*astray(followed, hint=hint), *small(misfits(searched, point, followed)))
+    return _fit(
+        log, problem, point, way=way, gains=gains, errors=errors, followed=followed, said=said
+    )
 
 
 def _period(seen: Sequence[Seen | Run]) -> float:
@@ -214,7 +214,7 @@ def _gains(
 
 def _fit(
     log: Log, problem: Problem, point: Point, *, way: float, gains: Mapping[str, float],
-    errors: Mapping[str, float], followed: Followed,
+    errors: Mapping[str, float], followed: Followed, said: tuple[Doubt, ...],
 ) -> Fit:  # fmt: skip
     """The result: gains, how well they follow, and what to doubt."""
     change = followed.acceleration
@@ -240,7 +240,7 @@ def _fit(
             *log.doubts,
             *opposed(way),
             *late(window, lag),
-            *astray(followed),
+            *said,
             *unsure(signed, errors),
         ),
     )

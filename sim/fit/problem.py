@@ -19,6 +19,8 @@ from sim.log import Array
 from sim.model import Model
 
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
+ASIDE = 0.02  # [m or rad] that slack in a gear or a chain lets a start be from where it is seen
+TICKS = 10.0  # [1] times the noise of a position that it may be, where that is more
 STRAY = 6.0  # [standard deviations] farther than this no noise goes
 STARTS = 0.1  # [s] of a motion in which nothing is left out
 AROUND_STRAY = 2  # samples on both sides of one that strays
@@ -75,7 +77,6 @@ class Problem:
         noise: of the measurements, measured without a model.
         period: [s] between samples.
         held: names of values that are not searched.
-        aside: [m or rad] about how far from what is seen a start may be, beside the measurements.
     """
 
     type: str
@@ -83,7 +84,11 @@ class Problem:
     noise: Noise
     period: float
     held: tuple[str, ...] = ()
-    aside: float = math.inf
+
+    @property
+    def aside(self) -> float:
+        """[m or rad] about how far from what is seen a start may be, beside the measurements."""
+        return max(ASIDE, TICKS * self.noise.position)
 
     def at(self, values: Mapping[str, float], starts: Array, q: float) -> Point:
         """The point of these values; its cost is infinite where they are no physics."""
@@ -136,14 +141,16 @@ class Problem:
         """The point with its slopes.
 
         Args:
-            point: where; what its starts do is taken over from a point close by.
+            point: where; what its starts do is taken over from a point close by, unless gravity
+                depends on the place.
             fine: from both sides, so that values that do the same are seen to do the same.
             starts: whether with theirs.
         """
         parts = [self._by_value(point, name, fine=fine) for name in point.values]
         begun = point.begun
         if starts:
-            begun = begun if begun.size and not fine else self._by_start(point)
+            again = fine or not begun.size or self.type == "arm"
+            begun = self._by_start(point) if again else begun
             parts += self._apart(begun)
         return replace(point, slopes=white(point, np.stack(parts)).T, fine=fine, begun=begun)
 

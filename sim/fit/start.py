@@ -9,6 +9,7 @@ Good enough to begin a search from, whatever the tests were.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -51,6 +52,27 @@ def first_guess(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
     size[size == 0.0] = 1.0
     found = np.linalg.lstsq(columns / size, paid, rcond=1e-8)[0] / size
     return dict(zip(names, found.tolist(), strict=True))
+
+
+def faced(log: Log, *, type: str) -> tuple[Log, dict[str, float], float]:  # noqa: A002 - as above
+    """A log whose plus drives it forward, and its first guess.
+
+    Args:
+        log: any runs.
+        type: ``simple``, ``elevator`` or ``arm``.
+
+    Raises:
+        NotIdentifiable: as ``first_guess``.
+
+    Returns:
+        The log, voltages turned round where plus drives it backward; the guess; 1 or, if so, -1.
+    """
+    guess = first_guess(log, type=type)
+    if not guess["kV"] < 0.0:
+        return log, guess, 1.0
+    runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
+    log = replace(log, runs=runs)
+    return log, first_guess(log, type=type), -1.0
 
 
 def _changes(paid: Array, ways: Array, *, where: str) -> None:

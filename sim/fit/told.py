@@ -44,8 +44,13 @@ def late(window: float, lag: float) -> tuple[Doubt, ...]:
     return tuple(said)
 
 
-def astray(followed: Followed) -> tuple[Doubt, ...]:
-    """A doubt if the simulation leaves the log by more than noise: the model lacks something."""
+def astray(followed: Followed, *, hint: str = "") -> tuple[Doubt, ...]:
+    """A doubt if the simulation leaves the log by more than noise: the model lacks something.
+
+    Args:
+        followed: how it follows.
+        hint: which type would do better, if one does.
+    """
     if not followed.strays:
         return ()
     times, share = followed.rmse / followed.noise, followed.rmse / followed.top
@@ -55,7 +60,22 @@ def astray(followed: Followed) -> tuple[Doubt, ...]:
             f"The simulation leaves the log by {times:.1f} times the velocity's own noise, "
             f"{share:.1%} of its top speed: this mechanism does something that kS, kV and kA do "
             "not say. The gains are those that come closest, and the errors above do not cover "
-            "what is missing. Inspect the log, then ask `sysid reconcile` what that is.",
+            f"what is missing. {hint}{' Otherwise i' if hint else 'I'}nspect the log, then ask "
+            "`sysid reconcile` what that is.",
             grave=share > FAR,
+        ),
+    )
+
+
+def small(misfit: bool) -> tuple[Doubt, ...]:  # noqa: FBT001 - the one thing it tells
+    """A doubt if something is missing that noise drowns."""
+    if not misfit:
+        return ()
+    return (
+        Doubt(
+            "small-misfit",
+            "Beneath the noise this mechanism does something small that its gains do not say. The "
+            "errors are widened by what shows of it; where that matters, ask `sysid reconcile` "
+            "what it is.",
         ),
     )

@@ -39,6 +39,7 @@ def refuse_unknown(
     *,
     log: Log,
     type: str,  # noqa: A002 - the field's own word
+    hint: str = "",
 ) -> None:
     """Refuse gains that the log leaves unknown.
 
@@ -47,6 +48,7 @@ def refuse_unknown(
         errors: one standard error of each.
         log: where they come from.
         type: ``simple``, ``elevator`` or ``arm``.
+        hint: better advice than another test, if there is one.
 
     Raises:
         NotIdentifiable: naming the gains and the test that would settle them.
@@ -63,12 +65,17 @@ def refuse_unknown(
     raise NotIdentifiable(
         f"this log cannot tell {said}",
         where=log.source,
-        advice=TOGETHER if pair else SETTLES[unknown[-1]],
+        advice=hint or (TOGETHER if pair else SETTLES[unknown[-1]]),
     )
 
 
-def refuse_astray(followed: Followed, *, log: Log) -> None:
+def refuse_astray(followed: Followed, *, log: Log, hint: str = "") -> None:
     """Refuse gains whose simulation has little to do with the log.
+
+    Args:
+        followed: how it follows.
+        log: where they come from.
+        hint: better advice than to inspect it, if there is one.
 
     Raises:
         NotIdentifiable: the model lacks what matters most.
@@ -79,7 +86,8 @@ def refuse_astray(followed: Followed, *, log: Log) -> None:
         f"no gains follow this log: the closest simulation leaves it by {_size(followed.rmse)} "
         f"where its top speed is {_size(followed.top)}",
         where=log.source,
-        advice="Inspect the log for damage, check its type and units, then ask `sysid reconcile` "
+        advice=hint
+        or "Inspect the log for damage, check its type and units, then ask `sysid reconcile` "
         "what is missing.",
     )
 

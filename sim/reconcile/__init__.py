@@ -25,7 +25,7 @@ from sim.reconcile.gates import folds
 from sim.reconcile.glitch import glitches
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, lanes
-from sim.reconcile.naming import findings_of, verdict_of
+from sim.reconcile.naming import beside, findings_of, verdict_of
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.remainder import worst
 from sim.reconcile.rounds import rounds
@@ -88,7 +88,7 @@ def reconcile(
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.how,
-        notes=(*aside.notes, *shown.notes(chapters[-1], done[-1].gap.velocity)),
+        notes=(*aside.notes, *beside(done, findings), *shown.notes(chapters[-1], done[-1].gap.velocity)),
         compared=shown.compared,
     )  # fmt: skip
 

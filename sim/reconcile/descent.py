@@ -46,6 +46,8 @@ def tuned(problem: Problem, point: Point) -> Point:
 
 def better(problem: Problem, point: Point, *, steps: int, enough: float = ENOUGH) -> Point:
     """The point after some steps, fewer when one gains hardly anything."""
+    if not math.isfinite(point.cost):
+        return point
     damping = FIRST_DAMPING
     for _ in range(steps):
         table, rest = _with_prior(problem, point)
@@ -114,11 +116,12 @@ def promise(
 
 def _smaller(hypothesis: Hypothesis, one: Mapping[str, float], part: float) -> dict[str, float]:
     """A start at a part of its size: of the parameters that are nothing where it is not there."""
-    known = hypothesis.parameters
-    return {
-        name: value * part if known[name].neutral == 0.0 and known[name].searched else value
-        for name, value in one.items()
+    sizes = {
+        name
+        for name, known in hypothesis.parameters.items()
+        if known.neutral == 0.0 and known.searched
     }
+    return {name: value * part if name in sizes else value for name, value in one.items()}
 
 
 def adjusting(problem: Problem, point: Point) -> Array:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.evidence import clocks
+from sim.evidence import clocks, follow_on
 from sim.fit.seen import Seen, see
 from sim.log import Log
 
@@ -13,6 +13,7 @@ FEWEST = 4  # samples of a run that can be compared, as ``see`` has it
 AT_REST = 0.05  # [share of the top speed] that a position may creep in one sample of a rest
 SAME_PLACE = 0.01  # [share of a run's way] within which a place is the place it began at
 AROUND = 0.03  # [s] on both sides of what is set aside
+MOST_RUNS = 1_000_000  # of one log
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class SetAside:
         run: which one, from 0.
         start: [s] on the run's own clock.
         end: [s].
-        for_good: nothing after it is believed: it leans on a stop.
+        for_good: nothing after it is believed, unless the run begins so: it leans on a stop.
     """
 
     run: int
@@ -42,7 +43,8 @@ class Lane:
         low: [unit] the stop on which it lay when it began; minus infinity if none shows.
         high: [unit] the same above.
         clock: [s] when it began, since its log did.
-        session: which log it is from: what is remembered does not go on from one to another.
+        session: which log it is from.
+        memory: runs with the same number followed one another: what one heated, the next found warm.
     """
 
     seen: Seen
@@ -51,11 +53,13 @@ class Lane:
     high: float
     clock: float
     session: int
+    memory: int
 
     def without(self, aside: SetAside) -> "Lane":
         """The same, and that stretch says nothing."""
         time = self.seen.time
-        end = np.inf if aside.for_good else aside.end + AROUND
+        begins = aside.start <= time[0] + AROUND  # on the stop: it leaves it, and all is well
+        end = np.inf if aside.for_good and not begins else aside.end + AROUND
         out = (time >= aside.start - AROUND) & (time <= end)
         seen = replace(self.seen, telling=self.seen.telling & ~out, moving=self.seen.moving & ~out)
         return replace(self, seen=seen)
@@ -75,11 +79,14 @@ def lanes(
     places = [number for number, run in enumerate(log.runs) if len(run) >= FEWEST]
     runs = [log.runs[number] for number in places]
     began = clocks(log)
+    together = follow_on(log)
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in runs), default=0.0)
     found = {}
     for number, run, one in zip(places, runs, see(log, friction=None), strict=True):
         seen = _rested(one, top=top)
-        found[number] = Lane(seen, run.test, *_stops(seen), since + float(began[number]), session)
+        memory = session * MOST_RUNS + (0 if together else number)
+        clock = since + float(began[number])
+        found[number] = Lane(seen, run.test, *_stops(seen), clock, session, memory)
     for part in aside:
         if part.run in found:
             found[part.run] = found[part.run].without(part)

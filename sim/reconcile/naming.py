@@ -43,8 +43,29 @@ def findings_of(
         _effect(done[n - 1], done[n], last, errors, chapters[n - 1].gap, chapters[n].gap, per=per)
         for n in range(1, len(done))
     ]
+    effects = [one for one in effects if not _everyday(one, last)]
     effects.sort(key=lambda one: (one.size != "major", -one.score))
     return (*faults, *effects)
+
+
+def _everyday(one: Finding, last: Point) -> bool:
+    """Whether a finding is what any robot has; it stays in the model."""
+    effect = EFFECTS[one.effect]
+    values = {name: last.values[f"{one.effect}.{name}"] for name in effect.names}
+    return one.size == "minor" and effect.everyday(values)
+
+
+def beside(done: Sequence[Round], findings: Sequence[Finding]) -> tuple[str, ...]:
+    """A sentence about what is in the last model and was not named."""
+    hypothesis = done[-1].suspect.point.hypothesis
+    named = {one.effect for one in findings}
+    rest = [name for name in hypothesis.effects if name not in named]
+    if not rest:
+        return ()
+    return (
+        f"In the last model there is also a little {' and '.join(rest)}: no more than on other "
+        "robots, or too little to narrow the gap.",
+    )
 
 
 def _fault(one: Damaged, gap: float) -> Finding:

@@ -135,7 +135,7 @@ class Problem:
         return Lead(
             time=seen.time, voltage=seen.voltage, measured=seen.measured,
             position=seen.position + start, velocity=seen.velocity,
-            low=lane.low + start, high=lane.high + start, clock=lane.clock, session=lane.session,
+            low=lane.low + start, high=lane.high + start, clock=lane.clock, session=lane.memory,
         )  # fmt: skip
 
     def ahead(self, model: Model, starts: Array, trust: Array, *, only: int | None = None) -> Array:

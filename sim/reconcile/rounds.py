@@ -11,7 +11,16 @@ from sim.reconcile.gates import Fold, Gap, outside
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.story import Tried
 from sim.reconcile.suspects import Suspect, judged, suspects
-from sim.reconcile.thresholds import CLOSE, MOST, MOST_QUIET, NARROWER, NOT_WIDER, SIMPLER, SURE
+from sim.reconcile.thresholds import (
+    CLOSE,
+    MOST,
+    MOST_QUIET,
+    NARROWER,
+    NOT_WIDER,
+    SIMPLER,
+    SURE,
+    SURER,
+)
 
 HARDLY = "hardly narrows the gap"
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
@@ -72,8 +81,8 @@ def rounds(
                 break
             best = quiet[0]
             done[-1] = replace(
-                now, suspect=best.suspect, gap=best.gap, quiet=now.quiet + 1,
-                tried=done[-1].tried,
+                now, suspect=replace(best.suspect, effect=now.suspect.effect), gap=best.gap,
+                quiet=now.quiet + 1, tried=done[-1].tried,
             )  # fmt: skip
             continue
         best = _simplest(admitted)
@@ -107,7 +116,7 @@ def _reconsidered(
         if not found or _gained(last.suspect, found[0]) < CLOSE:
             continue
         gap = outside(problem, found[0].point, parts)
-        if _why_not(gap, last.gap) == "widens the gap":
+        if _why_not(gap, last.gap, SURER) == "widens the gap":
             continue
         return _replaced(done, place, found[0], gap)
     return done
@@ -152,19 +161,19 @@ def _weighed(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> l
             found.append(_Weighed(suspect, now.gap, tried))
             continue
         gap = outside(problem, suspect.point, parts)
-        why = _why_not(gap, now.gap)
+        why = _why_not(gap, now.gap, score)
         share = gap.velocity / now.gap.velocity
         tried = Tried(suspect.effect, score, share, admitted=not why, why=why)
         found.append(_Weighed(suspect, gap, tried))
     return found
 
 
-def _why_not(gap: Gap, before: Gap) -> str:
+def _why_not(gap: Gap, before: Gap, score: float) -> str:
     """The gate that a suspect does not pass; empty if it passes all."""
     velocity, position = gap.velocity / before.velocity, gap.position / before.position
     if velocity > NOT_WIDER and (velocity * position) ** 0.5 > NOT_WIDER:
         return "widens the gap"
-    if (velocity * position) ** 0.5 > NARROWER and velocity > NARROWER:
+    if velocity > NARROWER and ((velocity * position) ** 0.5 > NARROWER or score < SURER):
         return HARDLY
     return ""
 
