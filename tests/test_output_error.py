@@ -281,6 +281,7 @@ def test_what_is_missing_but_drowned_by_noise_is_in_the_errors():
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
 
+    assert "small-misfit" in [doubt.code for doubt in found.doubts]
     for gain, truth in mechanism.gains.items():
         assert abs(found.gains[gain] - truth) < 4.0 * found.errors[gain] < 0.05, gain
 
@@ -290,6 +291,29 @@ def test_a_model_that_strays_far_cannot_be_right(effect, grave):
     found = fit(simulate(MECHANISMS["drivetrain"].hiding(effect, 2.0), GENTLE, rng=rng(1)))
 
     assert [doubt.grave for doubt in found.doubts if doubt.code == "model-strays"] == [grave]
+
+
+@pytest.mark.parametrize("kind", ["elevator", "arm"])
+@pytest.mark.parametrize("seed", [0, 1, 2])  # the second elevator is refused as of type simple
+def test_gravity_that_the_type_leaves_out_is_suggested(kind, seed):
+    log = simulate(drawn(kind, seed), GENTLE, rng=rng(seed))
+
+    try:
+        said = [doubt.message for doubt in fit(log, type="simple").doubts]
+    except NotIdentifiable as refused:
+        said = [refused.advice]
+
+    assert [one for one in said if f"Fit it as of --type {kind} if gravity acts on it" in one]
+
+
+@pytest.mark.parametrize("effect", ["drag", "stribeck", "cogging", "spring", "asymmetric-back-emf"])
+def test_gravity_is_not_suggested_where_something_else_is_missing(effect):
+    log = simulate(MECHANISMS["turret"].hiding(effect, 2.0), GENTLE, rng=rng(1))
+
+    said = [doubt.message for doubt in fit(log).doubts if doubt.code == "model-strays"]
+
+    assert len(said) == 1
+    assert "--type" not in said[0]
 
 
 def test_a_velocity_that_has_nothing_to_do_with_the_voltage_is_refused():
@@ -308,7 +332,7 @@ def test_a_model_that_holds_is_not_doubted(kind):
     for seed in range(4):
         mechanism = drawn(kind, 40 + seed)
         found = fit(simulate(mechanism, GENTLE, rng=rng(seed)), type=mechanism.type)
-        assert "model-strays" not in [doubt.code for doubt in found.doubts]
+        assert {doubt.code for doubt in found.doubts} <= {"type-from-name"}
 
 
 @pytest.mark.parametrize(
