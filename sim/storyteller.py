@@ -10,7 +10,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
 from sim.reconcile.story import Finding, Story
-from sim.telling import FAULT, beside, headline, in_floors, next_tests, told_parameter
+from sim.telling import FAULT, beside, headline, in_floors, looks, next_tests, told_parameter
 
 COLUMNS, BAR = 80, 40  # [characters] of a line, and of the longest bar
 PLACES = 5  # that are told
@@ -92,12 +92,13 @@ def _finding(say: _Sayer, one: Finding, story: Story) -> None:
     if one.kind != FAULT:
         before, after = (in_floors(gap, story) for gap in (one.gap_before, one.gap_after))
         say(f"The gap goes from {before} to {after} times the noise.", indent=2)
-    say(f"{'What to do' if one.kind == FAULT else 'Look at'}: {one.inspect}", indent=2)
+    for head, text in looks(one):
+        say(f"{head}: {text}", indent=2)
 
 
 def _gaps(say: _Sayer, story: Story) -> None:
     """The shrinking gap as bars of characters that every terminal has."""
-    say("The gap, in times the noise (1: as good as can be):")
+    say("The gap, in times the noise (1: nothing but noise):")
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     wide = max(map(len, names))
     most = max(story.gap_before, *(one.gap for one in story.chapters), story.noise_floor)

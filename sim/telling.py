@@ -15,6 +15,7 @@ from sim.reconcile.story import (
 
 SHRINKS = 0.995  # [of the gap before] a gap after that is no less has not shrunk
 CLOSE = 1.3  # [noise floors] a gap beyond it is not noise alone
+HARDLY = 1e-4  # [of a value] a smaller error is told as that, as ``sysid fit`` does
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
 
 
@@ -82,6 +83,8 @@ def measured(one: Estimate) -> tuple[str, str]:
     if one.error is None or not (math.isfinite(one.error) and one.error > 0.0):
         chosen = one.error is None
         return _minus(f"{one.value:.4g}"), "chosen, not searched" if chosen else "not known"
+    if one.error < HARDLY * abs(one.value):
+        return _minus(f"{one.value:#.5g}".rstrip(".")), f"< {HARDLY:.2%} of it"
     size = max(abs(one.value), one.error)
     digits = 1 + math.floor(math.log10(size)) - math.floor(math.log10(one.error))
     return _minus(f"{one.value:#.{min(max(digits + 1, 2), 6)}g}".rstrip(".")), f"{one.error:.2g}"
@@ -93,6 +96,14 @@ def told_parameter(name: str, one: Estimate) -> str:
     unit = "" if one.unit == "1" else f" {one.unit}"
     known = f" ± {error}{unit}" if error[0].isdigit() else f"{unit} ({error})"
     return f"{name} {value}{known}"
+
+
+def looks(one: Finding) -> tuple[tuple[str, str], ...]:
+    """What to look at on the robot, or to do: for a finding, and for each of its look-alikes."""
+    if one.kind == FAULT:
+        return (("What to do", one.inspect),)
+    rivals = [(name, EFFECTS[name].inspect) for name in one.ambiguous_with if name in EFFECTS]
+    return (("Look at", one.inspect), *((f"If it is {name}", text) for name, text in rivals))
 
 
 def next_tests(story: Story) -> tuple[str, ...]:

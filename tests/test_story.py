@@ -17,6 +17,7 @@ from story_made import (
     DRAG,
     FOOT,
     NOISE,
+    PLACE,
     REMAINS,
     RIGHT,
     SAG,
@@ -38,7 +39,7 @@ from sim.report.story import story_page, write_story
 from sim.routine import Routine
 from sim.simulate import simulate
 from sim.storyteller import progress_bar, show_story
-from sim.telling import headline, measured, next_tests
+from sim.telling import headline, looks, measured, next_tests
 
 BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
 EXPLAINED = STORIES["explained"]
@@ -117,12 +118,31 @@ def test_nothing_is_called_complete_that_is_far_off():
         (8.152, math.nan, ("8.152", "not known")),
         (0.0, 0.01, ("0.0", "0.01")),
         (1.2, 15.0, ("1.2", "15")),
+        (0.201, 5.9e-7, ("0.20100", "< 0.01% of it")),
     ],
 )
 def test_a_number_has_the_digits_it_deserves(value, error, said):
     estimate = replace(DRAG.parameters["drag"], value=value, error=error)
 
     assert measured(estimate) == said
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [(0.9614, "by 0.96 times"), (-99.4, "by 99 times"), (123.4, "by 123 times")],
+)
+def test_a_place_is_told_in_numbers_that_a_person_reads(error, said):
+    assert said in replace(PLACE, error=error).sentence
+
+
+def test_each_look_alike_says_what_to_look_at():
+    unsure = STORIES["ambiguous"].findings[0]
+
+    assert looks(unsure) == (
+        ("Look at", "Grease that has become stiff."),
+        ("If it is stribeck", EFFECTS["stribeck"].inspect),
+    )
+    assert looks(SLIP) == (("What to do", "Tighten what holds the sensor."),)
 
 
 def test_tests_to_run_next_are_told_once():

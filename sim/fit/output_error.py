@@ -23,7 +23,7 @@ from sim.fit.unknown import both_ways, refuse_astray, refuse_unknown
 from sim.log import Array, Log, Run
 from sim.units import unit
 
-WORTH = 12.0  # [of -2 log L] what a lag must explain to be believed: odds of some hundred to one
+WORTH = 8.0  # [of -2 log L] what a lag must explain to be believed: odds of some fifty to one
 HINT = 2.0  # [of -2 log L] what a short one must promise before longer ones are tried
 FIRST_LAGS = {"window": (0.5, 2.0, 6.0), "lag": (0.3, 1.0, 2.0, 4.0)}
 SHORT_LAGS = {"lag": (0.05, 0.2)}

@@ -6,6 +6,7 @@ RUN, SPEED, POSITION = "run", "direction-speed", "direction-position"
 STEPS, REST = "after-steps", "at-rest"
 WHATS = (RUN, SPEED, POSITION, STEPS, REST)
 SIGNALS = ("position", "velocity")  # the columns of what is measured and simulated
+MANY = 99.5  # [noises] from which on no digit is left out
 FASTER = {"position": ("ahead of", "behind"), "velocity": ("faster than", "slower than")}
 
 
@@ -34,7 +35,8 @@ class Place:
         ahead, behind = FASTER[self.signal]
         way = ahead if self.error > 0.0 else behind
         size = abs(self.error)
+        told = f"{size:.0f}" if size >= MANY else f"{size:.2g}"
         return (
-            f"{self.where}: the robot is {way} the model says, by {size:.2g} times the noise "
+            f"{self.where}: the robot is {way} the model says, by {told} times the noise "
             f"of its {self.signal}"
         )

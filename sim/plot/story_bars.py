@@ -106,7 +106,7 @@ def shrinking(story: Story) -> Picture:
     _lengths(axes, gaps)
     axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2)
     axes.annotate(
-        "the noise: no model comes below", (1.0, -0.55), xytext=(4, 0),
+        "the noise of the velocity", (1.0, -0.55), xytext=(4, 0),
         textcoords="offset points", fontsize=8, color=INK, va="center",
     )  # fmt: skip
     axes.set_yticks(range(len(gaps)), names)

@@ -25,6 +25,7 @@ MOST_RUNS = 12  # rows of the first map
 LOUD = 20.0  # [noises] at which a shade is full; the scale is logarithmic beyond one noise
 TICKS = (-20, -5, -1, 0, 1, 5, 20)
 TOLD = 5  # places in words
+DIGITS = 4  # after the point that a tick has room for
 WIDE, ROW, SPARE = 8.4, 0.27, 0.72  # [in] of the picture, of a row, and around each map
 # Blue for slower, orange for faster: Okabe and Ito's, pale enough for dark numbers on top.
 SHADES = LinearSegmentedColormap.from_list("gap", ["#4C9BD1", PAPER, "#F08A4B"])
@@ -159,7 +160,8 @@ def _ticks(cells: Cells, *, per: Unit) -> tuple[list[float], list[str]]:
     scale = per.si if cells.what in {SPEED, POSITION} else 1.0
     values = cells.edges[0] / scale
     digits = max(1 - math.floor(math.log10(float(np.ptp(values)) / count or 1.0)), 0)
-    labels = [f"{values[edge]:.{min(digits, 4)}f}".replace("-", "−") for edge in some]
+    form = f".{digits}f" if digits <= DIGITS else ".1e"
+    labels = [f"{values[edge]:{form}}".replace("-", "−") for edge in some]
     labels[-1] += f" {units[cells.what]}"
     return [edge - 0.5 for edge in some], labels
 

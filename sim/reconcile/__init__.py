@@ -77,6 +77,7 @@ def reconcile(
     progress("what remains", 0.9)
     shown = Shown.of({"log": log, "validation": validation, "held_out": held_out}, aside)
     chapters = shown.chapters(done)
+    seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     moment = worst(problem, done[-1].suspect.point)
     per = unit(log.units)
     findings = findings_of(problem, done, _once(slipped, aside.found), chapters, per=per)
@@ -88,7 +89,7 @@ def reconcile(
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.how,
-        notes=(*aside.notes, *beside(done, findings), *shown.notes(chapters[-1], done[-1].gap.velocity)),
+        notes=(*aside.notes, *beside(done, findings), *seen),
         compared=shown.compared,
     )  # fmt: skip
 

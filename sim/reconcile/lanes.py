@@ -44,7 +44,7 @@ class Lane:
         high: [unit] the same above.
         clock: [s] when it began, since its log did.
         session: which log it is from.
-        memory: runs with the same number followed one another: what one heated, the next found warm.
+        memory: runs of one number followed one another: what one heated, the next found warm.
     """
 
     seen: Seen

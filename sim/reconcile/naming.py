@@ -40,7 +40,9 @@ def findings_of(
     last = done[-1].suspect.point
     errors = standard_errors(problem, last)
     effects = [
-        _effect(done[n - 1], done[n], last, errors, chapters[n - 1].gap, chapters[n].gap, per=per)
+        _effect(
+            done[n - 1], done[n], done[-1], errors, chapters[n - 1].gap, chapters[n].gap, per=per
+        )
         for n in range(1, len(done))
     ]
     effects = [one for one in effects if not _everyday(one, last)]
@@ -62,10 +64,9 @@ def beside(done: Sequence[Round], findings: Sequence[Finding]) -> tuple[str, ...
     rest = [name for name in hypothesis.effects if name not in named]
     if not rest:
         return ()
-    return (
-        f"In the last model there is also a little {' and '.join(rest)}: no more than on other "
-        "robots, or too little to narrow the gap.",
-    )
+    what = " and ".join(rest)
+    why = "no more than on other robots, or too little to narrow the gap"
+    return (f"In the last model there is also a little {what}: {why}.",)
 
 
 def _fault(one: Damaged, gap: float) -> Finding:
@@ -77,12 +78,15 @@ def _fault(one: Damaged, gap: float) -> Finding:
 
 
 def _effect(  # noqa: PLR0917 - two rounds, and what to call them
-    before: Round, now: Round, last: Point, errors: Mapping[str, float], gap_before: float,
+    before: Round, now: Round, end: Round, errors: Mapping[str, float], gap_before: float,
     gap_after: float, *, per: Unit,
 ) -> Finding:  # fmt: skip
     name = now.suspect.effect
     effect = EFFECTS[name]
-    major = now.gap.velocity <= MAJOR * before.gap.velocity
+    last = end.suspect.point
+    with_, bare = (now.gap, before.gap) if now.bare is None else (end.gap, now.bare)
+    major = with_.velocity <= MAJOR * bare.velocity
+    score = before.suspect.score - now.suspect.score if math.isnan(now.lost) else now.lost
     parameters = {}
     for one in effect.parameters:
         whole = f"{name}.{one.name}"
@@ -96,7 +100,7 @@ def _effect(  # noqa: PLR0917 - two rounds, and what to call them
     return Finding(
         effect=name, kind="effect", size="major" if major else "minor", ambiguous_with=now.rivals,
         parameters=parameters, gap_before=gap_before, gap_after=gap_after,
-        score=before.suspect.score - now.suspect.score,
+        score=score,
         sentence=f"{effect.summary[0].upper()}{effect.summary[1:]}. {effect.fingerprint}",
         inspect=effect.inspect, separating_test=" ".join(dict.fromkeys(tests)),
     )  # fmt: skip

@@ -1,5 +1,6 @@
 """Round by round: try every suspect, admit one that narrows the gap, refit everything, go on."""
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -23,6 +24,7 @@ from sim.reconcile.thresholds import (
 )
 
 HARDLY = "hardly narrows the gap"
+PART = 0.5  # [1] of the score of a quiet effect, which an admitted one must have to go before it
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
 Progress = Callable[[str, float], None]
 
@@ -38,6 +40,8 @@ class Round:
         rivals: effects that would have explained as much.
         tried: the suspects of the next round.
         quiet: effects of the model that make the log likelier and hardly narrow the gap.
+        lost: [of -2 log L] what the last model would lose without this effect; nan if not asked.
+        bare: the gap of the last model without this effect; None if not asked.
     """
 
     suspect: Suspect
@@ -46,6 +50,8 @@ class Round:
     rivals: tuple[str, ...] = ()
     tried: tuple[Tried, ...] = ()
     quiet: int = 0
+    lost: float = math.nan
+    bare: Gap | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,21 +81,34 @@ def rounds(
         weighed = _weighed(problem, now, log, parts)
         done[-1] = replace(now, tried=tuple(one.tried for one in weighed))
         admitted = [one for one in weighed if one.tried.admitted]
-        if not admitted:
-            quiet = [one for one in weighed if one.tried.why == HARDLY]
-            if not quiet or now.quiet >= MOST_QUIET:
-                break
+        quiet = [one for one in weighed if one.tried.why == HARDLY][: MOST_QUIET - now.quiet]
+        if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
             best = quiet[0]
             done[-1] = replace(
                 now, suspect=replace(best.suspect, effect=now.suspect.effect), gap=best.gap,
                 quiet=now.quiet + 1, tried=done[-1].tried,
             )  # fmt: skip
             continue
+        if not admitted:
+            break
         best = _simplest(admitted)
         done.append(Round(best.suspect, best.gap, now.gap, _rivals(best, weighed), quiet=now.quiet))
         if len(done) > 2:  # noqa: PLR2004 - two effects may have masked another
             done = _reconsidered(problem, done, log, parts)
-    return done
+    return _missed(problem, done, parts)
+
+
+def _missed(problem: Problem, done: list[Round], parts: Sequence[Fold]) -> list[Round]:
+    """The same, each with what the last model would be without its effect."""
+    if len(done) <= 2:  # noqa: PLR2004 - one effect: what it brought is what it is worth
+        return done
+    last = done[-1].suspect
+    told = [done[0]]
+    for one in done[1:]:
+        reduced = without(problem, last, one.suspect.effect)
+        gap = outside(problem, reduced.point, parts)
+        told.append(replace(one, lost=reduced.score - last.score, bare=gap))
+    return told
 
 
 def _reconsidered(

@@ -9,9 +9,10 @@ NARROWER = 0.985
 shrink by more than a refit by chance does."""
 
 SURER = 60.0
-"""[of -2 log L] the same as ``SURE`` of an effect that hardly narrows the gap of velocities: what is
-everyday on a robot (a little sag, a little more friction at a start) adds up to half of it in
-disguise, and being silent harms less than a wrong name."""
+"""[of -2 log L] the same as ``SURE``, of an effect that hardly narrows the gap of velocities.
+
+What is everyday on a robot (a little sag, a little more friction at a start) adds up to half of it
+in disguise, and being silent harms less than a wrong name."""
 
 NOT_WIDER = 1.005
 """[1] the same of a gap that must not grow: half a percent is what another start changes."""

@@ -20,6 +20,7 @@ from sim.telling import (
     beside,
     headline,
     in_floors,
+    looks,
     meaning,
     measured,
     next_tests,
@@ -39,7 +40,7 @@ class Told:
         sentence: what it does.
         parameters: name, value, error, unit, what it means.
         gap: from where to where it brings the gap; empty for damage.
-        inspect: what to look at on the robot.
+        looks: what to look at on the robot, or to do, each with a head.
         separating_test: which test tells it from its look-alikes.
     """
 
@@ -49,7 +50,7 @@ class Told:
     sentence: str
     parameters: tuple[tuple[str, str, str, str, str], ...]
     gap: str
-    inspect: str
+    looks: tuple[tuple[str, str], ...]
     separating_test: str
 
 
@@ -139,7 +140,7 @@ def _told(one: Finding, story: Story) -> Told:
             for name, estimate in one.parameters.items()
         ),
         "" if fault else f"from {before} to {after} times the noise",
-        one.inspect,
+        looks(one),
         one.separating_test,
     )
 
