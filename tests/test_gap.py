@@ -222,6 +222,20 @@ def test_another_step_is_no_repetition():
 # -- edges ---------------------------------------------------------------------------------------
 
 
+def test_a_run_of_half_a_second_has_its_row_in_the_map():
+    # 27 samples, as an arm's dynamic test leaves at 20 ms: 12 columns of them would say nothing
+    short = [
+        Residuals(*(part[:27] if name != "test" else part for name, part in vars(one).items()))
+        for one in runs_of()
+    ]
+
+    found = gap_map(short, noise=NOISE).by_run
+
+    assert found.edges.shape == (4, 7)  # columns and one
+    assert np.isfinite(found.mean).all()
+    assert gap_map(runs_of(), noise=NOISE).by_run.edges.shape == (4, 13)
+
+
 def test_what_is_not_compared_says_nothing():
     runs = runs_of(plant=lambda at: 50.0 * (at.t > 4.0))
     for run in runs:

@@ -34,9 +34,12 @@ class Place:
         """For a person: where, which way, by how much."""
         ahead, behind = FASTER[self.signal]
         way = ahead if self.error > 0.0 else behind
-        size = abs(self.error)
-        told = f"{size:.0f}" if size >= MANY else f"{size:.2g}"
         return (
-            f"{self.where}: the robot is {way} the model says, by {told} times the noise "
-            f"of its {self.signal}"
+            f"{self.where}: the robot is {way} the model says, by {noises(abs(self.error))} times "
+            f"the noise of its {self.signal}"
         )
+
+
+def noises(value: float) -> str:
+    """A number of noises as text: two digits, or all before the point."""
+    return f"{value:.0f}" if abs(value) >= MANY else f"{value:.2g}"

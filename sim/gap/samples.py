@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.fit.seen import Noise
-from sim.gap.cells import Cells, Sorted
+from sim.gap.cells import FEWEST, Cells, Sorted
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
 from sim.gap.residuals import Residuals
 from sim.log import Array
 
-TIMES, SPEEDS, POSITIONS, VOLTS = 12, 8, 12, 4  # columns
+LEAST_TIMES, TIMES, SPEEDS, POSITIONS, VOLTS = 6, 12, 8, 12, 4  # columns
 AFTER = (0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)  # [s] since a jump: short where things happen
 STILL = 0.02  # [share of the top speed] slower is at rest
 WAYS = ("forward", "reverse")
@@ -60,7 +60,9 @@ class Samples:
     def by_run(self) -> Cells:
         """Run × time."""
         ends = [run.since[run.compared][[0, -1]] for run in self.runs]
-        edges = np.stack([np.linspace(start, end, TIMES + 1) for start, end in ends])
+        shortest = min(int(np.count_nonzero(run.compared)) for run in self.runs)
+        columns = min(max(shortest // FEWEST, LEAST_TIMES), TIMES)
+        edges = np.stack([np.linspace(start, end, columns + 1) for start, end in ends])
         since = np.concatenate([run.since for run in self.runs])
         names = _names([run.test for run in self.runs])
         return self.sorted.into(RUN, names, edges, row=self.number, value=since, way=self.way)

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from sim.errors import BadRequest
 from sim.gap import Cells, GapMap
-from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
+from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS, noises
 from sim.log import Array
 from sim.plot.picture import INK, PAPER, Picture
 from sim.plot.table import Table
@@ -176,6 +176,10 @@ def _whole(value: float) -> str:
     return text.replace("-", "−")
 
 
+def _signed(value: float) -> str:
+    return f"{'+' if value > 0.0 else ''}{noises(value)}".replace("-", "−")
+
+
 def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
     first = (
         "Maps of where the robot is slower or faster than the simulation: run by run, by speed, by "
@@ -194,7 +198,7 @@ def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
 
 def _numbers(found: Sequence[GapMap], titles: Sequence[str]) -> Table:
     rows = [
-        (place.where, f"{place.error:+.2g}".replace("-", "−"), f"{place.sure:.0f}", title)
+        (place.where, _signed(place.error), f"{place.sure:.0f}", title)
         for one, title in zip(found, titles, strict=True)
         for place in one.places(TOLD, signal="velocity")
     ]
