@@ -28,7 +28,7 @@ from sim.errors import BadRequest
 
 CACHE = "SYSID_CACHE"  # environment variable: another folder for what was compiled
 KEPT = 4  # engines of other versions that stay in the cache
-COMPILED = ("move",)  # what is called from outside, and kept compiled on disk
+CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
 
 HOOKS: Mapping[str, tuple[str, str, str]] = {
     # hook: arguments of the composed function, value to begin with, how an effect's answer joins
@@ -122,6 +122,7 @@ def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     yield from _memories(effects, at)
     yield from _body(sim.engine.wires)
     yield from _body(sim.engine.stepping)
+    yield from _entry(effects)
 
 
 def _chain(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
@@ -154,6 +155,24 @@ def _memories(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterato
             yield f"        memory[{place}] = {_call(effect, 'remembers', at[name], place)}"
 
 
+def _entry(effects: Mapping[str, Effect]) -> Iterator[str]:
+    """What is called from outside: arrays that stay the same through a run become tuples."""
+    asked = list(inspect.signature(sim.engine.stepping.run).parameters)
+    sizes = {
+        "c": CONSTANTS,
+        "w": WIRES,
+        "on": len(effects) + len(HOOKS) + 1,
+        "p": sum(len(effect.parameters) for effect in effects.values()),
+    }
+    given = {
+        name: f"({', '.join(f'{name}[{place}]' for place in range(size))},)"
+        for name, size in sizes.items()
+    }
+    yield "@entry"
+    yield f"def move({', '.join(asked)}):"
+    yield f"    run({', '.join(given.get(name, name) for name in asked)})"
+
+
 def _call(effect: Effect, hook: str, at: slice, place: int) -> str:
     """The call of an effect's function, with what it asks for."""
     given = {name: f"p[{at.start + n}]" for n, name in enumerate(effect.names)}
@@ -173,7 +192,7 @@ def _body(module: ModuleType) -> Iterator[str]:
     imports = [n for n, line in enumerate(lines) if line.startswith(("import ", "from "))]
     for line in lines[max([*ends, *imports]) + 1 :]:
         if line.startswith("def "):
-            yield "@entry" if line[4:].partition("(")[0] in COMPILED else "@step"
+            yield "@step"
             yield "def " + line[4:]
         else:
             yield line

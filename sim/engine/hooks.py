@@ -7,56 +7,65 @@ effects, ``memory`` one number for each effect.
 
 from sim.log import Array
 
+Numbers = tuple[float, ...]
+"""What stays the same through a run.
 
-def late(on: Array, p: Array) -> float:
+Compiled functions count who holds an array at each call, which takes longer than a step; of tuples
+they hold the numbers.
+"""
+
+
+def late(on: Numbers, p: Numbers) -> float:
     """[s] by which a command comes late."""
     return 0.0
 
 
-def passes(on: Array, p: Array, memory: Array, u: float, v: float, kv: float) -> float:
+def passes(on: Numbers, p: Numbers, memory: Array, u: float, v: float, kv: float) -> float:
     """[V] that gets through to the motor."""
     return u
 
 
-def pull(on: Array, p: Array, x: float, v: float) -> float:
+def pull(on: Numbers, p: Numbers, x: float, v: float) -> float:
     """[V] that terms take from the motor's."""
     return 0.0
 
 
-def grip(on: Array, p: Array, v: float, way: float) -> float:
+def grip(on: Numbers, p: Numbers, v: float, way: float) -> float:
     """[V] of dry friction beyond kS when moving toward ``way``."""
     return 0.0
 
 
-def heft(on: Array, p: Array, clock: float) -> float:
+def heft(on: Numbers, p: Numbers, clock: float) -> float:
     """[V·s²/unit] of inertia beyond kA."""
     return 0.0
 
 
-def jolt(on: Array, p: Array) -> float:
+def jolt(on: Numbers, p: Numbers) -> float:
     """[1] of the momentum it needs that joining inertia takes from what moves."""
     return 0.0
 
 
-def slack(on: Array, p: Array) -> float:
+def slack(on: Numbers, p: Numbers) -> float:
     """[unit] of free play between motor and load."""
     return 0.0
 
 
-def softness(on: Array, p: Array) -> float:
+def softness(on: Numbers, p: Numbers) -> float:
     """[unit/V] of what joins motor and load."""
     return 0.0
 
 
-def share(on: Array, p: Array) -> float:
+def share(on: Numbers, p: Numbers) -> float:
     """[1] of the inertia that is on the motor's side; 0 where there is one body."""
     return 0.0
 
 
-def remembers(on: Array, p: Array, memory: Array, dt: float, u: float, v: float, kv: float) -> None:
+def remembers(
+    on: Numbers, p: Numbers, memory: Array, dt: float, u: float, v: float, kv: float
+) -> None:
     """Bring every effect's memory up to date, after ``dt`` [s] under ``u`` [V]."""
 
 
-def sees(on: Array, p: Array, now: int, time: Array, position: Array, velocity: Array) -> float:
+def sees(on: Numbers, p: Numbers, now: int, time: Array, position: Array, velocity: Array) -> float:
     """[unit/s] that the sensor says at sample ``now``."""
     return float(velocity[now])

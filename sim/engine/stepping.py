@@ -15,6 +15,7 @@ import math
 import numpy as np
 
 from sim.engine.hooks import (  # composed: begin
+    Numbers,
     grip,
     heft,
     jolt,
@@ -49,13 +50,13 @@ MOMENT = 1e-6  # [s] a shorter part of a step is not worth a step of its own
 LOOSE_DAMPING = 0.05  # [1] of critical, of a belt, a chain or an arm that bends
 
 
-def slides(c: Array, on: Array, p: Array, v: float, way: float) -> float:
+def slides(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
     """[V] of dry friction toward ``way``, never below none."""
     return float(max(c[KS] + grip(on, p, v, way), 0.0))
 
 
 def glide(
-    c: Array, on: Array, p: Array, x: float, v: float, v_mid: float, drive: float,
+    c: Numbers, on: Numbers, p: Numbers, x: float, v: float, v_mid: float, drive: float,
     kv: float, ka: float, dt: float, part: float,
 ) -> tuple[float, float]:  # fmt: skip
     """Position and velocity after ``dt`` under a constant drive [V], turning points included.
@@ -93,7 +94,7 @@ def glide(
 
 
 def ahead(
-    c: Array, on: Array, p: Array, x: float, v: float, drive: float,
+    c: Numbers, on: Numbers, p: Numbers, x: float, v: float, drive: float,
     kv: float, ka: float, dt: float, part: float,
 ) -> tuple[float, float]:  # fmt: skip
     """Position and velocity a moment ahead, along a straight line: where a step has its middle."""
@@ -107,7 +108,7 @@ def ahead(
     return x + 0.5 * dt * (v + after), after
 
 
-def gravity(c: Array, x: float) -> float:
+def gravity(c: Numbers, x: float) -> float:
     """[V] that gravity takes."""
     if c[LEVEL] == 0.0:
         return float(c[LOAD])
@@ -115,14 +116,21 @@ def gravity(c: Array, x: float) -> float:
 
 
 def through(
-    c: Array, w: Array, on: Array, p: Array, memory: Array, asked: float, v: float, off: bool
+    c: Numbers,
+    w: Numbers,
+    on: Numbers,
+    p: Numbers,
+    memory: Array,
+    asked: float,
+    v: float,
+    off: bool,
 ) -> float:
     """[V] at the motor, after the wires and then the paths."""
     u = reaches(w, 0.0 if off else asked, v)
     return passes(on, p, memory, u, v, c[KV])
 
 
-def within(c: Array, x: float, v: float) -> tuple[float, float]:
+def within(c: Numbers, x: float, v: float) -> tuple[float, float]:
     """Stop at the ends of the travel, without a bounce."""
     if x < c[LOW]:
         return c[LOW], max(v, 0.0)
@@ -132,7 +140,7 @@ def within(c: Array, x: float, v: float) -> tuple[float, float]:
 
 
 def single(
-    state: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float, plain: bool,
 ) -> float:  # fmt: skip
     """One step of one body; returns the voltage [V] at the motor in its middle."""
@@ -170,7 +178,7 @@ def joint(play: float, soft: float, reduced: float, gap: float, rush: float) -> 
 
 
 def double(
-    state: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float,
 ) -> float:  # fmt: skip
     """One step of a motor and its load; returns the voltage [V] at the motor in its middle.
@@ -203,7 +211,7 @@ def double(
 
 
 def pair(
-    state: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float,
 ) -> float:  # fmt: skip
     """One step of two bodies, as ``double``, whatever happens in it."""
@@ -230,7 +238,7 @@ def pair(
 
 
 def advance(
-    state: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, clock: float, dt: float, plain: bool, ka: float,
 ) -> float:  # fmt: skip
     """One step; returns the inertia [V·s²/unit] after it.
@@ -257,7 +265,7 @@ def advance(
     return float(after)
 
 
-def record(out: Array, k: int, state: Array, w: Array, asked: float, clock: float) -> None:
+def record(out: Array, k: int, state: Array, w: Numbers, asked: float, clock: float) -> None:
     """Write down what is true at sample ``k``, but for what the sensor says."""
     out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
     out[k, LOAD_POSITION] = state[Y]
@@ -283,8 +291,8 @@ def correct(state: Array, ahead: float, faster: float, trust: Array) -> None:
     state[W] += speed
 
 
-def move(
-    time: Array, asked: Array, state: Array, c: Array, w: Array, on: Array, p: Array,
+def run(
+    time: Array, asked: Array, state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers,
     memory: Array, began: float, finest: float, plain: bool, measured: Array, trust: Array,
     out: Array,
 ) -> None:  # fmt: skip

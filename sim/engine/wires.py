@@ -14,7 +14,7 @@ takes to enable them again.
 
 import math
 
-from sim.log import Array
+from sim.engine.hooks import Numbers
 
 REST, RB, MOTORS, OHM, EMF, STATOR, SUPPLY, STOP, DUTY = range(9)
 """Places in ``w``: [V], [Ω], [1], [Ω], [V·s/unit], [A], [A], [V], and
@@ -26,13 +26,13 @@ CUT = 0.02  # [s] the motors stay off: with none of them running the battery rec
 # the enable signal comes every 20 ms
 
 
-def bus_at(w: Array, u: float, current: float) -> float:
+def bus_at(w: Numbers, u: float, current: float) -> float:
     """[V] of the battery while every motor takes ``current`` [A] at ``u`` [V]."""
     square = 0.25 * w[REST] * w[REST] - w[RB] * w[MOTORS] * u * current
     return float(0.5 * w[REST] + math.sqrt(max(square, 0.0)))
 
 
-def reaches(w: Array, asked: float, v: float) -> float:
+def reaches(w: Numbers, asked: float, v: float) -> float:
     """[V] that reach the motors of the voltage asked for, at a speed."""
     if w[REST] == 0.0:
         return asked
