@@ -396,7 +396,7 @@ def test_how_a_position_was_rounded_at_rest_is_no_matter():
     half = 0.5 * mechanism.sensor.resolution
     log = simulate(mechanism, GENTLE, rng=rng(1))
     runs = [
-        replace(run, position=run.position + half * np.cumprod(run.velocity == 0.0))
+        replace(run, position=run.position + half * (run.position == run.position[0]))
         for run in log.runs
     ]
 

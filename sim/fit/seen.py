@@ -38,8 +38,8 @@ class Seen:
         moving: (n,) where it moves.
         telling: (n,) where it moves, or is about to: what is compared. That must not depend on a
             model, or a model could gain by looking away.
-        resting: (n,) where a position is read again at rest: the same error of rounding, so it says
-            no more than the first time.
+        resting: (n,) where a position is the one read at rest, and its error of rounding, too: so
+            often repeated it would pass for knowledge.
         velocity: [m/s or rad/s] it begins with.
         position: [m or rad] it begins at.
     """
@@ -184,6 +184,11 @@ def _telling(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _resting(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(n,) where a position is read again at rest."""
-    again = np.diff(run.position, prepend=np.nan) == 0.0
-    return np.asarray(again & ~_stirs(run, moving))
+    """(n,) where a position is what is read at rest, creeping within one step of it included.
+
+    A motion through a whole step of the sensor is read too low as often as too high. From rest it
+    only goes through a part of one, and all readings of that part err the same way.
+    """
+    step = np.cumsum(np.diff(run.position, prepend=run.position[:1]) != 0.0)
+    rests = np.bincount(step, weights=~_stirs(run, moving)) > 0.0
+    return np.asarray(rests[step])
