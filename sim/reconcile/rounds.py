@@ -25,6 +25,7 @@ from sim.reconcile.thresholds import (
 
 HARDLY = "hardly narrows the gap"
 PART = 0.5  # [1] of the score of a quiet effect, which an admitted one must have to go before it
+SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
 Progress = Callable[[str, float], None]
 
@@ -40,6 +41,7 @@ class Round:
         rivals: effects that would have explained as much.
         tried: the suspects of the next round.
         quiet: effects of the model that make the log likelier and hardly narrow the gap.
+        plain: the model before the first of those; None if there are none.
         lost: [of -2 log L] what the last model would lose without this effect; nan if not asked.
         bare: the gap of the last model without this effect; None if not asked.
     """
@@ -50,6 +52,7 @@ class Round:
     rivals: tuple[str, ...] = ()
     tried: tuple[Tried, ...] = ()
     quiet: int = 0
+    plain: Suspect | None = None
     lost: float = math.nan
     bare: Gap | None = None
 
@@ -75,27 +78,48 @@ def rounds(
     """
     gap = outside(problem, base, parts)
     done = [Round(judged(problem, base), gap, gap)]
+    for _ in range(SECOND_THOUGHTS + 1):
+        done = _added(problem, done, log, parts, progress)
+        thought = _reconsidered(problem, done, log, parts) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
+        if thought is done:
+            break
+        done = thought
+    return _missed(problem, done, parts)
+
+
+def _added(
+    problem: Problem, done: list[Round], log: Log, parts: Sequence[Fold], progress: Progress
+) -> list[Round]:
+    """The same, and a round for each effect that narrows the gap."""
+    done = list(done)
     while len(done) <= MOST:
         progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
         now = done[-1]
         weighed = _weighed(problem, now, log, parts)
-        done[-1] = replace(now, tried=tuple(one.tried for one in weighed))
+        done[-1] = now = replace(now, tried=tuple(one.tried for one in weighed))
         admitted = [one for one in weighed if one.tried.admitted]
         quiet = [one for one in weighed if one.tried.why == HARDLY][: MOST_QUIET - now.quiet]
         if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
-            best = quiet[0]
-            done[-1] = replace(
-                now, suspect=replace(best.suspect, effect=now.suspect.effect), gap=best.gap,
-                quiet=now.quiet + 1, tried=done[-1].tried,
-            )  # fmt: skip
+            done[-1] = _with_quiet(now, quiet[0])
             continue
         if not admitted:
             break
         best = _simplest(admitted)
         done.append(Round(best.suspect, best.gap, now.gap, _rivals(best, weighed), quiet=now.quiet))
-        if len(done) > 2:  # noqa: PLR2004 - two effects may have masked another
-            done = _reconsidered(problem, done, log, parts)
-    return _missed(problem, done, parts)
+    return done
+
+
+def _with_quiet(now: Round, best: "_Weighed") -> Round:
+    """A round whose model has one effect more, which nobody names."""
+    suspect = replace(best.suspect, effect=now.suspect.effect)
+    plain = now.plain or now.suspect
+    return replace(now, suspect=suspect, gap=best.gap, quiet=now.quiet + 1, plain=plain)
+
+
+def shown_of(one: Round) -> Point:
+    """The model of a round that is shown: of the base, the one without quiet effects."""
+    plain = one.plain if one.plain and not one.plain.effect else None
+    return (plain or one.suspect).point
 
 
 def _missed(problem: Problem, done: list[Round], parts: Sequence[Fold]) -> list[Round]:
@@ -218,7 +242,12 @@ def without(problem: Problem, suspect: Suspect, effect: str) -> Suspect:
     point = suspect.point
     hypothesis = point.hypothesis - effect
     values = {name: point.values[name] for name in hypothesis.names}
-    return judged(problem, settle(problem, problem.at(hypothesis, values, point.starts, point.q)))
+    begin = problem.at(hypothesis, values, point.starts, point.q)
+    if point.slopes is not None:
+        stays = [name in hypothesis.searched for name in point.hypothesis.searched]
+        stays += [True] * point.starts.size
+        begin = replace(begin, slopes=point.slopes[stays])
+    return judged(problem, settle(problem, begin))
 
 
 def apart(effect: str, other: str) -> str:

@@ -14,7 +14,7 @@ from sim.reconcile.aside import Aside
 from sim.reconcile.gates import errors_of, rms
 from sim.reconcile.lanes import lanes
 from sim.reconcile.problem import Problem
-from sim.reconcile.rounds import Round
+from sim.reconcile.rounds import Round, shown_of
 from sim.reconcile.story import Chapter
 from sim.reconcile.usable import repeated
 from sim.reconcile.where import map_of
@@ -108,7 +108,7 @@ class Shown:
         return tuple(map(self._chapter, done))
 
     def _chapter(self, one: Round) -> Chapter:
-        point = one.suspect.point
+        point = shown_of(one)
         model = point.hypothesis.model(point.values)
         at_seen = np.zeros(len(self.problem.lanes))
         gap = rms(errors_of(self.problem, point, at_seen)).velocity / unit(self.log.units).si
