@@ -10,7 +10,7 @@ from sim.fit.closest import Followed
 from sim.fit.seen import Seen
 from sim.log import Log
 
-TELLS = 0.25  # [share of a gain] a larger standard error leaves it unknown
+TELLS = 0.08  # [share of a gain] of a larger standard error, three are a quarter: no answer
 FOLLOWS = 0.5  # [share of the velocity's variance] a simulation of less is of something else
 REBOUND = 0.02  # [share of what moves] that a stop throws back
 LEAST = {
