@@ -6,7 +6,6 @@ pushes at random.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -21,7 +20,6 @@ SCANNED = (-12, -9, -6, -4, -2)  # powers of it: what pushes is first thought to
 SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size that are worth another look
 SURELY_MORE = 10.0  # [of -2 log L]
 ROUNDS, STEPS = 3, 8
-STILL = 2.0  # times it: a step that gains so much shows that its slopes hold
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
 
 
@@ -37,60 +35,38 @@ def settle(problem: Problem, point: Point) -> Point:
 
 def tuned(problem: Problem, point: Point) -> Point:
     """The same values with the likeliest q, to a factor of two."""
-    slopes = point.slopes
     least = LEAST_Q * problem.noise.velocity**2
     for way in (SOFTER, 1.0 / SOFTER):
         other = problem.at(point.hypothesis, point.values, point.starts, point.q * way)
         while other.cost < point.cost - 0.1 and other.q > least:
             point = other
             other = problem.at(point.hypothesis, point.values, point.starts, point.q * way)
-    return replace(point, slopes=slopes)
+    return point
 
 
 def better(problem: Problem, point: Point, *, steps: int, enough: float = ENOUGH) -> Point:
     """The point after some steps, fewer when one gains hardly anything."""
     if not math.isfinite(point.cost):
         return point
-    damping, slopes = FIRST_DAMPING, point.slopes
+    damping = FIRST_DAMPING
     for _ in range(steps):
-        fresh = slopes is None
-        slopes = problem.slopes(point) if slopes is None else slopes
-        table, rest = _with_prior(problem, point, slopes)
+        table, rest = _with_prior(problem, point)
         size = np.linalg.norm(table, axis=0)
         size[size == 0.0] = 1.0
         table /= size
         square, slope = table.T @ table, table.T @ rest
-        found, by = point, np.zeros(slope.size)
-        for _ in range(TRIES if fresh else 1):
+        found = point
+        for _ in range(TRIES):
             by = -np.linalg.solve(square + damping * np.eye(slope.size), slope) / size
             moved = _moved(problem, point, by)
             if moved.cost < point.cost:
                 found, damping = moved, max(damping / 10.0, 1e-9)
                 break
             damping *= 10.0
-        gained = point.cost - found.cost
-        if gained > STILL * enough:
-            slopes = _turned(slopes, found.ahead - point.ahead, by * size, size)
-        elif fresh:
-            return replace(found, slopes=slopes)
-        else:  # what was turned is worn out
-            slopes, damping = None, FIRST_DAMPING
-        point = found
-    return replace(point, slopes=slopes)
-
-
-def _turned(slopes: Array, change: Array, by: Array, size: Array) -> Array:
-    """Slopes that would have foreseen a change, and are else as they were (Broyden 1965).
-
-    Args:
-        slopes: (k, n, 2) of what is ahead.
-        change: (n, 2) that a step made.
-        by: (k,) the step, in sizes.
-        size: (k,) of a column.
-    """
-    missed = np.nan_to_num(change - np.tensordot(by / size, slopes, axes=1))
-    weights = by / float(by @ by) * size
-    return np.asarray(slopes + weights[:, None, None] * missed)
+        gained, point = point.cost - found.cost, found
+        if not gained > enough:
+            break
+    return point
 
 
 def promise(
@@ -150,14 +126,13 @@ def _smaller(hypothesis: Hypothesis, one: Mapping[str, float], part: float) -> d
 
 def adjusting(problem: Problem, point: Point) -> Array:
     """(2 n, k) orthonormal: all that the values and starts of a point can make of it."""
-    slopes = problem.slopes(point) if point.slopes is None else point.slopes
-    kept, _ = np.linalg.qr(problem.whitened(point, slopes))
+    kept, _ = np.linalg.qr(problem.columns(point))
     return np.asarray(kept)
 
 
-def _with_prior(problem: Problem, point: Point, slopes: Array) -> tuple[Array, Array]:
+def _with_prior(problem: Problem, point: Point) -> tuple[Array, Array]:
     """Columns and white innovations, with a row for each start: it is priced as noise."""
-    table, rest = problem.whitened(point, slopes), problem.white(point, point.ahead)
+    table, rest = problem.columns(point), problem.white(point, point.ahead)
     runs = len(problem.lanes)
     prior = np.zeros((runs, table.shape[1]))
     prior[:, -runs:] = np.eye(runs) / problem.loose

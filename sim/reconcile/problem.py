@@ -7,7 +7,7 @@ A run may begin a little beside where its first sample was seen; that is priced 
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -40,8 +40,6 @@ class Point:
         trust: (2, 2) by how much a measurement corrects.
         ahead: (n, 2) innovations, nan where nothing is compared.
         cost: -2 log L, up to a constant.
-        slopes: (searched + runs, n, 2) change of the innovations with each value and start, if a
-            search knows about what they are; None if not.
     """
 
     hypothesis: Hypothesis
@@ -51,7 +49,6 @@ class Point:
     trust: Array
     ahead: Array
     cost: float
-    slopes: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,29 +187,12 @@ class Problem:
         inverse = np.linalg.inv(np.linalg.cholesky(self.spread(point.ahead)))
         return np.asarray((np.nan_to_num(table) @ inverse.T).ravel())
 
-    def slopes(self, point: Point) -> Array:
-        """(searched + runs, n, 2) change of the innovations with each value and start."""
+    def columns(self, point: Point) -> Array:
+        """(2 n, searched + runs) change of the white innovations with each value and start."""
         hypothesis = point.hypothesis
         parts = [self._by_value(point, name) for name in hypothesis.searched]
         parts += [self._by_start(point, number) for number in range(len(self.lanes))]
-        return np.nan_to_num(np.stack(parts))
-
-    def widened(self, point: Point, start: Point) -> Point:
-        """A start with one effect more, and its slopes: of what it shares with a point, those."""
-        known = self.slopes(point) if point.slopes is None else point.slopes
-        count = len(point.hypothesis.searched)
-        more = [self._by_value(start, name) for name in start.hypothesis.searched[count:]]
-        slopes = [known[:count], *(np.nan_to_num(one)[None] for one in more), known[count:]]
-        return replace(start, slopes=np.concatenate(slopes))
-
-    def whitened(self, point: Point, slopes: Array) -> Array:
-        """(2 n, searched + runs) the same of the white innovations."""
-        inverse = np.linalg.inv(np.linalg.cholesky(self.spread(point.ahead)))
-        return np.asarray((slopes @ inverse.T).reshape(len(slopes), -1).T)
-
-    def columns(self, point: Point) -> Array:
-        """(2 n, searched + runs) the white slopes at a point."""
-        return self.whitened(point, self.slopes(point))
+        return np.column_stack([self.white(point, part) for part in parts])
 
     def _by_value(self, point: Point, name: str) -> Array:
         hypothesis, value = point.hypothesis, point.values[name]

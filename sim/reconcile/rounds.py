@@ -243,10 +243,6 @@ def without(problem: Problem, suspect: Suspect, effect: str) -> Suspect:
     hypothesis = point.hypothesis - effect
     values = {name: point.values[name] for name in hypothesis.names}
     begin = problem.at(hypothesis, values, point.starts, point.q)
-    if point.slopes is not None:
-        stays = [name in hypothesis.searched for name in point.hypothesis.searched]
-        stays += [True] * point.starts.size
-        begin = replace(begin, slopes=point.slopes[stays])
     return judged(problem, settle(problem, begin))
 
 

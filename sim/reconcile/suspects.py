@@ -7,7 +7,7 @@ each change of voltage, as two bodies do, is tried on the lively runs first.
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from sim.effect import Effect
 from sim.effects import EFFECTS
@@ -62,15 +62,13 @@ def suspects(
     had = (*point.hypothesis.effects, *OWN.get(point.hypothesis.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
-    point = replace(point, slopes=problem.slopes(point))
-    begun = _begun(problem, point, effects, evidence, count=TRIED)
+    begun = _begun(problem, point, effects, evidence)[:TRIED]
     calm = CALM * problem.noise.velocity**2
     if point.q > AGITATED * calm:
         calmer = problem.at(point.hypothesis, point.values, point.starts, calm)
         calmer = better(problem, calmer, steps=A_LITTLE)
-        calmer = replace(calmer, slopes=problem.slopes(calmer))
-        begun += _begun(problem, calmer, effects, evidence, count=TRIED_CALM)
-    gone = [better(problem, start, steps=A_LITTLE) for start in begun]
+        begun += _begun(problem, calmer, effects, evidence)[:TRIED_CALM]
+    gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
     ended = [settle(problem, one) for one in _each_once(gone)[:KEPT]]
     found = [judged(problem, one, one.hypothesis.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
@@ -85,9 +83,9 @@ def _each_once(points: Iterable[Point]) -> list[Point]:
 
 
 def _begun(
-    problem: Problem, point: Point, effects: Iterable[Effect], evidence: Evidence, *, count: int
-) -> list[Point]:
-    """The best start of each effect, the most promising first."""
+    problem: Problem, point: Point, effects: Iterable[Effect], evidence: Evidence
+) -> list[tuple[float, Point]]:
+    """The best start of each effect, with what it promises; the most promising first."""
     kept = adjusting(problem, point)
     found = []
     lively = None
@@ -106,8 +104,7 @@ def _begun(
         begun = promise(problem, point, hypothesis, more, kept=kept)
         if begun:
             found.append(max(begun, key=lambda one: one[0]))
-    found.sort(key=lambda one: -one[0])
-    return [problem.widened(point, start) for _, start in found[:count]]
+    return sorted(found, key=lambda one: -one[0])
 
 
 class _Lively:
