@@ -19,7 +19,7 @@ from sim.reconcile.story import (
     Estimate,
     Finding,
 )
-from sim.reconcile.thresholds import MAJOR, SHAKEN, STRAYS
+from sim.reconcile.thresholds import LOST, MAJOR, SHAKEN, STRAYS
 from sim.units import Unit
 
 
@@ -45,7 +45,9 @@ def findings_of(
         )
         for n in range(1, len(done))
     ]
-    effects = [one for one in effects if not _everyday(one, last)]
+    end = done[-1].gap.velocity / problem.noise.velocity
+    astray = missed(end, problem) > LOST
+    effects = [one for one in effects if not _everyday(one, last) and not astray]
     effects.sort(key=lambda one: (one.size != "major", -one.score))
     return (*faults, *effects)
 
@@ -119,6 +121,13 @@ def standard_errors(problem: Problem, point: Point) -> dict[str, float]:
     return {name: float(error) for name, error in zip(names, errors, strict=False) if error > 0.0}
 
 
+def missed(strays: float, problem: Problem) -> float:
+    """[1] of the motion that a gap of so many noises misses."""
+    speeds = problem.measured[problem.moving, 1]
+    size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
+    return strays * problem.noise.velocity / max(size, 1e-300)
+
+
 def verdict_of(
     findings: Sequence[Finding], moment: Moment, strays: float, problem: Problem
 ) -> tuple[str, bool, str]:
@@ -131,6 +140,14 @@ def verdict_of(
         problem: the measurements.
     """
     remains = ""
+    share = missed(strays, problem)
+    if share > LOST:
+        remains = (
+            f"The last model misses {share:.0%} of the motion on runs it was not fitted to: what "
+            "was tried is no explanation. Check that voltage, position and velocity are of the "
+            "same mechanism and the same moment."
+        )
+        return UNEXPLAINED, True, remains
     if moment.size > SHAKEN:
         lane = problem.lanes[moment.lane]
         remains = (

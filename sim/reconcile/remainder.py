@@ -8,11 +8,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.log import Array
 from sim.reconcile.problem import Point, Problem
 
 WINDOWS = (0.1, 0.2, 0.4)  # [s]
+JUMP, AFTER = 1.0, 0.2  # [V] of a step, and [s] after it
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
 
 
@@ -37,6 +39,7 @@ def worst(problem: Problem, point: Point) -> Moment:
     """The most unlikely window of innovations."""
     inverse = np.linalg.inv(np.linalg.cholesky(problem.spread(point.ahead)))
     white = np.nan_to_num(point.ahead) @ inverse.T
+    white[_stepped(problem), 0] = 0.0
     moments = []
     for length in WINDOWS:
         count = max(round(length / problem.period), 2)
@@ -58,6 +61,22 @@ def worst(problem: Problem, point: Point) -> Moment:
                         )
                     )  # fmt: skip
     return max(moments, key=lambda one: one.size, default=Moment(0.0, 0, 0.0, 0.0))
+
+
+def _stepped(problem: Problem) -> NDArray[np.bool_]:
+    """(n,) samples soon after a step of the voltage.
+
+    A step comes a part of a sample late, another part in each run, and the position is ahead or
+    behind by so much: of clocks, not of physics.
+    """
+    found = []
+    for lane in problem.lanes:
+        time = lane.seen.time
+        jumps = time[np.abs(np.diff(lane.seen.voltage, prepend=0.0)) > JUMP]
+        last = np.searchsorted(jumps, time, side="right") - 1
+        since = time - np.concatenate((jumps, [-np.inf]))[last]
+        found.append(since <= AFTER)
+    return np.concatenate(found)
 
 
 def _windows(problem: Problem, white: Array, count: int) -> Iterator[tuple[int, Array]]:

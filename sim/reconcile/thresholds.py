@@ -38,6 +38,11 @@ and shrinks no gap, but what else is there shows better beside it."""
 SLIPPED = 0.97
 """[1] confidence above which an encoder's slip is cut out: a start that sticks looks alike."""
 
+LOST = 0.4
+"""[1] of the motion on runs it was not fitted to that a model misses: it has not understood the log,
+and what it contains is no finding. A drivetrain that nothing but kS, kV and kA describes, with all
+of kV's effects hidden, stays below a third."""
+
 SPOILT = 0.9
 """[1] the same of other faults of the record."""
 
