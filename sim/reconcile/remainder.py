@@ -6,15 +6,18 @@ at one place, a push at one moment, a voltage that was not there.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sim.log import Array
+from sim.reconcile.lanes import Lane
 from sim.reconcile.problem import Point, Problem
 
 WINDOWS = (0.1, 0.2, 0.4)  # [s]
-JUMP, AFTER = 1.0, 0.2  # [V] of a step, and [s] after it
+JUMP, SOON = 1.0, 0.15  # [V] of a step, and [s] after it
+PART = 0.5  # of a sample, by which a run may be late or early
+DELAY, LAG = "delay", "delay.lag"
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
 
 
@@ -37,9 +40,7 @@ class Moment:
 
 def worst(problem: Problem, point: Point) -> Moment:
     """The most unlikely window of innovations."""
-    inverse = np.linalg.inv(np.linalg.cholesky(problem.spread(point.ahead)))
-    white = np.nan_to_num(point.ahead) @ inverse.T
-    white[_stepped(problem), 0] = 0.0
+    white = _in_time(problem, point)
     moments = []
     for length in WINDOWS:
         count = max(round(length / problem.period), 2)
@@ -52,31 +53,52 @@ def worst(problem: Problem, point: Point) -> Moment:
             spread = max(spread, 0.5 * count**0.5)
             for lane, one in sums:
                 if one.size:
-                    place = int(np.argmax(np.abs(one)))
                     time = problem.lanes[lane].seen.time
+                    one = np.abs(one) / _ordinary(problem.lanes[lane])[: one.size]  # noqa: PLW2901 - weighed
+                    place = int(np.argmax(one))
                     moments.append(
                         Moment(
-                            float(abs(one[place])) / spread, lane, float(time[place]),
+                            float(one[place]) / spread, lane, float(time[place]),
                             float(time[min(place + count, time.size - 1)]),
                         )
                     )  # fmt: skip
     return max(moments, key=lambda one: one.size, default=Moment(0.0, 0, 0.0, 0.0))
 
 
-def _stepped(problem: Problem) -> NDArray[np.bool_]:
-    """(n,) samples soon after a step of the voltage.
+def _in_time(problem: Problem, point: Point) -> Array:
+    """(n, 2) white innovations, less what a clock of each run's own makes of them.
 
-    A step comes a part of a sample late, another part in each run, and the position is ahead or
-    behind by so much: of clocks, not of physics.
+    A step comes a part of a sample late, another part in each run: that is of clocks, not of
+    physics.
     """
-    found = []
-    for lane in problem.lanes:
-        time = lane.seen.time
-        jumps = time[np.abs(np.diff(lane.seen.voltage, prepend=0.0)) > JUMP]
-        last = np.searchsorted(jumps, time, side="right") - 1
-        since = time - np.concatenate((jumps, [-np.inf]))[last]
-        found.append(since <= AFTER)
-    return np.concatenate(found)
+    delayed = point.hypothesis
+    if DELAY not in delayed.effects:
+        delayed = delayed + DELAY
+    late = PART * problem.period
+    values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
+    more = problem.ahead(delayed.model(values), point.starts, point.trust)
+    inverse = np.linalg.inv(np.linalg.cholesky(problem.spread(point.ahead)))
+    white = np.nan_to_num(point.ahead) @ inverse.T
+    change = np.nan_to_num(more - point.ahead) @ inverse.T
+    for first, last in pairwise(problem.edges.tolist()):
+        column, rest = change[first:last].ravel(), white[first:last].ravel()
+        along = float(column @ column)
+        share = -float(column @ rest) / along if along > 0.0 else 0.0
+        white[first:last] += min(max(share, -1.0), 1.0) * change[first:last]
+    return np.asarray(white)
+
+
+def _ordinary(lane: Lane) -> Array:
+    """(n,) what is ordinary for a window that begins there, in what is ordinary elsewhere.
+
+    Soon after a step of the voltage everything is fast: what happens between two samples, as a
+    battery that gives way and recovers, adds up to twice as much.
+    """
+    time = lane.seen.time
+    jumps = time[np.abs(np.diff(lane.seen.voltage, prepend=0.0)) > JUMP]
+    last = np.searchsorted(jumps, time, side="right") - 1
+    since = time - np.concatenate((jumps, [-np.inf]))[last]
+    return np.where(since <= SOON, 2.0, 1.0)
 
 
 def _windows(problem: Problem, white: Array, count: int) -> Iterator[tuple[int, Array]]:
