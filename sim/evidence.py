@@ -68,7 +68,7 @@ class Evidence:
         return replace(self, **arrays)
 
     def share(self, *columns: Array) -> Array:
-        """Least-squares weights with which columns (n,) sum up to ``missing``; kS, kV, kA adjust.
+        """Least-squares weights with which columns (n,) sum up to ``missing``; the gains adjust.
 
         A column that looks like friction, back-EMF, inertia or a constant is not credited with what
         those can explain by themselves: they are in the sum, and forgotten.
@@ -87,7 +87,7 @@ class Evidence:
     def explained(self, column: Array) -> tuple[float, float]:
         """The weight of one column (n,), and the sum of squares [V²] of ``missing`` that it takes.
 
-        kS, kV and kA adjust, as in ``share``.
+        The gains adjust, as in ``share``.
         """
         kept, rest = self._adjusted
         left = column - kept @ (kept.T @ column)
@@ -99,8 +99,13 @@ class Evidence:
 
     @cached_property
     def _adjusted(self) -> tuple[Array, Array]:
-        """(n, 3) friction, back-EMF and inertia, orthonormal, and (n,) what is missing off them."""
-        known = np.column_stack([np.sign(self.velocity), self.velocity, self.acceleration])
+        """(n, k) friction, back-EMF, inertia and gravity, orthonormal; (n,) what is missing off."""
+        columns = [np.sign(self.velocity), self.velocity, self.acceleration]
+        if "offset_rad" in self.gains:
+            columns += [np.cos(self.position), np.sin(self.position)]
+        elif "kG" in self.gains:
+            columns.append(np.ones_like(self.velocity))
+        known = np.column_stack(columns)
         size = np.linalg.norm(known, axis=0)
         size[size == 0.0] = 1.0
         kept, _ = np.linalg.qr(known / size)

@@ -19,12 +19,16 @@ LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which q is 
 SCANNED = (-12, -9, -6, -4, -2)  # powers of it: what pushes is first thought too large
 SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size that are worth another look
 SURELY_MORE = 10.0  # [of -2 log L]
-ROUNDS, STEPS = 3, 8
+ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
 
 
 def settle(problem: Problem, point: Point) -> Point:
-    """The best point near one: q, then values, until neither gains."""
+    """The best point near one: values, then q, until neither gains.
+
+    Values go first: far from the best ones a large q is the likeliest, and hides what they miss.
+    """
+    point = better(problem, point, steps=FIRST_STEPS)
     for _ in range(ROUNDS):
         before = point.cost
         point = better(problem, tuned(problem, point), steps=STEPS)
