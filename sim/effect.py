@@ -128,6 +128,8 @@ class Effect:
         pace: [s] the fastest it acts, from parameters and gains; None if it is never fast.
         order: where it stands along the path from command to motor, for a path.
         cannot: why a mechanism cannot have it, from its scale; empty if it can.
+        simpler: the effect with fewer parameters that does about the same; empty if there is none.
+        simplified: its parameters, from this one's and what a log shows.
         everyday: whether it is as small, with these parameters, as on any robot in good order.
     """
 
@@ -147,6 +149,10 @@ class Effect:
     pace: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
     order: int = 0
     cannot: Callable[[Scale], str] = field(default=lambda _: "")
+    simpler: str = ""
+    simplified: Callable[[Mapping[str, float], Evidence], Mapping[str, float]] = field(
+        default=lambda _values, _seen: {}
+    )
     everyday: Callable[[Mapping[str, float]], bool] = field(default=lambda _: False)
 
     @property

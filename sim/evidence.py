@@ -16,8 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.log import Array, Log, Run
+from sim.units import unit
 
 ACROSS = 0.04  # [s] that a difference of velocities spans, at least two samples
+ENDLESS = 8.0 * np.pi  # [rad] four turns: more than any arm or turret, soon done by a wheel
 SHORTEST = 5  # [samples] of a run that can be differentiated
 HARDLY = 1e-9  # [1] of a combination of columns that the log says anything about
 MOVING = 0.03  # [share of the top speed] slower samples say nothing about a gain
@@ -55,6 +57,11 @@ class Evidence:
     def speed(self) -> float:
         """[m/s or rad/s] the fastest there was."""
         return float(np.max(np.abs(self.velocity), initial=0.0))
+
+    @property
+    def endless(self) -> bool:
+        """Whether it turned so often that nothing can hold it to a place."""
+        return unit(self.log.units).angular and bool(np.ptp(self.position) > ENDLESS)
 
     def every(self, some: slice) -> "Evidence":
         """Some of the samples."""

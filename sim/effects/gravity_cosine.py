@@ -36,8 +36,18 @@ def only_angles(scale: Scale) -> str:
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     """The shares of cos x and sin x in what is missing."""
+    if not seen.position.size or seen.endless:
+        return
     level, upright = seen.share(np.cos(seen.position), np.sin(seen.position))
     yield {"level": float(level), "upright": float(upright)}
+
+
+def simplified(values: Mapping[str, float], seen: Evidence) -> Mapping[str, float]:
+    """A straight line over position, as steep as the cosine in the middle of the way."""
+    middle = float(np.median(seen.position)) if seen.position.size else 0.0
+    pull_there = values["level"] * math.cos(middle) + values["upright"] * math.sin(middle)
+    rate = values["upright"] * math.cos(middle) - values["level"] * math.sin(middle)
+    return {"rate": max(rate, 0.0), "preload": pull_there - max(rate, 0.0) * middle}
 
 
 EFFECT = Effect(
@@ -61,4 +71,6 @@ EFFECT = Effect(
     symmetric=False,
     stores=stored,
     cannot=only_angles,
+    simpler="spring",
+    simplified=simplified,
 )

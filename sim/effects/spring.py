@@ -35,9 +35,17 @@ def only_bounded(scale: Scale) -> str:
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     """A straight line through what is missing, over position."""
+    if not seen.position.size or seen.endless:
+        return
     rate, preload = seen.share(seen.position, np.ones_like(seen.position))
-    least = 0.02 / max(float(np.ptp(seen.position)) if seen.position.size else 1.0, 1e-9)
+    least = 0.02 / max(float(np.ptp(seen.position)), 1e-9)
     yield {"rate": max(float(rate), least), "preload": float(preload)}
+
+
+def simplified(values: Mapping[str, float], seen: Evidence) -> Mapping[str, float]:
+    """The same pull everywhere: that in the middle."""
+    middle = float(np.median(seen.position)) if seen.position.size else 0.0
+    return {"load": values["rate"] * middle + values["preload"]}
 
 
 EFFECT = Effect(
@@ -61,4 +69,6 @@ EFFECT = Effect(
     symmetric=False,
     stores=stored,
     cannot=only_bounded,
+    simpler="constant-load",
+    simplified=simplified,
 )

@@ -10,11 +10,13 @@ After the prediction-error method (Kristensen, Madsen and Jørgensen 2004) with 
 physical effects in place of a regression's library.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from sim.errors import NotIdentifiable
 from sim.evidence import clocks
 from sim.fit.start import first_guess, sensible
 from sim.log import Log
@@ -72,6 +74,12 @@ def reconcile(
     problem = _problem(log, validation, aside)
     progress("base model", 0.05)
     base = _base(problem, log, type=type)
+    if not math.isfinite(base.cost):
+        raise NotIdentifiable(
+            "no gains follow what is left of it once its damage is set aside",
+            where=log.source,
+            advice="Inspect the log, and record it anew.",
+        )
     problem, base, slipped = _unslipped(problem, base)
     done = rounds(problem, base, both, folds([one.session for one in problem.lanes]), progress)
     progress("what remains", 0.9)

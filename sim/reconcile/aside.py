@@ -20,6 +20,9 @@ OF_THE_RECORD: Mapping[str, float] = {
 """Fault -> confidence from which its stretch is cut out before anything is fitted. Others look like
 physics that is missing (a soft joint shakes as a slipping wheel does): they wait for the fit."""
 
+WHOLE = ("sign-flip",)
+"""Faults of a whole run. Two such runs are no fault: voltage and motion do not belong together."""
+
 LONGEST = 0.3
 """[s] of an encoder's slip, which is over in a moment: what takes longer is a start that sticks."""
 
@@ -51,8 +54,9 @@ def judge_damage(damages: Mapping[str, Sequence[Damaged]]) -> Aside:
     found: dict[str, Damaged] = {}
     suspected: list[Damaged] = []
     for name, every in damages.items():
+        turned = {one.run for one in every if one.fault in WHOLE}
         for one in every:
-            if not _of_the_record(one):
+            if not _of_the_record(one) or (one.fault in WHOLE and len(turned) > 1):
                 suspected.append(one)
                 continue
             if one.run is not None:

@@ -64,8 +64,10 @@ def folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
 
 def outside(problem: Problem, point: Point, parts: Sequence[Fold]) -> Gap:
     """The gap of a hypothesis on runs that its values were not fitted to."""
-    errors = []
+    errors = [np.empty((0, 2))]
     for part in parts:
+        if not (_tells(problem, part.fitted) and _tells(problem, part.predicted)):
+            continue
         fitted = _some(problem, part.fitted)
         begin = fitted.at(point.hypothesis, point.values, point.starts[list(part.fitted)], point.q)
         found = better(fitted, begin, steps=REFIT)
@@ -78,6 +80,12 @@ def outside(problem: Problem, point: Point, parts: Sequence[Fold]) -> Gap:
             )
         )
     return rms(np.concatenate(errors))
+
+
+def _tells(problem: Problem, chosen: Sequence[int]) -> bool:
+    """Whether anything of these runs is compared."""
+    edges = problem.edges.tolist()
+    return any(problem.telling[edges[n] : edges[n + 1]].any() for n in chosen)
 
 
 def errors_of(problem: Problem, point: Point, starts: Array, *, eased: bool = False) -> Array:

@@ -188,7 +188,11 @@ class Problem:
         return np.asarray((np.nan_to_num(table) @ inverse.T).ravel())
 
     def columns(self, point: Point) -> Array:
-        """(2 n, searched + runs) change of the white innovations with each value and start."""
+        """(2 n, searched + runs) change of the white innovations with each value and start.
+
+        Raises:
+            ValueError: the point follows nothing.
+        """
         hypothesis = point.hypothesis
         parts = [self._by_value(point, name) for name in hypothesis.searched]
         parts += [self._by_start(point, number) for number in range(len(self.lanes))]

@@ -13,6 +13,7 @@ from sim.reconcile.problem import Point, Problem
 from sim.reconcile.story import Tried
 from sim.reconcile.suspects import Suspect, judged, suspects
 from sim.reconcile.thresholds import (
+    AS_GOOD,
     CLOSE,
     MOST,
     MOST_QUIET,
@@ -26,6 +27,7 @@ from sim.reconcile.thresholds import (
 HARDLY = "hardly narrows the gap"
 PART = 0.5  # [1] of the score of a quiet effect, which an admitted one must have to go before it
 SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
+TINY = 1e-300  # no gap at all
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
 Progress = Callable[[str, float], None]
 
@@ -205,7 +207,7 @@ def _weighed(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> l
             continue
         gap = outside(problem, suspect.point, parts)
         why = _why_not(gap, now.gap, score)
-        share = gap.velocity / now.gap.velocity
+        share = gap.velocity / max(now.gap.velocity, TINY)
         tried = Tried(suspect.effect, score, share, admitted=not why, why=why)
         found.append(_Weighed(suspect, gap, tried))
     return found
@@ -213,7 +215,8 @@ def _weighed(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> l
 
 def _why_not(gap: Gap, before: Gap, score: float) -> str:
     """The gate that a suspect does not pass; empty if it passes all."""
-    velocity, position = gap.velocity / before.velocity, gap.position / before.position
+    velocity = gap.velocity / max(before.velocity, TINY)
+    position = gap.position / max(before.position, TINY)
     if velocity > NOT_WIDER and (velocity * position) ** 0.5 > NOT_WIDER:
         return "widens the gap"
     if velocity > NARROWER and ((velocity * position) ** 0.5 > NARROWER or score < SURER):
@@ -224,7 +227,14 @@ def _why_not(gap: Gap, before: Gap, score: float) -> str:
 def _simplest(admitted: Sequence[_Weighed]) -> _Weighed:
     """The likeliest, or one about as likely with fewer parameters."""
     best = admitted[0]
-    near = [one for one in admitted if best.tried.score - one.tried.score <= SIMPLER]
+    top = best.tried.score
+    simpler = EFFECTS[best.suspect.effect].simpler
+    near = [
+        one
+        for one in admitted
+        if top - one.tried.score <= SIMPLER
+        or (one.suspect.effect == simpler and one.tried.score > AS_GOOD * top)
+    ]
     return min(near, key=lambda one: (one.suspect.point.hypothesis.free, -one.tried.score))
 
 

@@ -6,7 +6,7 @@ each change of voltage, as two bodies do, is tried on the lively runs first.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from sim.effect import Effect
@@ -67,11 +67,36 @@ def suspects(
     if point.q > AGITATED * calm:
         calmer = problem.at(point.hypothesis, point.values, point.starts, calm)
         calmer = better(problem, calmer, steps=A_LITTLE)
-        begun += _begun(problem, calmer, effects, evidence)[:TRIED_CALM]
+        if math.isfinite(calmer.cost):
+            begun += _begun(problem, calmer, effects, evidence)[:TRIED_CALM]
     gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
     ended = [settle(problem, one) for one in _each_once(gone)[:KEPT]]
+    simpler = [_simpler(problem, one, names, evidence) for one in ended]
+    ended = _each_once([*ended, *(settle(problem, one) for one in simpler if one)])
     found = [judged(problem, one, one.hypothesis.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
+
+
+def _simpler(
+    problem: Problem, point: Point, names: Sequence[str], evidence: Evidence
+) -> Point | None:
+    """A point with an effect of fewer parameters in place of its last; None if there is none.
+
+    A search that came far with more parameters is a good start for fewer: if it needs no more, the
+    simpler one must not miss only because its own start was worse.
+    """
+    effect = EFFECTS[point.hypothesis.effects[-1]]
+    name = effect.simpler
+    if name not in names:
+        return None
+    mine = {one: point.values[f"{effect.name}.{one}"] for one in effect.names}
+    values = effect.simplified(mine, evidence)
+    hypothesis = point.hypothesis - effect.name + name
+    more = {
+        f"{name}.{one}": hypothesis.within(f"{name}.{one}", value) for one, value in values.items()
+    }
+    kept = {one: point.values[one] for one in (point.hypothesis - effect.name).names}
+    return problem.at(hypothesis, {**kept, **more}, point.starts, point.q)
 
 
 def _each_once(points: Iterable[Point]) -> list[Point]:

@@ -28,6 +28,10 @@ CLOSE = 10.0
 SIMPLER = 8.0
 """[of -2 log L] within which the effect with fewer parameters is taken."""
 
+AS_GOOD = 0.97
+"""[1] of the score of an effect, with which its simpler sister is taken in its place: the rest is
+what a spring or a cosine makes of drift and of what else is missing."""
+
 MOST = 4
 """Effects that are added at most: with more, anything can be explained."""
 
@@ -48,8 +52,8 @@ SPOILT = 0.9
 
 SHAKEN = 8.0
 """[robust standard deviations] of the largest windowed innovation: beyond it a moment is not
-explained. A normal deviate among some thousand windows stays below 5, a complete model of a log with
-everyday dirt below that."""
+explained. A normal deviate among some thousand windows stays below 5, a complete model of a log
+with everyday dirt below that."""
 
 STRAYS = 2.5
 """[noises of a velocity] of the gap that the last model leaves on runs it was not fitted to.
