@@ -6,6 +6,7 @@ a position that stays off. Where the time scale is too short to tell the two apa
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from sim.engine import NO_TRUST
 from sim.log import Array
 from sim.reconcile.damage import Damaged
+from sim.reconcile.lanes import Lane
 from sim.reconcile.problem import Point, Problem
 
 FAR = 10.0  # [robust standard deviations] that a slip's velocity is off at least
@@ -21,6 +23,9 @@ LONGEST = 0.1  # [s] it lasts
 STARTING = 0.3  # [s] of a motion in which a model that lacks something errs by itself
 BESIDE = 0.16  # [s] before and after it that must agree
 BACK = 0.2  # [1] of its size that may be left after it
+LONGEST_SHARP, FEWEST = 1.0, 3  # [s] the same of what comes and goes within a sample; samples of it
+SLOW = 2.0  # [1] times a sample must be the time scale of the mechanism then
+SUDDEN = 0.4  # [1] of its size that it comes and goes by from one sample to the next
 CLEARLY = 4.0  # [1] times as long as it lasts must be the time scale of the mechanism
 
 
@@ -42,33 +47,69 @@ def glitches(problem: Problem, point: Point) -> Iterator[tuple[int, Damaged]]:
         told = problem.telling[first:last]
         if mine.size < 4 * near:
             continue
-        smooth = _median(mine, near)
-        apart = mine - smooth
+        apart = mine - _median(mine, near)
         spread = max(1.4826 * float(np.median(np.abs(apart[told]))), problem.noise.velocity)
-        far = (np.abs(apart) > FAR * spread) & told
         moves = np.flatnonzero(lane.seen.moving)
         began = float(lane.seen.time[moves[0]]) + STARTING if moves.size else np.inf
-        far &= lane.seen.time > began
-        far[:near] = far[-near:] = False
-        for begin, end in _stretches(far):
-            time = lane.seen.time
-            length = float(time[end] - time[begin]) + problem.period
-            peak = float(np.max(np.abs(apart[begin : end + 1])))
-            after = float(np.mean(apart[end + 2 : end + 2 + near // 2]))
-            if (
-                end == begin
-                or length > LONGEST
-                or CLEARLY * length > scale
-                or abs(after) > BACK * peak
-            ):
-                continue
-            yield number, Damaged(
-                number, float(time[begin]), float(time[end]), "encoder-slip", 1.0,
-                f"In {lane.test}, {time[begin]:.2f} s, the velocity is off by {peak / spread:.0f} "
-                f"times its noise for {length * 1000:.0f} ms and right again at once, while the "
-                f"mechanism takes {scale:.2f} s to change its speed.",
-                "Check the encoder's mounting, set screw and belt; record that test again.",
-            )  # fmt: skip
+        open_ = told & (lane.seen.time > began)
+        open_[:near] = open_[-near:] = False
+        short = _short(apart, open_, spread, near=near, longest=scale / CLEARLY, lane=lane)
+        sharp = _sharp(mine, open_, spread, near=near, scale=scale, lane=lane)
+        for begin, end, size in (*short, *sharp):
+            slip = _slip(lane, begin, end, size / spread, scale)
+            yield number, replace(slip, run=number)
+
+
+def _short(
+    apart: Array, told: NDArray[np.bool_], spread: float, *, near: int, longest: float, lane: Lane
+) -> Iterator[tuple[int, int, float]]:
+    """First and last sample, and size, of what is over before a mechanism could have answered."""
+    time = lane.seen.time
+    for begin, end in _stretches((np.abs(apart) > FAR * spread) & told):
+        length = float(time[end] - time[begin]) + float(time[1] - time[0])
+        peak = float(np.max(np.abs(apart[begin : end + 1])))
+        after = float(np.mean(apart[end + 2 : end + 2 + near // 2]))
+        edges = (apart[begin] - apart[begin - 1], apart[end] - apart[end + 1])
+        sudden = min(map(abs, edges)) > SUDDEN * peak
+        soon = length <= min(LONGEST, longest)
+        if end > begin and sudden and soon and abs(after) <= BACK * peak:
+            yield begin, end, peak
+
+
+def _sharp(
+    errors: Array, told: NDArray[np.bool_], spread: float, *, near: int, scale: float, lane: Lane
+) -> Iterator[tuple[int, int, float]]:
+    """The same of what leaves from one sample to the next, stays, and is back as suddenly."""
+    time = lane.seen.time
+    if scale < SLOW * float(np.median(np.diff(time))):
+        return  # so light a mechanism may do that
+    jumps = np.diff(errors, prepend=errors[:1])
+    far = np.flatnonzero((np.abs(jumps) > FAR * spread) & told)
+    for begin, end in pairwise(far.tolist()):
+        before, inside = errors[begin - near : begin], errors[begin:end]
+        after = errors[end : end + near]
+        size = abs(float(np.median(inside) - np.median(before)))
+        if (
+            end - begin >= FEWEST
+            and time[end] - time[begin] <= LONGEST_SHARP
+            and jumps[begin] * jumps[end] < 0.0
+            and abs(float(np.median(after) - np.median(before))) < BACK * size
+            and float(np.max(np.abs(inside - np.median(inside)))) < BACK * size
+            and min(abs(jumps[begin]), abs(jumps[end])) > (1.0 - BACK) * size
+        ):
+            yield begin, end - 1, size
+
+
+def _slip(lane: Lane, begin: int, end: int, noises: float, scale: float) -> Damaged:
+    time = lane.seen.time
+    length = float(time[end] - time[begin] + time[1] - time[0])
+    return Damaged(
+        None, float(time[begin]), float(time[end]), "encoder-slip", 1.0,
+        f"In {lane.test}, {time[begin]:.2f} s, the velocity is off by {noises:.0f} times its noise "
+        f"for {length * 1000:.0f} ms and right again at once, while the mechanism takes "
+        f"{scale:.2f} s to change its speed.",
+        "Check the encoder's mounting, set screw and belt; record that test again.",
+    )  # fmt: skip
 
 
 def _median(values: Array, reach: int) -> Array:
