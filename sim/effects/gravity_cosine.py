@@ -36,7 +36,7 @@ def only_angles(scale: Scale) -> str:
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     """The shares of cos x and sin x in what is missing."""
-    if not seen.position.size or seen.endless:
+    if not seen.position.size:
         return
     level, upright = seen.share(np.cos(seen.position), np.sin(seen.position))
     yield {"level": float(level), "upright": float(upright)}

@@ -19,7 +19,7 @@ from sim.reconcile.story import (
     Estimate,
     Finding,
 )
-from sim.reconcile.thresholds import LOST, MAJOR, SHAKEN, STRAYS
+from sim.reconcile.thresholds import FAR_MAJOR, LOST, MAJOR, SHAKEN, STRAYS
 from sim.units import Unit
 
 
@@ -41,7 +41,14 @@ def findings_of(
     errors = standard_errors(problem, last)
     effects = [
         _effect(
-            done[n - 1], done[n], done[-1], errors, chapters[n - 1].gap, chapters[n].gap, per=per
+            done[n - 1],
+            done[n],
+            done[-1],
+            errors,
+            chapters[n - 1].gap,
+            chapters[n].gap,
+            per=per,
+            noise=problem.noise.velocity,
         )
         for n in range(1, len(done))
     ]
@@ -81,13 +88,14 @@ def _fault(one: Damaged, gap: float) -> Finding:
 
 def _effect(  # noqa: PLR0917 - two rounds, and what to call them
     before: Round, now: Round, end: Round, errors: Mapping[str, float], gap_before: float,
-    gap_after: float, *, per: Unit,
+    gap_after: float, *, per: Unit, noise: float,
 ) -> Finding:  # fmt: skip
     name = now.suspect.effect
     effect = EFFECTS[name]
     last = end.suspect.point
     with_, bare = (now.gap, before.gap) if now.bare is None else (end.gap, now.bare)
-    major = with_.velocity <= MAJOR * bare.velocity
+    far = end.gap.velocity > STRAYS * noise
+    major = with_.velocity <= (FAR_MAJOR if far else MAJOR) * bare.velocity
     score = before.suspect.score - now.suspect.score if math.isnan(now.lost) else now.lost
     parameters = {}
     for one in effect.parameters:

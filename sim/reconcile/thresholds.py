@@ -22,6 +22,10 @@ MAJOR = 0.87
 Everyday effects that nobody has to name (50 mV of Stribeck friction, 8 % of sag, 4 ms of delay)
 shrink it by up to a tenth."""
 
+FAR_MAJOR = 0.6
+"""[1] the same while the last model is still far off (``STRAYS``): what nobody has named looks a
+little like many things, and none of them is worth a name that does not take much of it away."""
+
 CLOSE = 10.0
 """[of -2 log L] within which another effect explains as much: odds below 150 to one."""
 
