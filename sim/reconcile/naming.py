@@ -54,16 +54,18 @@ def findings_of(
     ]
     end = done[-1].gap.velocity / problem.noise.velocity
     astray = missed(end, problem) > LOST
-    effects = [one for one in effects if not _everyday(one, last) and not astray]
-    effects.sort(key=lambda one: (one.size != "major", -one.score))
+    if astray:
+        effects = []
+    effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
+    effects.sort(key=lambda one: (one.size != "major", _everyday(one, last), -one.score))
     return (*faults, *effects)
 
 
 def _everyday(one: Finding, last: Point) -> bool:
-    """Whether a finding is what any robot has; it stays in the model."""
+    """Whether a finding is what any robot has a little of; it stays in the model."""
     effect = EFFECTS[one.effect]
     values = {name: last.values[f"{one.effect}.{name}"] for name in effect.names}
-    return one.size == "minor" and effect.everyday(values)
+    return effect.everyday(values)
 
 
 def beside(done: Sequence[Round], findings: Sequence[Finding]) -> tuple[str, ...]:
