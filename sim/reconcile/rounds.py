@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from sim.effects import EFFECTS
 from sim.evidence import gather
@@ -11,7 +11,7 @@ from sim.reconcile.descent import settle
 from sim.reconcile.gates import Fold, Gap, outside
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.story import Tried
-from sim.reconcile.suspects import Suspect, judged, suspects
+from sim.reconcile.suspects import Seeds, Suspect, judged, suspects
 from sim.reconcile.thresholds import (
     AS_GOOD,
     CLOSE,
@@ -44,6 +44,7 @@ class Round:
         tried: the suspects of the next round.
         quiet: effects of the model that make the log likelier and hardly narrow the gap.
         plain: the model before the first of those; None if there are none.
+        seeds: parameters of the suspects that were likelier than nothing, of all rounds so far.
         lost: [of -2 log L] what the last model would lose without this effect; nan if not asked.
         bare: the gap of the last model without this effect; None if not asked.
     """
@@ -55,6 +56,7 @@ class Round:
     tried: tuple[Tried, ...] = ()
     quiet: int = 0
     plain: Suspect | None = None
+    seeds: Seeds = field(default_factory=dict)
     lost: float = math.nan
     bare: Gap | None = None
 
@@ -98,7 +100,8 @@ def _added(
         progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
         now = done[-1]
         weighed = _weighed(problem, now, log, parts)
-        done[-1] = now = replace(now, tried=tuple(one.tried for one in weighed))
+        tried = tuple(one.tried for one in weighed)
+        done[-1] = now = replace(now, tried=tried, seeds={**now.seeds, **_seeds(weighed)})
         admitted = [one for one in weighed if one.tried.admitted]
         quiet = [one for one in weighed if one.tried.why == HARDLY][: MOST_QUIET - now.quiet]
         if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
@@ -107,8 +110,21 @@ def _added(
         if not admitted:
             break
         best = _simplest(admitted)
-        done.append(Round(best.suspect, best.gap, now.gap, _rivals(best, weighed), quiet=now.quiet))
+        rivals = _rivals(best, weighed)
+        done.append(
+            Round(best.suspect, best.gap, now.gap, rivals, quiet=now.quiet, seeds=now.seeds)
+        )
     return done
+
+
+def _seeds(weighed: Sequence["_Weighed"]) -> Seeds:
+    """What the suspects' parameters are, of those that explain something."""
+    found = {}
+    for one in weighed:
+        if one.tried.score >= SURE:
+            name, values = one.suspect.effect, one.suspect.point.values
+            found[name] = {f"{name}.{p}": values[f"{name}.{p}"] for p in EFFECTS[name].names}
+    return found
 
 
 def _with_quiet(now: Round, best: "_Weighed") -> Round:
@@ -157,7 +173,7 @@ def _reconsidered(
             ]
         model = reduced.point.hypothesis.model(reduced.point.values)
         evidence = gather(log, dict(model.gains), type=reduced.point.hypothesis.type)
-        found = suspects(problem, reduced.point, evidence, only=others)
+        found = suspects(problem, reduced.point, evidence, only=others, seeds=last.seeds)
         if not found or _gained(last.suspect, found[0]) < CLOSE:
             continue
         gap = outside(problem, found[0].point, parts)
@@ -199,7 +215,7 @@ def _weighed(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> l
     model = point.hypothesis.model(point.values)
     evidence = gather(log, dict(model.gains), type=point.hypothesis.type)
     found = []
-    for suspect in suspects(problem, point, evidence):
+    for suspect in suspects(problem, point, evidence, seeds=now.seeds):
         score = now.suspect.score - suspect.score
         if score < SURE:
             tried = Tried(suspect.effect, score, 1.0, admitted=False, why="explains too little")

@@ -6,7 +6,7 @@ each change of voltage, as two bodies do, is tried on the lively runs first.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from sim.effect import Effect
@@ -24,6 +24,10 @@ CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a 
 LIVELIEST = 2  # starts of two bodies that are simulated over all runs
 OWN: dict[str, tuple[str, ...]] = {"elevator": ("constant-load",), "arm": ("gravity-cosine",)}
 """Base type -> the effects that it has already."""
+
+
+Seeds = Mapping[str, Mapping[str, float]]
+"""Effect -> its parameters, as ``effect.parameter``."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +53,9 @@ def judged(problem: Problem, point: Point, effect: str = "") -> Suspect:
 
 
 def suspects(
-    problem: Problem, point: Point, evidence: Evidence, *, only: Iterable[str] | None = None
-) -> list[Suspect]:
+    problem: Problem, point: Point, evidence: Evidence, *,
+    only: Iterable[str] | None = None, seeds: Seeds | None = None,
+) -> list[Suspect]:  # fmt: skip
     """The effects that explain most of what a point leaves, the likeliest first.
 
     Args:
@@ -58,17 +63,20 @@ def suspects(
         point: the best without them.
         evidence: what the point leaves, in volts.
         only: names to choose from; None is the whole catalogue.
+        seeds: an effect's parameters as found before something else was added: where two effects
+            are in a log, what one of them hides at first is hardly found anew beside the other.
     """
+    seeds = seeds or {}
     had = (*point.hypothesis.effects, *OWN.get(point.hypothesis.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
-    begun = _begun(problem, point, effects, evidence)[:TRIED]
+    begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
     calm = CALM * problem.noise.velocity**2
     if point.q > AGITATED * calm:
         calmer = problem.at(point.hypothesis, point.values, point.starts, calm)
         calmer = better(problem, calmer, steps=A_LITTLE)
         if math.isfinite(calmer.cost):
-            begun += _begun(problem, calmer, effects, evidence)[:TRIED_CALM]
+            begun += _begun(problem, calmer, effects, evidence, seeds)[:TRIED_CALM]
     gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
     ended = [settle(problem, one) for one in _each_once(gone)[:KEPT]]
     simpler = [_simpler(problem, one, names, evidence) for one in ended]
@@ -108,7 +116,7 @@ def _each_once(points: Iterable[Point]) -> list[Point]:
 
 
 def _begun(
-    problem: Problem, point: Point, effects: Iterable[Effect], evidence: Evidence
+    problem: Problem, point: Point, effects: Iterable[Effect], evidence: Evidence, seeds: Seeds
 ) -> list[tuple[float, Point]]:
     """The best start of each effect, with what it promises; the most promising first."""
     kept = adjusting(problem, point)
@@ -126,6 +134,8 @@ def _begun(
         if effect.kind == "two-body":
             lively = lively or _Lively(problem, point)
             more = lively.best(hypothesis, more)
+        if effect.name in seeds:
+            more.append(dict(seeds[effect.name]))
         begun = promise(problem, point, hypothesis, more, kept=kept)
         if begun:
             found.append(max(begun, key=lambda one: one[0]))
