@@ -16,6 +16,8 @@ from sim.reconcile.problem import Point, Problem
 
 WINDOWS = (0.1, 0.2, 0.4)  # [s]
 JUMP, SOON = 1.0, 0.15  # [V] of a step, and [s] after it
+FEWEST = 20  # windows that tell what is ordinary
+LEAST = 0.5  # [1] of what independent innovations would add up to
 PART = 0.5  # of a sample, by which a run may be late or early
 DELAY, LAG = "delay", "delay.lag"
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
@@ -39,30 +41,38 @@ class Moment:
 
 
 def worst(problem: Problem, point: Point) -> Moment:
-    """The most unlikely window of innovations."""
+    """The most unlikely window of innovations.
+
+    What pushes moves position and velocity the same way: where both say so, they count together.
+    """
     white = _in_time(problem, point)
     moments = []
     for length in WINDOWS:
         count = max(round(length / problem.period), 2)
-        for column in (0, 1):
-            sums = list(_windows(problem, white[:, column], count))
-            every = np.concatenate([one for _, one in sums]) if sums else np.zeros(0)
-            if every.size < 20:  # noqa: PLR2004 - too few to know what is ordinary
-                continue
-            spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
-            spread = max(spread, 0.5 * count**0.5)
-            for lane, one in sums:
-                if one.size:
-                    time = problem.lanes[lane].seen.time
-                    one = np.abs(one) / _ordinary(problem.lanes[lane])[: one.size]  # noqa: PLW2901 - weighed
-                    place = int(np.argmax(one))
-                    moments.append(
-                        Moment(
-                            float(one[place]) / spread, lane, float(time[place]),
-                            float(time[min(place + count, time.size - 1)]),
-                        )
-                    )  # fmt: skip
+        position, velocity = (_sizes(problem, white[:, column], count) for column in (0, 1))
+        for lane, one in position.items():
+            other = velocity[lane]
+            together = np.where(one * other > 0.0, np.hypot(one, other), 0.0)
+            size = np.max([np.abs(one), np.abs(other), together], axis=0)
+            place = int(np.argmax(size))
+            time = problem.lanes[lane].seen.time
+            end = min(place + count, time.size - 1)
+            moments.append(Moment(float(size[place]), lane, float(time[place]), float(time[end])))
     return max(moments, key=lambda one: one.size, default=Moment(0.0, 0, 0.0, 0.0))
+
+
+def _sizes(problem: Problem, white: Array, count: int) -> dict[int, Array]:
+    """Which run -> (windows,) their sums, in what is ordinary."""
+    sums = {lane: one for lane, one in _windows(problem, white, count) if one.size}
+    every = np.concatenate([*sums.values(), np.zeros(0)])
+    if every.size < FEWEST:
+        return {lane: np.zeros(one.size) for lane, one in sums.items()}
+    spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
+    spread = max(spread, LEAST * count**0.5)
+    return {
+        lane: one / (spread * _ordinary(problem.lanes[lane])[: one.size])
+        for lane, one in sums.items()
+    }
 
 
 def _in_time(problem: Problem, point: Point) -> Array:
