@@ -13,6 +13,11 @@ MISCONCEPTIONS: dict[str, str] = {
     "the same with a full battery and with a tired one.",
     "M-KS-INTERCEPT": "The straight line through a slow ramp crosses v = 0 above kS: the ramp "
     "accelerates the mechanism all the time, and that costs kA·a on top.",
+    "M-KG-EDGE": "The voltage at which a mechanism just does not fall is not gravity alone: "
+    "friction helps to hold it there, and is in the way where it just begins to rise. Gravity is "
+    "the middle of that band, friction half its width.",
+    "M-NO-KG-IN-SYSID": "SysId does find kG, once it is told that there is gravity. Simple has no "
+    "place for gravity, and what gravity takes ends up in kS.",
     "M-NOISE-AVERAGES": "Noise in a column you fit with does not average out: it pulls the gain "
     "of that column toward zero. Let the noisiest column be the one you explain.",
     "M-REVERSE-WASTE": "The reverse runs show friction from the other side; without them kS is "
