@@ -7,6 +7,8 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
     def read(path, *, student) -> Subject      what the checks look at; a Refusal if unreadable
     its checks                                 functions under @check, in the order they are shown
     def prepare(student, *, say) -> None       optional: makes what the learner works on
+
+What does not fit there stands in modules beside it: ``from .drawn import draw``.
 """
 
 import importlib.util
@@ -73,7 +75,9 @@ class Exercise:
         """Its checks.py, loaded by path under a name of its own."""
         path = self.folder / "checks.py"
         name = f"_checks_of_{self.name}_{abs(hash(str(path)))}"
-        spec = importlib.util.spec_from_file_location(name, path)
+        spec = importlib.util.spec_from_file_location(
+            name, path, submodule_search_locations=[str(self.folder)]
+        )
         if spec is None or spec.loader is None:
             raise ImportError(f"{path} cannot be loaded")
         module = importlib.util.module_from_spec(spec)
