@@ -1,0 +1,193 @@
+"""Exercise 1: where the volts go, at four moments of a mechanism of the learner's own."""
+
+import math
+import os
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.answer import number
+from grader.check import Wrong, check
+from grader.measure import NotAUnitError, read_unit
+from grader.submission import read_answers
+from grader.variant import folder_name
+from sim.errors import BadRequest
+
+from .budget import MOMENTS, Variant
+from .drawn import draw
+from .guess import suspects
+
+FILES = ("answers.toml",)
+FILE_MADE = "given.toml"
+HERE = Path(__file__).resolve().parent
+
+LITTLE = 0.10  # [share] up to here a voltage is outside by a little
+WORDS = {
+    "ks": "kS",
+    "kv": "kV",
+    "ka": "kA",
+    "friction": "kS",
+    "velocity": "kV",
+    "speed": "kV",
+    "acceleration": "kA",
+}
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at."""
+
+    given: Mapping[str, object]
+    variant: Variant
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Write down the learner's numbers, where they are not there as they were."""
+    path = HERE / "data" / folder_name(student) / FILE_MADE
+    place, text = path.relative_to(HERE.parents[1]).as_posix(), _told(draw(student))
+    there = path.is_file()
+    if there and path.read_bytes() == text.encode():
+        return
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part = path.with_name(f"{os.getpid()}.part")
+        part.write_bytes(text.encode())
+        part.replace(path)
+    except OSError as error:
+        raise BadRequest(
+            f"your numbers cannot be written: {error.strerror}",
+            where=str(path.parent),
+            advice="Make room there, or allow writing.",
+        ) from error
+    changed = "Your numbers were no longer as they were, and have been written anew"
+    say(f"{changed if there else 'Your own numbers for exercise 1'}: {place}")
+
+
+def _told(variant: Variant) -> str:
+    """The learner's numbers, with their units in words; the signs are left to the learner."""
+    unit, gains = variant.symbol, variant.gains
+    lines = [
+        "# Exercise 1: your own mechanism. Only read here; your answers go into answers.toml.",
+        "",
+        f'mechanism = "{variant.kind}"',
+        f'velocity_unit = "{unit}/s"  # of the velocity that kV is made for',
+        f"kS = {gains['kS']:g}  # volts",
+        f"kV = {gains['kV']:g}  # volts for a velocity of 1 {unit}/s",
+        f"kA = {gains['kA']:g}  # volts for an acceleration of 1 {unit}/s every second",
+        "",
+        f'largest_at = "{variant.largest_at}"  # at which moment to look for the largest term',
+    ]
+    for name, at in variant.moments.items():
+        speed = f"speed = {abs(at.shown):g}  # {at.shown_unit}"
+        lines += ["", f"[{name}]  # {MOMENTS[name]}", speed]
+        if at.acceleration:
+            way = "faster_by" if at.acceleration > 0 else "slower_by"
+            lines.append(f"{way} = {abs(at.acceleration):g}  # {unit}/s, every second")
+    return "\n".join(lines) + "\n"
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and what they are held against.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    return Answers(given, draw(student))
+
+
+@check(points=2)
+def forward(answers: Answers) -> None:
+    """The voltage at a steady speed forward."""
+    _voltage("forward", answers)
+
+
+@check(points=2)
+def accelerating(answers: Answers) -> None:
+    """The voltage while it speeds up."""
+    _voltage("accelerating", answers)
+
+
+@check(points=2)
+def braking(answers: Answers) -> None:
+    """The voltage while it brakes, and still moves forward."""
+    _voltage("braking", answers)
+
+
+@check(points=2)
+def backward(answers: Answers) -> None:
+    """The voltage at a steady speed backward."""
+    _voltage("backward", answers)
+
+
+def _voltage(name: str, answers: Answers) -> None:
+    asked = answers.variant.asked(name)
+    value = number(answers.given.get(name), asked)
+    if asked.right(value):
+        return
+    found = suspects(value, answers.variant, name)
+    codes = {slip.misconception for slips in found for slip in slips}
+    hint = "; or ".join("; and ".join(slip.says for slip in slips) for slips in found)
+    if not hint:
+        size = "little" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "lot"
+        hint = f"outside the accepted ±2 %, by a {size}. Write down the three terms one by one"
+    raise Wrong(f"{value:.4g} V", hint=hint, misconception=codes.pop() if len(codes) == 1 else "")
+
+
+@check(points=2)
+def kv_unit(answers: Answers) -> None:
+    """The unit of kV."""
+    raw, symbol = answers.given.get("kv_unit"), answers.variant.symbol
+    letters = f"Write it with V, s and {symbol}, and with · or *, / and parentheses."
+    if not isinstance(raw, str) or not raw.strip():
+        seen = "nothing yet" if raw in {None, ""} or isinstance(raw, str) else f"{raw}, no unit"
+        raise Wrong(seen, hint=letters)
+    try:
+        given = read_unit(raw)
+    except NotAUnitError as part:
+        raise Wrong(f"{raw!r}, in which {str(part)!r} is not known", hint=letters) from None
+    right = read_unit(f"V*s/{symbol}")
+    if given.powers == right.powers and math.isclose(given.factor, right.factor):
+        return
+    alike = given.powers[:2] == right.powers[:2] and sum(given.powers) == sum(right.powers)
+    if alike and max(given.powers[2:]) == 0:
+        hint = f"of the right kind, but your velocities are in {symbol}/s"
+        raise Wrong(raw, hint=hint, misconception="M-UNITS", earned=1.0)
+    raise Wrong(raw, hint=_about_unit(given.powers, right.powers), misconception="M-UNITS")
+
+
+def _about_unit(given: tuple[int, ...], right: tuple[int, ...]) -> str:
+    volt, second, *length = given
+    if given == tuple(-power for power in right):
+        return "that is upside down: velocity for each volt"
+    if (volt, second) == (1, 2) and sum(length) == -1:
+        return "that belongs to kA, which is multiplied by an acceleration"
+    if (volt, second) == (1, -1) and sum(length) == -1:
+        return "mind the parentheses: dividing by (a/b) is not the same as dividing by a, then by b"
+    if (volt, second) == (1, 0) and not any(length):
+        return "that belongs to kS, which is multiplied by a bare sign"
+    return "multiply it by the unit of your velocity: only volts may be left"
+
+
+@check(points=2)
+def largest(answers: Answers) -> None:
+    """The largest term at the moment that largest_at names."""
+    raw, variant = answers.given.get("largest"), answers.variant
+    listed = "Choose one of: kS, kV, kA."
+    if raw is None or raw == "":
+        raise Wrong("nothing yet", hint=listed)
+    text = re.sub(r"[\s·⋅*()]", "", str(raw)).lower()
+    word = WORDS.get(re.sub(r"^(ks|kv|ka)(sgnv|v|a)$", r"\1", text))
+    if word is None:
+        raise Wrong(f'"{raw}", which is none of the terms', hint=listed)
+    if word == variant.largest:
+        return
+    hint = (
+        f"compare volts: work out all three terms at {variant.largest_at}, and look at their size"
+    )
+    if variant.gains[word] == max(variant.gains.values()):
+        hint = f"{word} is the largest gain, but a gain is not a voltage yet: {hint}"
+    elif variant.largest == "kA" and variant.largest_at == "braking":
+        hint = f"a term below zero may be large, too: {hint}"
+    raise Wrong(f"{word}, at {variant.largest_at}", hint=hint)

@@ -1,0 +1,122 @@
+"""What slips would make of a voltage: one at a time, or two, term by term."""
+
+import math
+from dataclasses import dataclass
+from itertools import product
+
+from grader.slip import MANY, Slip
+
+from .budget import MOMENTS, SHOWN, Variant
+
+ALIKE, ROUNDED = 0.004, 0.006  # [share], [V] of a slip's own voltage; two decimals are written
+MOST = 2  # slips at once; more than two explain any number
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What one slip, or two, would give."""
+
+    volts: float
+    slips: tuple[Slip, ...]
+
+
+def guesses(variant: Variant, name: str) -> list[Guess]:
+    """What slips would give at a moment: one at a time, or two."""
+    found = []
+    ways = (_frictions(variant, name), _speeds(variant, name), _pushes(variant, name))
+    for terms in product(*ways):
+        slips = {slip.code: slip for _, slip in terms if slip}
+        if 1 <= len(slips) <= MOST:
+            found.append(Guess(sum(volts for volts, _ in terms), tuple(slips.values())))
+    return found + _wholes(variant, name)
+
+
+Way = tuple[float, Slip | None]
+
+
+def _frictions(variant: Variant, name: str) -> list[Way]:
+    volts = variant.terms(name)[0]
+    says = "kS·sgn(v) has the sign of v: friction costs volts in the direction of movement"
+    if name == "braking":
+        says = "did you take sgn of a? It belongs to v: it looks at which way the mechanism moves"
+    turned = _BACKWARD if name == "backward" else Slip("sgn", says)
+    missing = "kS is missing. Friction takes its volts at every speed, as long as it moves at all"
+    return [(volts, None), (0.0, Slip("no-ks", missing)), (-volts, turned)]
+
+
+_BACKWARD = Slip(
+    "backward",
+    "the sign is not right. Moving backward, v is negative: look at sgn(v), and at kV·v",
+)
+
+
+def _speeds(variant: Variant, name: str) -> list[Way]:
+    volts = variant.terms(name)[1]
+    says = "the velocity has the wrong sign. Forward is positive, also while it brakes"
+    turned = _BACKWARD if name == "backward" else Slip("v-sign", says)
+    return [
+        (volts, None),
+        (-volts, turned),
+        *((volts * times, slip) for times, slip in _units(variant, name)),
+    ]
+
+
+def _pushes(variant: Variant, name: str) -> list[Way]:
+    volts, at = variant.terms(name)[2], variant.moments[name]
+    if volts:
+        way = "getting slower, a is negative" if name == "braking" else "getting faster, it is not"
+        return [
+            (volts, None),
+            (0.0, Slip("no-ka", "kA·a is missing. The speed changes here, and that takes volts")),
+            (-volts, Slip("a-sign", f"a has the wrong sign. Moving forward and {way}")),
+            *((volts * times, slip) for times, slip in _units(variant, name)),
+        ]
+    extra = Slip("extra-ka", "there is a kA·a too many. At a steady speed, what is a?")
+    others = [one.acceleration for one in variant.moments.values() if one.acceleration]
+    return [(0.0, None), *((variant.gains["kA"] * a, extra) for a in (*others, at.velocity))]
+
+
+def _units(variant: Variant, name: str) -> list[tuple[float, Slip]]:
+    """Factors that a velocity is off by, in another unit than kV's."""
+    (shown, times), right = SHOWN[variant.kind], f"{variant.symbol}/s"
+    raw = f"this speed is given in {shown}, and your kV is made for {right}. Convert it first"
+    turned = f"from {shown} to {right}, did you multiply where you have to divide?"
+    changed = f"your kV is made for {right}, and so is this speed. Did you turn it into {shown}?"
+    found = [(times, changed), (1 / times, changed)]
+    if name == "forward":
+        found = [(times, raw), (times * times, turned)]
+    if variant.kind == "drivetrain":
+        found.append((60.0, "60 seconds are a minute. Is your velocity per minute?"))
+    else:
+        turn = "2π = 6.28. Were radians and rotations taken for each other?"
+        found += [(2 * math.pi, turn), (0.5 / math.pi, turn)]
+    return [(factor, Slip(f"unit {factor:.3g}", says, "M-UNITS")) for factor, says in found]
+
+
+def _wholes(variant: Variant, name: str) -> list[Guess]:
+    """Slips of the whole voltage."""
+    volts = sum(variant.terms(name))
+    duty = "12 V is a full battery. Asked for are volts, not an output between -1 and 1"
+    found = [
+        (volts / 12, Slip("duty", duty, "M-DUTY")),
+        (volts * 1000, Slip("milli", "1 V is 1000 mV. Are these millivolts?", "M-UNITS")),
+    ]
+    if name != "backward":
+        found.append((-volts, Slip("sign", "the size is right, the sign is not")))
+    for other in MOMENTS:
+        if other != name:
+            says = f"that would be right for {other}. Are two answers swapped?"
+            found.append((sum(variant.terms(other)), Slip("swapped", says, "M-ARGORDER")))
+    return [Guess(value, (slip,)) for value, slip in found]
+
+
+def suspects(value: float, variant: Variant, name: str) -> tuple[tuple[Slip, ...], ...]:
+    """The slips, or pairs of them, that would give this voltage; the simplest only."""
+    near = {
+        tuple(slip.code for slip in guess.slips): guess.slips
+        for guess in guesses(variant, name)
+        if abs(value - guess.volts) <= max(ROUNDED, ALIKE * abs(guess.volts))
+    }
+    alone = tuple(slips for slips in near.values() if len(slips) == 1)
+    found = alone or tuple(near.values())
+    return found if len(found) <= (MANY if alone else 1) else ()

@@ -1,0 +1,169 @@
+"""Wrong answers to exercise 1, and what a learner must be told about each."""
+
+import re
+from collections.abc import Callable
+
+from grader.mistake import Mistake, replacing
+
+ANSWERS = "answers.toml"
+ROW = re.compile(
+    r"^(?P<name>\w+) = (?P<volts>\S+)  # kS (\S+) V, kV (\S+) V, kA (\S+) V, 1:(\S+)", re.MULTILINE
+)
+
+Terms = Callable[[float, float, float, float], float]
+
+
+def volts(name: str, wrong: Terms) -> Callable[[str], str]:
+    """Make a wrong voltage of its three terms and of the size of the dashboard's unit."""
+
+    def make(text: str) -> str:
+        (row,) = (row for row in ROW.finditer(text) if row["name"] == name)
+        value = wrong(*(float(term) for term in row.groups()[2:]))
+        return text.replace(f"{name} = {row['volts']} ", f"{name} = {value:.3f} ")
+
+    return make
+
+
+def swapped(one: str, other: str) -> Callable[[str], str]:
+    """Exchange two names."""
+
+    def make(text: str) -> str:
+        spare = text.replace(f"\n{one} = ", "\n@ = ").replace(f"\n{other} = ", f"\n{one} = ")
+        return spare.replace("\n@ = ", f"\n{other} = ")
+
+    return make
+
+
+def other_term(text: str) -> str:
+    """The speed's term for the acceleration's, or the other way round."""
+    right, wrong = ("kV", "kA") if 'largest = "kV"' in text else ("kA", "kV")
+    return text.replace(f'largest = "{right}"', f'largest = "{wrong}"')
+
+
+def unit(text: str) -> Callable[[str], str]:
+    """Make another unit of kV."""
+    return lambda right: re.sub(r'kV_unit = "[^"]*"', f'kV_unit = "{text}"', right)
+
+
+MISTAKES = (
+    Mistake(
+        "sgn of the acceleration",
+        ANSWERS,
+        volts("braking", lambda s, v, a, _: v + a - s),
+        "braking",
+        "did you take sgn of a?",
+    ),
+    Mistake(
+        "no friction while it speeds up",
+        ANSWERS,
+        volts("accelerating", lambda _s, v, a, _: v + a),
+        "accelerating",
+        "kS is missing",
+    ),
+    Mistake(
+        "no friction at a steady speed",
+        ANSWERS,
+        volts("forward", lambda _s, v, _a, _: v),
+        "forward",
+        "kS is missing",
+    ),
+    Mistake(
+        "the dashboard's unit",
+        ANSWERS,
+        volts("forward", lambda s, v, _, size: s + v / size),
+        "forward",
+        "Convert it first",
+        "M-UNITS",
+    ),
+    Mistake(
+        "converted the wrong way",
+        ANSWERS,
+        volts("forward", lambda s, v, _, size: s + v / size**2),
+        "forward",
+        "multiply where you have to divide",
+        "M-UNITS",
+    ),
+    Mistake(
+        "a speed converted that was right",
+        ANSWERS,
+        volts("accelerating", lambda s, v, a, size: s + v / size + a),
+        "accelerating",
+        "Did you turn it into",
+        "M-UNITS",
+    ),
+    Mistake(
+        "speed and acceleration converted that were right",
+        ANSWERS,
+        volts("braking", lambda s, v, a, size: s + (v + a) / size),
+        "braking",
+        "Did you turn it into",
+        "M-UNITS",
+    ),
+    Mistake(
+        "backward without a sign",
+        ANSWERS,
+        volts("backward", lambda s, v, _a, _: -s - v),
+        "backward",
+        "Moving backward, v is negative",
+    ),
+    Mistake(
+        "friction that helps, backward",
+        ANSWERS,
+        volts("backward", lambda s, v, _a, _: v - s),
+        "backward",
+        "Moving backward, v is negative",
+    ),
+    Mistake(
+        "no acceleration while it brakes",
+        ANSWERS,
+        volts("braking", lambda s, v, _a, _: s + v),
+        "braking",
+        "kA·a is missing",
+    ),
+    Mistake(
+        "braking as if it sped up",
+        ANSWERS,
+        volts("braking", lambda s, v, a, _: s + v - a),
+        "braking",
+        "getting slower, a is negative",
+    ),
+    Mistake(
+        "an output between -1 and 1",
+        ANSWERS,
+        volts("backward", lambda s, v, a, _: (s + v + a) / 12),
+        "backward",
+        "not an output between",
+        "M-DUTY",
+    ),
+    Mistake(
+        "two rows exchanged",
+        ANSWERS,
+        swapped("braking", "accelerating"),
+        "accelerating",
+        "right for braking. Are two answers swapped?",
+        "M-ARGORDER",
+    ),
+    Mistake(
+        "a number from nowhere",
+        ANSWERS,
+        volts("forward", lambda s, v, _a, _: 1.08 * (s + v)),
+        "forward",
+        "outside the accepted ±2 %, by a little",
+    ),
+    Mistake("nothing", ANSWERS, replacing(("forward = ", 'forward = "" # ')), "forward", "nothing"),
+    Mistake("kA's unit", ANSWERS, replacing(("V·s/", "V·s²/")), "kv-unit", "to kA", "M-UNITS"),
+    Mistake("kS's unit", ANSWERS, unit("V"), "kv-unit", "to kS", "M-UNITS"),
+    Mistake(
+        "no parentheses", ANSWERS, replacing(("V·s/", "V/s/")), "kv-unit", "parentheses", "M-UNITS"
+    ),
+    Mistake("another length", ANSWERS, unit("V·s/in"), "kv-unit", "of the right kind", "M-UNITS"),
+    Mistake("not a unit", ANSWERS, unit("volt per banana"), "kv-unit", "'banana' is not known"),
+    Mistake("the other term", ANSWERS, other_term, "largest", "work out all three terms"),
+    Mistake(
+        "a word that is no term",
+        ANSWERS,
+        replacing(("largest = ", 'largest = "torque" # ')),
+        "largest",
+        "Choose one of: kS, kV, kA.",
+    ),
+)
