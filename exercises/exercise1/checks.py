@@ -129,6 +129,8 @@ def _voltage(name: str, answers: Answers) -> None:
     found = suspects(value, answers.variant, name)
     codes = {slip.misconception for slips in found for slip in slips}
     hint = "; or ".join("; and ".join(slip.says for slip in slips) for slips in found)
+    if found and len(found[0]) > 1:
+        hint = f"maybe two things at once: {hint}"
     if not hint:
         size = "little" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "lot"
         hint = f"outside the accepted ±2 %, by a {size}. Write down the three terms one by one"
@@ -141,7 +143,8 @@ def kv_unit(answers: Answers) -> None:
     raw, symbol = answers.given.get("kv_unit"), answers.variant.symbol
     letters = f"Write it with V, s and {symbol}, and with · or *, / and parentheses."
     if not isinstance(raw, str) or not raw.strip():
-        seen = "nothing yet" if raw in {None, ""} or isinstance(raw, str) else f"{raw}, no unit"
+        empty = raw is None or isinstance(raw, str)
+        seen = "nothing yet" if empty else f"{raw}, which is no unit"
         raise Wrong(seen, hint=letters)
     try:
         given = read_unit(raw)
@@ -154,12 +157,12 @@ def kv_unit(answers: Answers) -> None:
     if alike and max(given.powers[2:]) == 0:
         hint = f"of the right kind, but your velocities are in {symbol}/s"
         raise Wrong(raw, hint=hint, misconception="M-UNITS", earned=1.0)
-    raise Wrong(raw, hint=_about_unit(given.powers, right.powers), misconception="M-UNITS")
+    raise Wrong(raw, hint=_about_unit(given.powers), misconception="M-UNITS")
 
 
-def _about_unit(given: tuple[int, ...], right: tuple[int, ...]) -> str:
+def _about_unit(given: tuple[int, ...]) -> str:
     volt, second, *length = given
-    if given == tuple(-power for power in right):
+    if (volt, second, sum(length)) == (-1, -1, 1):
         return "that is upside down: velocity for each volt"
     if (volt, second) == (1, 2) and sum(length) == -1:
         return "that belongs to kA, which is multiplied by an acceleration"

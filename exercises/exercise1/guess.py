@@ -9,6 +9,7 @@ from grader.slip import MANY, Slip
 from .budget import MOMENTS, SHOWN, Variant
 
 ALIKE, ROUNDED = 0.004, 0.006  # [share], [V] of a slip's own voltage; two decimals are written
+ALIKE_TWO = 0.001  # [share] for two slips at once: there are many pairs, and one may fit by chance
 MOST = 2  # slips at once; more than two explain any number
 
 
@@ -18,6 +19,11 @@ class Guess:
 
     volts: float
     slips: tuple[Slip, ...]
+
+    def fits(self, value: float) -> bool:
+        """Whether a voltage looks like this."""
+        alike = ALIKE if len(self.slips) == 1 else ALIKE_TWO
+        return abs(value - self.volts) <= max(ROUNDED, alike * abs(self.volts))
 
 
 def guesses(variant: Variant, name: str) -> list[Guess]:
@@ -62,7 +68,7 @@ def _speeds(variant: Variant, name: str) -> list[Way]:
 
 
 def _pushes(variant: Variant, name: str) -> list[Way]:
-    volts, at = variant.terms(name)[2], variant.moments[name]
+    volts = variant.terms(name)[2]
     if volts:
         way = "getting slower, a is negative" if name == "braking" else "getting faster, it is not"
         return [
@@ -73,7 +79,7 @@ def _pushes(variant: Variant, name: str) -> list[Way]:
         ]
     extra = Slip("extra-ka", "there is a kA·a too many. At a steady speed, what is a?")
     others = [one.acceleration for one in variant.moments.values() if one.acceleration]
-    return [(0.0, None), *((variant.gains["kA"] * a, extra) for a in (*others, at.velocity))]
+    return [(0.0, None), *((variant.gains["kA"] * a, extra) for a in others)]
 
 
 def _units(variant: Variant, name: str) -> list[tuple[float, Slip]]:
@@ -115,7 +121,7 @@ def suspects(value: float, variant: Variant, name: str) -> tuple[tuple[Slip, ...
     near = {
         tuple(slip.code for slip in guess.slips): guess.slips
         for guess in guesses(variant, name)
-        if abs(value - guess.volts) <= max(ROUNDED, ALIKE * abs(guess.volts))
+        if guess.fits(value)
     }
     alone = tuple(slips for slips in near.values() if len(slips) == 1)
     found = alone or tuple(near.values())

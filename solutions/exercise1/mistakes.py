@@ -24,6 +24,12 @@ def volts(name: str, wrong: Terms) -> Callable[[str], str]:
     return make
 
 
+def pushed(text: str) -> float:
+    """The acceleration's volts while it speeds up [V]."""
+    (row,) = (row for row in ROW.finditer(text) if row["name"] == "accelerating")
+    return float(row[5])
+
+
 def swapped(one: str, other: str) -> Callable[[str], str]:
     """Exchange two names."""
 
@@ -126,6 +132,20 @@ MISTAKES = (
         volts("braking", lambda s, v, a, _: s + v - a),
         "braking",
         "getting slower, a is negative",
+    ),
+    Mistake(
+        "neither friction nor acceleration while it brakes",
+        ANSWERS,
+        volts("braking", lambda _s, v, _a, _: v),
+        "braking",
+        "maybe two things at once: kS is missing",
+    ),
+    Mistake(
+        "an acceleration at a steady speed",
+        ANSWERS,
+        lambda text: volts("backward", lambda s, v, _a, _: s + v + pushed(text))(text),
+        "backward",
+        "a kA·a too many",
     ),
     Mistake(
         "an output between -1 and 1",

@@ -1,0 +1,182 @@
+"""Exercise 1: everybody gets a voltage budget of their own, and no answer by accident."""
+
+import re
+import shutil
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from grader.cli import run
+from grader.exercise import Exercise
+
+ROOT = Path(__file__).resolve().parents[1]
+OWN = Exercise("exercise1", ROOT / "exercises" / "exercise1")
+CLASS = [f"student {number}" for number in range(50)]
+
+
+@pytest.fixture
+def copy(tmp_path, monkeypatch):
+    """A copy of the exercise in a course of its own, in whose folder the command runs."""
+    folder = tmp_path / "exercises" / "exercise1"
+    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return Exercise("exercise1", folder)
+
+
+def graded(copy, text, check, *, student="ann"):
+    (copy.folder / "answers.toml").write_text(text, "utf-8")
+    results = copy.grade(None, student=student).checks
+    (found,) = (one for one in results if one.id == check)
+    return found
+
+
+def test_fifty_students_get_budgets_of_every_kind_whose_sum_is_told_apart_from_every_slip():
+    variants = [OWN.module.draw(student) for student in CLASS]
+
+    assert {variant.kind for variant in variants} == {"drivetrain", "intake", "shooter", "turret"}
+    assert {variant.largest for variant in variants} == {"kV", "kA"}
+    for variant in variants:
+        for name in OWN.module.MOMENTS:
+            friction, speed, push = variant.terms(name)
+            asked = variant.asked(name)
+            slips = (speed + push, speed + push - friction, friction + speed - (push or 1))
+
+            assert 0.8 <= abs(asked.expected) < 12  # [V] a battery's
+            assert not any(asked.right(volts) for volts in slips)
+
+
+def test_a_student_gets_the_same_numbers_every_time_and_nobody_elses():
+    first, again, other = (OWN.module.draw(name) for name in ("ann", "Ann", "ben"))
+
+    assert first == again
+    assert first != other
+
+
+def test_what_is_told_leads_to_the_answer_in_an_ordinary_way(copy):
+    """The four voltages, worked out from the file alone, by its words."""
+    size = {"ft/s": 0.3048, "rpm": 1 / 60, "deg/s": 3.14159265 / 180}
+    for student in CLASS[:12]:
+        copy.prepare(student, say=lambda _: None)
+    for student in CLASS[:12]:
+        told = (copy.folder / "data" / student / "given.toml").read_text("utf-8")
+        given, variant = tomllib.loads(told), OWN.module.draw(student)
+        shown = re.search(r"\[forward\].*\nspeed = \S+  # (\S+)", told)[1]
+        ks, kv, ka = (given[name] for name in ("kS", "kV", "kA"))
+        speeds = {name: given[name]["speed"] for name in OWN.module.MOMENTS}
+        faster, slower = given["accelerating"]["faster_by"], given["braking"]["slower_by"]
+        answers = {
+            "forward": ks + kv * speeds["forward"] * size[shown],
+            "accelerating": ks + kv * speeds["accelerating"] + ka * faster,
+            "braking": ks + kv * speeds["braking"] - ka * slower,
+            "backward": -ks - kv * speeds["backward"],
+        }
+
+        for name, volts in answers.items():
+            assert volts == pytest.approx(variant.asked(name).expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
+def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
+    variant = OWN.module.draw(student)
+    said = " ".join(OWN.hints) + (OWN.folder / "README.md").read_text("utf-8")
+    for volts in (-3.0, 0.1, 4.0, 70.0):
+        rows = "".join(f"{name} = {volts}\n" for name in OWN.module.MOMENTS)
+        text = f'{rows}kV_unit = "V"\nlargest = "torque"\n'
+        (copy.folder / "answers.toml").write_text(text, "utf-8")
+        run(["1", "--student", student])
+        run(["1", "--student", student, "--json"])
+    said += capsys.readouterr().out
+    (given,) = copy.folder.glob("data/*/given.toml")
+    said += given.read_text("utf-8")
+    numbers = [float(text) for text in re.findall(r"\d+\.\d+", said)]
+
+    assert f"V·s/{variant.symbol}" not in said
+    for name in OWN.module.MOMENTS:
+        volts = abs(variant.asked(name).expected)
+
+        assert [n for n in numbers if abs(n - volts) < 0.001 * volts] == []
+
+
+def test_numbers_that_were_changed_are_written_anew(copy):
+    said = []
+    copy.prepare("ann", say=said.append)
+    given = copy.folder / "data" / "ann" / "given.toml"
+    right = given.read_bytes()
+    copy.prepare("ann", say=said.append)
+    given.write_bytes(right.replace(b"kS = ", b"kS = 1"))
+    copy.prepare("ann", say=said.append)
+
+    assert given.read_bytes() == right
+    assert ["anew" in line for line in said] == [False, True]
+    assert [file.name for file in given.parent.iterdir()] == ["given.toml"]
+
+
+@pytest.mark.usefixtures("copy")
+def test_where_no_numbers_can_be_written_it_says_so(capsys, monkeypatch):
+    def full(*_args, **_more):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "mkdir", full)
+
+    assert run(["1"]) == 2
+    assert "your numbers cannot be written: No space left" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "written",
+    ["V·s/{}", "V*s/{}", "V/({}/s)", "volt seconds per {}", "V s {}^-1", "{}^-1·s·V", "v·s/{}"],
+)
+def test_the_unit_may_be_written_in_many_ways(copy, written):
+    unit = written.format(OWN.module.draw("ann").symbol)
+
+    assert graded(copy, f'kV_unit = "{unit}"', "kv-unit").status == "passed"
+
+
+@pytest.mark.parametrize(
+    ("written", "points", "says"),
+    [
+        ('"V·s/ft"', 1, "of the right kind"),
+        ('"V/rpm"', 1, "of the right kind"),
+        ('"m/s/V"', 0, "upside down"),
+        ('"rot/(V·s)"', 0, "upside down"),
+        ('"V·s"', 0, "only volts may be left"),
+        ('"V·s/(m·rot)"', 0, "only volts may be left"),
+        ('"V·s·rot"', 0, "only volts may be left"),
+        ('"V/(s"', 0, "( without )"),
+        ('" "', 0, "nothing yet"),
+        ("[1, 2]", 0, "which is no unit"),
+        ("{a = 1}", 0, "which is no unit"),
+        ("3", 0, "which is no unit"),
+    ],
+)
+def test_what_is_no_unit_of_kv_is_told_why(copy, written, points, says):
+    found = graded(copy, f"kV_unit = {written}", "kv-unit")
+
+    assert (found.status, found.points) == ("failed", points)
+    assert says in f"{found.seen} {found.hint}"
+
+
+@pytest.mark.parametrize("written", ["{}", "{}·{}", "{} * {}", "{}·({})", " {} "])
+def test_the_term_may_be_written_in_many_ways(copy, written):
+    gain = OWN.module.draw("ann").largest
+    word = written.format(gain, {"kV": "v", "kA": "a"}[gain])
+
+    assert graded(copy, f'largest = "{word}"', "largest").status == "passed"
+    assert graded(copy, f'LARGEST = "{word.upper()}"', "largest").status == "passed"
+
+
+@pytest.mark.parametrize("written", ['"kV and kA"', '"kVkA"', "[1]", "true", '"kG"', '"all"'])
+def test_what_is_no_term_gets_the_words_to_choose_from(copy, written):
+    found = graded(copy, f"largest = {written}", "largest")
+
+    assert (found.status, found.hint) == ("failed", "Choose one of: kS, kV, kA.")
+
+
+def test_a_comma_and_another_unit_of_voltage_will_do(copy):
+    volts = OWN.module.draw("ann").asked("forward").expected
+    comma = f"{volts:.3f}".replace(".", ",")
+
+    for text in (f'"{comma}"', f'"{comma} V"', f'"{1000 * volts:.0f} mV"'):
+        assert graded(copy, f"forward = {text}", "forward").status == "passed"
