@@ -1,0 +1,186 @@
+"""Exercise 3: gravity and friction from the voltages that hold, and what to do with them."""
+
+import math
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.answer import HALF, Key, judge, number
+from grader.check import Wrong, check
+from grader.submission import read_answers
+from grader.variant import folder_name
+from sim.errors import BadRequest
+
+from .drawn import draw
+from .held import Variant
+from .slips import key_of, offset_slips, turned
+
+FILES = ("answers.toml",)
+HERE = Path(__file__).resolve().parent
+GIVEN = "given.toml"
+
+TYPES = ("Simple", "Arm", "Elevator")
+CLASSES = ("SimpleMotorFeedforward", "ArmFeedforward", "ElevatorFeedforward")
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at."""
+
+    given: Mapping[str, object]
+    key: Key
+    variant: Variant
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Write down the learner's numbers, where they are not there as they were made."""
+    path = HERE / "data" / folder_name(student) / GIVEN
+    place = path.relative_to(HERE.parents[1]).as_posix()
+    text = _told(draw(student)).encode()
+    there = path.is_file()
+    try:
+        if there and path.read_bytes() == text:
+            return
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part = path.with_name(f"{os.getpid()}.part.toml")
+        part.write_bytes(text)
+        part.replace(path)
+    except OSError as error:
+        raise BadRequest(
+            f"your numbers cannot be written: {error.strerror}",
+            where=str(path.parent),
+            advice="Make room there, or allow writing.",
+        ) from error
+    anew = "Your numbers were no longer as they were made, and have been made anew"
+    say(f"{anew if there else 'Your own numbers for exercise 3'}: {place}")
+
+
+def _told(variant: Variant) -> str:
+    """What a learner gets to know: the voltages, nothing else."""
+    rows = "".join(
+        f"  [{hold.reading:5.0f}, {hold.lower:5.2f}, {hold.upper:5.2f}],\n" for hold in variant.arm
+    )
+    return f"""\
+# Your own numbers for exercise 3. Somebody turned the voltage up and down, slowly, and watched.
+
+[elevator]
+just_does_not_fall = {variant.elevator.lower:.2f}  # [V] with a little less, it sinks
+just_begins_to_rise = {variant.elevator.upper:.2f}  # [V] with a little more, it rises
+
+[arm]
+# A negative voltage pushes the arm down. The reading is the encoder's: it is mounted askew.
+# reading [deg], just does not fall [V], just begins to rise [V]
+hold = [
+{rows}]
+"""
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and what they are held against.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    variant = draw(student)
+    named = {name: given.get(name.lower()) for name in variant.asked}
+    offset = variant.found["arm_offset"]
+    try:  # who has the offset right goes on with it as they rounded it
+        theirs = turned(number(given.get("arm_offset"), variant.offset))
+    except Wrong:
+        theirs = math.inf
+    key = key_of(variant, offset=theirs if variant.offset.right(theirs) else offset)
+    return Answers({**given, **named}, key, variant)
+
+
+@check(points=1)
+def elevator_kg(answers: Answers) -> str | None:
+    """The elevator's kG, the voltage that gravity takes."""
+    return judge("elevator_kG", answers.given, answers.key, points=1)
+
+
+@check(points=1)
+def elevator_ks(answers: Answers) -> str | None:
+    """The elevator's kS, the voltage that friction takes."""
+    return judge("elevator_kS", answers.given, answers.key, points=1)
+
+
+@check(points=1)
+def elevator_type(answers: Answers) -> None:
+    """SysId's analysis type for the elevator."""
+    _word("elevator_type", "Elevator", answers, choices=TYPES)
+
+
+@check(points=1)
+def elevator_class(answers: Answers) -> None:
+    """WPILib's feedforward class for the elevator."""
+    _word("elevator_class", "ElevatorFeedforward", answers, choices=CLASSES)
+
+
+@check(points=1)
+def arm_kg(answers: Answers) -> str | None:
+    """The arm's kG, the voltage that gravity takes while the arm is horizontal."""
+    return judge("arm_kG", answers.given, answers.key, points=1)
+
+
+@check(points=1)
+def arm_ks(answers: Answers) -> str | None:
+    """The arm's kS, the voltage that friction takes."""
+    return judge("arm_kS", answers.given, answers.key, points=1)
+
+
+@check(points=1)
+def arm_type(answers: Answers) -> None:
+    """SysId's analysis type for the arm."""
+    _word("arm_type", "Arm", answers, choices=TYPES)
+
+
+@check(points=1)
+def arm_class(answers: Answers) -> None:
+    """WPILib's feedforward class for the arm."""
+    _word("arm_class", "ArmFeedforward", answers, choices=CLASSES)
+
+
+@check(points=2)
+def arm_offset(answers: Answers) -> str | None:
+    """The offset, to be added to the encoder's reading, of the arm."""
+    raw, asked = answers.given.get("arm_offset"), answers.variant.offset
+    value = number(raw, asked)
+    shown = f"{value:.4g} deg"
+    away = abs(turned(value - asked.expected))
+    full, partial = asked.band.widths(asked.expected)
+    if away <= full:
+        return f"{raw} is {shown}" if isinstance(raw, str) and f"{value:.4g}" not in raw else None
+    hint, code = next(offset_slips(value, answers.variant), ("", ""))
+    close = f"close: within {partial:g}°, not yet within {full:g}°" if away <= partial else ""
+    hint = "; ".join(part for part in (hint, close) if part)
+    raise Wrong(
+        shown,
+        hint=hint or f"outside the accepted {full:g}°. Use two rows whose sine or cosine is 0.",
+        misconception=code,
+        earned=2 * HALF if close else 0.0,
+    )
+
+
+def _word(name: str, right: str, answers: Answers, *, choices: Sequence[str]) -> None:
+    """Hold a word against the right one, however it is written."""
+    raw = answers.given.get(name)
+    ask = f"Choose one of: {', '.join(choices)}."
+    if raw is None or raw == "":
+        raise Wrong("nothing yet", hint=ask)
+    if not isinstance(raw, str):
+        raise Wrong(f"{raw}, which is not a word", hint=ask)
+    plain = re.sub(r"[^a-z]", "", re.sub(r"\(.*|^.*\.|\bnew\b", "", raw.strip().lower()))
+    found = next((one for one in choices if plain in {one.lower(), f"{one.lower()}meters"}), None)
+    if found == right:
+        return
+    shown = f'"{raw[:40]}"'
+    if found is None:
+        raise Wrong(f"{shown}, which is none of them", hint=ask)
+    if found.startswith("Simple"):
+        says = "Simple knows no gravity. Does yours stay where it is without a voltage? "
+        raise Wrong(shown, hint=says + ask, misconception="M-NO-KG-IN-SYSID")
+    says = "What gravity takes: is it the same everywhere, or does it change with an angle? "
+    raise Wrong(shown, hint=says + ask)

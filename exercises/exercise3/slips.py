@@ -1,0 +1,117 @@
+"""The slips of exercise 3, and what each would make of a learner's own numbers."""
+
+import math
+from collections.abc import Iterator, Sequence
+
+from grader.answer import Key, diagnose
+from grader.slip import Lookalike, Scene, Slip
+
+from .held import Hold, Variant
+
+NEAR = (0.985, 1.0, 1.015)  # [share] a slip is named for who rounds, too
+
+EDGE = Slip(
+    "edge",
+    "that is an edge of the band in which nothing moves. On an edge friction has its say, too",
+    "M-KG-EDGE",
+)
+WIDTH = Slip("width", "that has to do with the whole width of the band. Draw it", "M-KG-EDGE")
+BOTH = Slip("both", "that is both edges added up. What lies between them?", "M-KG-EDGE")
+SIMPLE = Slip(
+    "simple",
+    "that is what the analysis type Simple would make of it: gravity and friction in one",
+    "M-NO-KG-IN-SYSID",
+)
+NONE = Slip(
+    "none",
+    "that says gravity takes nothing. Would it stay up without a voltage?",
+    "M-NO-KG-IN-SYSID",
+)
+AS_READ = Slip(
+    "as-read",
+    "that is the middle of the band where the encoder reads 0. Is the arm horizontal there?",
+)
+LARGEST = Slip(
+    "largest",
+    "that is the largest middle in your table. Was the arm horizontal in that row?",
+)
+DEGREES = Slip(
+    "degrees",
+    "it looks as if degrees went into a cosine that counts in radians",
+    "M-UNITS",
+)
+
+
+def key_of(variant: Variant, *, offset: float) -> Key:
+    """What is asked for, with what slips would give who uses this offset [deg]."""
+    return Key(variant.asked, Scene(lookalikes=dict(_lookalikes(variant, offset))))
+
+
+def telling(variant: Variant) -> bool:
+    """Whether every slip earns nothing, and points to one misconception only."""
+    key = key_of(variant, offset=variant.found["arm_offset"])
+    each = [(name, one) for name, likely in key.scene.lookalikes.items() for one in likely]
+    return all(_far(name, one, key) for name, one in each) and all(
+        {slip.misconception for slip in diagnose(name, {name: share * one.value}, key)}
+        == {one.slip.misconception}
+        for name, one in each
+        if one.value
+        for share in NEAR
+    )
+
+
+def _far(name: str, likely: Lookalike, key: Key) -> bool:
+    asked = key.asked[name]
+    full, partial = asked.band.widths(asked.expected)
+    return abs(likely.value - asked.expected) > (full if likely.slip is LARGEST else partial)
+
+
+def _lookalikes(variant: Variant, offset: float) -> Iterator[tuple[str, tuple[Lookalike, ...]]]:
+    """Gain -> what the known slips make of the learner's own numbers [V]."""
+    level = next(hold for hold in variant.arm if hold.reading == 0.0)
+    found = variant.found
+    for name, rows in {"elevator": (variant.elevator,), "arm": variant.arm}.items():
+        kg, ks = found[f"{name}_kG"], found[f"{name}_kS"]
+        edges = {kg - ks, kg + ks}
+        of_kg = [(2.0 * ks, WIDTH), (2.0 * kg, BOTH), (0.0, NONE)]
+        if name == "arm":
+            edges |= {level.lower, level.upper, max(row.upper for row in rows)}
+            of_kg += [(level.middle, AS_READ), (max(row.middle for row in rows), LARGEST)]
+            of_kg += [(volts, DEGREES) for volts in _in_degrees(rows, offset)]
+        of_kg += [(edge, EDGE) for edge in sorted(edges)]
+        of_ks = [(times * half, WIDTH) for half in _halves(rows, ks) for times in (2.0, 0.5)]
+        of_ks += [(kg - ks, EDGE), (kg + ks, SIMPLE)]
+        yield f"{name}_kG", tuple(Lookalike(*one) for one in of_kg)
+        yield f"{name}_kS", tuple(Lookalike(*one) for one in of_ks)
+
+
+def _halves(rows: Sequence[Hold], mean: float) -> list[float]:
+    """Half the width of a band: as each row has it, and their mean [V]."""
+    return [mean, *(row.friction for row in rows)]
+
+
+def _in_degrees(arm: Sequence[Hold], offset: float) -> list[float]:
+    """The kG each row gives who puts degrees into the cosine [V]."""
+    return [hold.middle / math.cos(hold.reading + offset) for hold in arm]
+
+
+def offset_slips(value: float, variant: Variant) -> Iterator[tuple[str, str]]:
+    """What a wrong offset [deg] may have been: a sentence and its misconception."""
+    nearest = max(variant.arm, key=lambda hold: hold.middle)
+    slips = (
+        (-value, "the size is right, the sign is not. Asked for is what you add to a reading", ""),
+        (math.degrees(value), "57.3 = 180/π. Is this in radians? Asked for are degrees", "M-UNITS"),
+        (360.0 * value, "a rotation is 360°. Is this in rotations?", "M-UNITS"),
+        (value + 90.0, "it is 90° off. Is this measured from vertical?", ""),
+        (value - 90.0, "it is 90° off. Is this measured from vertical?", ""),
+    )
+    for undone, says, code in slips:
+        if variant.offset.right(turned(undone)):
+            yield says, code
+    if abs(value) == abs(nearest.reading):
+        yield "the row with the most voltage is only the nearest to horizontal of five", ""
+
+
+def turned(angle: float) -> float:
+    """The same angle between -180 and 180 [deg]."""
+    return (angle + 180.0) % 360.0 - 180.0

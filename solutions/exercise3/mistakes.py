@@ -1,0 +1,206 @@
+"""Wrong answers to exercise 3, and what a learner must be told about each."""
+
+import math
+import re
+from collections.abc import Callable, Mapping
+
+from grader.mistake import Mistake, replacing
+
+ANSWERS = "answers.toml"
+LINE = re.compile(r"^(?P<name>\w+) = (?P<value>[-\d.e]+)", re.MULTILINE)
+
+Numbers = Mapping[str, float]
+
+
+def numbers(change: Callable[[Numbers], Numbers]) -> Callable[[str], str]:
+    """Make a wrong text by changing some of the numbers in the right one."""
+
+    def make(text: str) -> str:
+        right = {found["name"]: float(found["value"]) for found in LINE.finditer(text)}
+        wrong = {**right, **change(right)}
+        if wrong == right:
+            raise ValueError("the solution has none of the numbers to change")
+        return LINE.sub(lambda found: f"{found['name']} = {wrong[found['name']]:.6g}", text)
+
+    return make
+
+
+def of(name: str, change: Callable[[Numbers], float]) -> Callable[[str], str]:
+    """Make a wrong text by changing one number."""
+    return numbers(lambda right: {name: change(right)})
+
+
+def in_degrees(right: Numbers) -> float:
+    """The arm's kG from the row where the encoder reads 0, by a cosine that counts in radians."""
+    offset = right["arm_offset"]
+    return right["arm_kG"] * math.cos(math.radians(offset)) / math.cos(offset)
+
+
+def swapped(right: Numbers) -> Numbers:
+    """Gravity for friction, and friction for gravity."""
+    return {"elevator_kG": right["elevator_kS"], "elevator_kS": right["elevator_kG"]}
+
+
+EDGE, SIMPLE, UNITS = "M-KG-EDGE", "M-NO-KG-IN-SYSID", "M-UNITS"
+
+MISTAKES = (
+    Mistake(
+        "nothing for kG",
+        ANSWERS,
+        replacing(("elevator_kG = ", 'elevator_kG = "" # ')),
+        "elevator-kg",
+        "nothing yet",
+    ),
+    Mistake(
+        "where it begins to rise for the elevator's kG",
+        ANSWERS,
+        of("elevator_kG", lambda right: right["elevator_kG"] + right["elevator_kS"]),
+        "elevator-kg",
+        "an edge of the band",
+        EDGE,
+    ),
+    Mistake(
+        "where it does not fall for the elevator's kG",
+        ANSWERS,
+        of("elevator_kG", lambda right: right["elevator_kG"] - right["elevator_kS"]),
+        "elevator-kg",
+        "an edge of the band",
+        EDGE,
+    ),
+    Mistake(
+        "both edges added up",
+        ANSWERS,
+        of("elevator_kG", lambda right: 2.0 * right["elevator_kG"]),
+        "elevator-kg",
+        "added up",
+        EDGE,
+    ),
+    Mistake(
+        "the whole band for the elevator's kS",
+        ANSWERS,
+        of("elevator_kS", lambda right: 2.0 * right["elevator_kS"]),
+        "elevator-ks",
+        "the whole width",
+        EDGE,
+    ),
+    Mistake(
+        "a quarter of the band for the arm's kS",
+        ANSWERS,
+        of("arm_kS", lambda right: right["arm_kS"] / 2.0),
+        "arm-ks",
+        "the whole width",
+        EDGE,
+    ),
+    Mistake(
+        "gravity and friction in one",
+        ANSWERS,
+        of("elevator_kS", lambda right: right["elevator_kG"] + right["elevator_kS"]),
+        "elevator-ks",
+        "in one",
+        SIMPLE,
+    ),
+    Mistake(
+        "no gravity at all",
+        ANSWERS,
+        of("elevator_kG", lambda _: 0.0),
+        "elevator-kg",
+        "takes nothing",
+        SIMPLE,
+    ),
+    Mistake(
+        "kG and kS swapped", ANSWERS, numbers(swapped), "elevator-kg", "swapped?", "M-ARGORDER"
+    ),
+    Mistake(
+        "an edge for the arm's kG",
+        ANSWERS,
+        of("arm_kG", lambda right: right["arm_kG"] + right["arm_kS"]),
+        "arm-kg",
+        "an edge of the band",
+        EDGE,
+    ),
+    Mistake(
+        "the reading taken for the angle",
+        ANSWERS,
+        of(
+            "arm_kG",
+            lambda right: right["arm_kG"] * math.cos(math.radians(right["arm_offset"])),
+        ),
+        "arm-kg",
+        "where the encoder reads 0",
+    ),
+    Mistake(
+        "degrees in the cosine",
+        ANSWERS,
+        of("arm_kG", in_degrees),
+        "arm-kg",
+        "counts in radians",
+        UNITS,
+    ),
+    Mistake(
+        "the offset turned around",
+        ANSWERS,
+        of("arm_offset", lambda right: -right["arm_offset"]),
+        "arm-offset",
+        "the sign is not",
+    ),
+    Mistake(
+        "the offset in radians",
+        ANSWERS,
+        of("arm_offset", lambda right: math.radians(right["arm_offset"])),
+        "arm-offset",
+        "in radians?",
+        UNITS,
+    ),
+    Mistake(
+        "the offset from vertical",
+        ANSWERS,
+        of("arm_offset", lambda right: right["arm_offset"] - 90.0),
+        "arm-offset",
+        "from vertical?",
+    ),
+    Mistake(
+        "an offset in volts",
+        ANSWERS,
+        replacing(("arm_offset = ", 'arm_offset = "3 V" # ')),
+        "arm-offset",
+        "does not measure",
+        UNITS,
+    ),
+    Mistake(
+        "Simple for the elevator",
+        ANSWERS,
+        replacing(('elevator_type = "Elevator"', 'elevator_type = "Simple"')),
+        "elevator-type",
+        "knows no gravity",
+        SIMPLE,
+    ),
+    Mistake(
+        "a motor's class for the arm",
+        ANSWERS,
+        replacing(('"ArmFeedforward"', '"SimpleMotorFeedforward"')),
+        "arm-class",
+        "knows no gravity",
+        SIMPLE,
+    ),
+    Mistake(
+        "the elevator's type for the arm",
+        ANSWERS,
+        replacing(('arm_type = "Arm"', 'arm_type = "elevator"')),
+        "arm-type",
+        "change with an angle",
+    ),
+    Mistake(
+        "a class that there is not",
+        ANSWERS,
+        replacing(('"ElevatorFeedforward"', '"LiftFeedforward"')),
+        "elevator-class",
+        "Choose one of: SimpleMotorFeedforward, ArmFeedforward, ElevatorFeedforward",
+    ),
+    Mistake(
+        "a number for a word",
+        ANSWERS,
+        replacing(('arm_type = "Arm"', "arm_type = 2")),
+        "arm-type",
+        "not a word",
+    ),
+)
