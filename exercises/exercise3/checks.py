@@ -145,7 +145,7 @@ def arm_class(answers: Answers) -> None:
 
 @check(points=2)
 def arm_offset(answers: Answers) -> str | None:
-    """The offset, to be added to the encoder's reading, of the arm."""
+    """The arm's offset, which is added to what its encoder reads."""
     raw, asked = answers.given.get("arm_offset"), answers.variant.offset
     value = number(raw, asked)
     shown = f"{value:.4g} deg"

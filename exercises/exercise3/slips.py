@@ -15,7 +15,16 @@ EDGE = Slip(
     "that is an edge of the band in which nothing moves. On an edge friction has its say, too",
     "M-KG-EDGE",
 )
-WIDTH = Slip("width", "that has to do with the whole width of the band. Draw it", "M-KG-EDGE")
+WIDTH = Slip(
+    "width",
+    "that is the whole width of the band. Draw the band, its middle and its edges",
+    "M-KG-EDGE",
+)
+QUARTER = Slip(
+    "quarter",
+    "that is a quarter of the width of the band. How far is it from the middle to an edge?",
+    "M-KG-EDGE",
+)
 BOTH = Slip("both", "that is both edges added up. What lies between them?", "M-KG-EDGE")
 SIMPLE = Slip(
     "simple",
@@ -79,7 +88,10 @@ def _lookalikes(variant: Variant, offset: float) -> Iterator[tuple[str, tuple[Lo
             of_kg += [(level.middle, AS_READ), (max(row.middle for row in rows), LARGEST)]
             of_kg += [(volts, DEGREES) for volts in _in_degrees(rows, offset)]
         of_kg += [(edge, EDGE) for edge in sorted(edges)]
-        of_ks = [(times * half, WIDTH) for half in _halves(rows, ks) for times in (2.0, 0.5)]
+        halves = _halves(rows, ks)
+        of_ks = [(2.0 * half, WIDTH) for half in halves] + [
+            (half / 2.0, QUARTER) for half in halves
+        ]
         of_ks += [(kg - ks, EDGE), (kg + ks, SIMPLE)]
         yield f"{name}_kG", tuple(Lookalike(*one) for one in of_kg)
         yield f"{name}_kS", tuple(Lookalike(*one) for one in of_ks)
@@ -104,6 +116,8 @@ def offset_slips(value: float, variant: Variant) -> Iterator[tuple[str, str]]:
         (360.0 * value, "a rotation is 360°. Is this in rotations?", "M-UNITS"),
         (value + 90.0, "it is 90° off. Is this measured from vertical?", ""),
         (value - 90.0, "it is 90° off. Is this measured from vertical?", ""),
+        (90.0 - value, "tan is sine over cosine. Did the two change places?", ""),
+        (-90.0 - value, "tan is sine over cosine. Did the two change places?", ""),
     )
     for undone, says, code in slips:
         if variant.offset.right(turned(undone)):

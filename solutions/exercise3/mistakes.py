@@ -88,7 +88,7 @@ MISTAKES = (
         ANSWERS,
         of("arm_kS", lambda right: right["arm_kS"] / 2.0),
         "arm-ks",
-        "the whole width",
+        "a quarter of the width",
         EDGE,
     ),
     Mistake(
@@ -157,6 +157,16 @@ MISTAKES = (
         of("arm_offset", lambda right: right["arm_offset"] - 90.0),
         "arm-offset",
         "from vertical?",
+    ),
+    Mistake(
+        "cosine over sine for the tangent",
+        ANSWERS,
+        of(
+            "arm_offset",
+            lambda right: math.copysign(90.0, right["arm_offset"]) - right["arm_offset"],
+        ),
+        "arm-offset",
+        "change places?",
     ),
     Mistake(
         "an offset in volts",
