@@ -23,16 +23,17 @@ from sim.log import Log
 from sim.reconcile.aside import Aside, judge_damage
 from sim.reconcile.damage import Damaged
 from sim.reconcile.descent import better, scanned, settle
-from sim.reconcile.gates import folds
+from sim.reconcile.gates import errors_of, folds, rms
 from sim.reconcile.glitch import glitches
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, lanes
-from sim.reconcile.naming import beside, findings_of, verdict_of
+from sim.reconcile.naming import beside, findings_of, missed, verdict_of
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.remainder import worst
 from sim.reconcile.rounds import rounds
 from sim.reconcile.showing import Shown
 from sim.reconcile.story import Story
+from sim.reconcile.thresholds import LOST, MAJOR, WANDERS
 from sim.reconcile.usable import check_logs
 from sim.units import unit
 
@@ -73,7 +74,7 @@ def reconcile(
     both = log if validation is None else replace(log, runs=log.runs + validation.runs)
     problem = _problem(log, validation, aside)
     progress("base model", 0.05)
-    base = _base(problem, log, type=type)
+    problem, base = _based(problem, log, type=type)
     if not math.isfinite(base.cost):
         raise NotIdentifiable(
             "no gains follow what is left of it once its damage is set aside",
@@ -119,7 +120,7 @@ def _unslipped(problem: Problem, base: Point) -> tuple[Problem, Point, tuple[Dam
     runs = list(problem.lanes)
     for number, one in found:
         runs[number] = runs[number].without(SetAside(number, one.start, one.end))
-    mended = Problem(tuple(runs), problem.noise)
+    mended = replace(problem, lanes=tuple(runs))
     begin = mended.at(base.hypothesis, base.values, base.starts, base.q)
     return mended, settle(mended, scanned(mended, begin)), (found[0][1],)
 
@@ -130,6 +131,28 @@ def _once(*several: Sequence[Damaged]) -> tuple[Damaged, ...]:
     for one in (damage for some in several for damage in some):
         found.setdefault(one.fault, one)
     return tuple(found.values())
+
+
+def _based(problem: Problem, log: Log, *, type: str) -> tuple[Problem, Point]:  # noqa: A002 - as above
+    """The best point without effects, and the problem in which it was found.
+
+    Where much is missing, "it goes on as it did, and is pushed wherever it goes" may follow a
+    smooth log better than any physics: then pushes are bounded.
+    """
+    base = _base(problem, log, type=type)
+    if not math.isfinite(base.cost) or _lost(problem, base) < LOST:
+        return problem, base
+    bound = replace(problem, most_q=(WANDERS * problem.top) ** 2)
+    other = _base(bound, log, type=type)
+    if math.isfinite(other.cost) and _lost(bound, other) < MAJOR * _lost(problem, base):
+        return bound, other
+    return problem, base
+
+
+def _lost(problem: Problem, base: Point) -> float:
+    """[1] of the motion that a point misses."""
+    gap = rms(errors_of(problem, base, base.starts)).velocity
+    return missed(gap / problem.noise.velocity, problem)
 
 
 def _base(problem: Problem, log: Log, *, type: str) -> Point:  # noqa: A002 - as above

@@ -42,7 +42,7 @@ def tuned(problem: Problem, point: Point) -> Point:
     least = LEAST_Q * problem.noise.velocity**2
     for way in (SOFTER, 1.0 / SOFTER):
         other = problem.at(point.hypothesis, point.values, point.starts, point.q * way)
-        while other.cost < point.cost - 0.1 and other.q > least:
+        while other.cost < point.cost - 0.1 and least < other.q < problem.most_q:
             point = other
             other = problem.at(point.hypothesis, point.values, point.starts, point.q * way)
     return point

@@ -58,10 +58,12 @@ class Problem:
     Args:
         lanes: the runs.
         noise: of their samples, measured without a model.
+        most_q: [unit²/s³] beyond which nothing pushes at random.
     """
 
     lanes: tuple[Lane, ...]
     noise: Noise
+    most_q: float = math.inf
 
     @classmethod
     def of(cls, lanes: Sequence[Lane]) -> "Problem":
@@ -99,6 +101,13 @@ class Problem:
     def period(self) -> float:
         """[s] between samples."""
         return float(np.median(np.concatenate([np.diff(lane.seen.time) for lane in self.lanes])))
+
+    @cached_property
+    def top(self) -> float:
+        """[unit/s] the fastest it moves, a few samples left out."""
+        speeds = np.abs(self.measured[self.telling, 1])
+        speeds = speeds[~np.isnan(speeds)]
+        return float(np.quantile(speeds, TOP)) if speeds.size else 0.0
 
     @cached_property
     def loose(self) -> float:

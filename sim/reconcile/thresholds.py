@@ -51,6 +51,10 @@ LOST = 0.4
 log, and what it contains is no finding. The last models of 128 logs with hidden effects miss an
 eighth at most."""
 
+WANDERS = 0.1
+"""[top speeds in a second] by which a mechanism is pushed at random at most, where a base model
+would else be nothing but pushes."""
+
 SPOILT = 0.9
 """[1] the same of other faults of the record."""
 
