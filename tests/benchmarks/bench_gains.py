@@ -56,6 +56,15 @@ def main() -> None:
             f"{gain}: median over cells {theirs:.3g} (recipe) {ours:.3g} (ours), {share:.2f} of it"
         )
         print(f"    above it by more than 0.01 in {worse or 'no cell'}")
+        worst = max(cells, key=lambda key: cells[key]["output-error"][gain])
+        closest = max(cells, key=lambda key: _share(cells[key], gain))
+        print(f"    worst cell {worst}: {cells[worst]['output-error'][gain]:.3g}")
+        print(f"    closest to the recipe {closest}: {_share(cells[closest], gain):.2f} of it")
+
+
+def _share(cell: dict[str, dict[str, float]], gain: str) -> float:
+    """Our error over the recipe's."""
+    return cell["output-error"][gain] / max(cell["sysid"][gain], 1e-12)
 
 
 def one_cell(
