@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 RUN, SPEED, POSITION = "run", "direction-speed", "direction-position"
 STEPS, REST = "after-steps", "at-rest"
-WHATS = (RUN, SPEED, POSITION, STEPS, REST)
 SIGNALS = ("position", "velocity")  # the columns of what is measured and simulated
 MANY = 99.5  # [noises] from which on no digit is left out
 FASTER = {"position": ("ahead of", "behind"), "velocity": ("faster than", "slower than")}

@@ -1,4 +1,4 @@
-"""What an inspection found, judged: what is cut out, what is reported, what waits for the fit."""
+"""What an inspection found, judged: what is cut out, and what is reported."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -18,7 +18,7 @@ OF_THE_RECORD: Mapping[str, float] = {
     "sign-flip": SPOILT,
 }
 """Fault -> confidence from which its stretch is cut out before anything is fitted. Others look like
-physics that is missing (a soft joint shakes as a slipping wheel does): they wait for the fit."""
+physics that is missing (a soft joint shakes as a slipping wheel does): the fit decides on them."""
 
 WHOLE = ("sign-flip",)
 """Faults of a whole run. Two such runs are no fault: voltage and motion do not belong together."""
@@ -34,14 +34,10 @@ class Aside:
     Args:
         cut: which log -> stretches that are left out.
         found: what is reported as a finding, one of each fault.
-        suspected: what waits for the fit: reported if the last model leaves something there.
-        notes: what a person should know besides.
     """
 
     cut: Mapping[str, tuple[SetAside, ...]] = field(default_factory=dict)
     found: tuple[Damaged, ...] = ()
-    suspected: tuple[Damaged, ...] = ()
-    notes: tuple[str, ...] = ()
 
     def of(self, name: str) -> tuple[SetAside, ...]:
         """What is left out of a log."""
@@ -52,21 +48,17 @@ def judge_damage(damages: Mapping[str, Sequence[Damaged]]) -> Aside:
     """Sort out what an inspection found in each log."""
     cut: dict[str, list[SetAside]] = {}
     found: dict[str, Damaged] = {}
-    suspected: list[Damaged] = []
     for name, every in damages.items():
         turned = {one.run for one in every if one.fault in WHOLE}
         for one in every:
             if not _of_the_record(one) or (one.fault in WHOLE and len(turned) > 1):
-                suspected.append(one)
                 continue
             if one.run is not None:
                 stretch = SetAside(one.run, one.start, one.end, one.fault in FOR_GOOD)
                 cut.setdefault(name, []).append(stretch)
             if name != "held_out" and one.confidence > _confidence(found.get(one.fault)):
                 found[one.fault] = one
-    return Aside(
-        {name: tuple(some) for name, some in cut.items()}, tuple(found.values()), tuple(suspected)
-    )
+    return Aside({name: tuple(some) for name, some in cut.items()}, tuple(found.values()))
 
 
 def _confidence(one: Damaged | None) -> float:

@@ -114,15 +114,6 @@ class Problem:
         """[unit] by which a run may begin beside its first sample."""
         return LOOSE * self.noise.position
 
-    def only(self, session: int) -> "Problem":
-        """The same with the runs of one log."""
-        return Problem(tuple(one for one in self.lanes if one.session == session), self.noise)
-
-    def where(self, session: int) -> NDArray[np.bool_]:
-        """(n,) samples of one log."""
-        sizes = np.diff(self.edges)
-        return np.repeat([lane.session == session for lane in self.lanes], sizes)
-
     # -- simulate --------------------------------------------------------------------------------
 
     def track(self, model: Model, starts: Array, trust: Array, *, only: int | None = None) -> Array:
