@@ -72,8 +72,15 @@ def copy(root, tmp_path_factory):
 
 
 def run(copy, *command):
-    """Run a module in the copy, which comes before what is installed."""
-    environment = {**os.environ, "PYTHONPATH": str(copy), "SYSID_CACHE": str(copy / "cache")}
+    """Run a module in the copy, which comes before what is installed.
+
+    Compiled files are told apart by length and second; two versions of one file can share both,
+    so none is written.
+    """
+    environment = {
+        **os.environ, "PYTHONPATH": str(copy), "SYSID_CACHE": str(copy / "cache"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }  # fmt: skip
     return subprocess.run(
         [sys.executable, *command], cwd=copy, env=environment, capture_output=True,
         encoding="utf-8", check=False, timeout=300,
