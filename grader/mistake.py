@@ -4,8 +4,12 @@ They stand in ``solutions/exerciseN/mistakes.py`` as ``MISTAKES``. A check witho
 it catches has no teeth.
 """
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+
+LINE = re.compile(r"^(?P<name>\w+) = (?P<value>[-+\d.e]+)", re.MULTILINE)  # of an answers.toml
+Numbers = Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -38,5 +42,45 @@ def replacing(*changes: tuple[str, str]) -> Callable[[str], str]:
                 raise ValueError(f"the solution no longer contains {old!r}")
             text = text.replace(old, new)
         return text
+
+    return make
+
+
+def numbers(change: Callable[[Numbers], Numbers]) -> Callable[[str], str]:
+    """Make a wrong text by changing some of the numbers in the right answers.toml."""
+
+    def make(text: str) -> str:
+        right = {found["name"]: float(found["value"]) for found in LINE.finditer(text)}
+        wrong = {**right, **change(right)}
+        if wrong == right:
+            raise ValueError("the solution has none of the numbers to change")
+        return LINE.sub(lambda found: f"{found['name']} = {wrong[found['name']]:.6g}", text)
+
+    return make
+
+
+def number(name: str, change: Callable[[Numbers], float]) -> Callable[[str], str]:
+    """Make a wrong text by changing one number, which may depend on all of them."""
+    return numbers(lambda right: {name: change(right)})
+
+
+def scaled(factor: float, *names: str) -> Callable[[str], str]:
+    """Make a wrong text by multiplying some of the numbers."""
+    return numbers(lambda right: {name: right[name] * factor for name in names})
+
+
+def exchanged(one: str, other: str) -> Callable[[str], str]:
+    """Make a wrong text by letting two numbers change places."""
+    return numbers(lambda right: {one: right[other], other: right[one]})
+
+
+def put(name: str, value: str) -> Callable[[str], str]:
+    """Make a wrong text by giving one line of an answers.toml another value, as TOML."""
+
+    def make(text: str) -> str:
+        line = re.compile(rf"^{re.escape(name)} = .*$", re.MULTILINE)
+        if not line.search(text):
+            raise ValueError(f"the solution has no {name}")
+        return line.sub(lambda _: f"{name} = {value}", text, count=1)
 
     return make

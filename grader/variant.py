@@ -2,11 +2,15 @@
 
     seed = HMAC-SHA256(secret, "student/exercise")
 
-What was drawn is never written down: whoever grades draws it again.
+What was drawn is never written down: whoever grades draws it again. A class has a secret of its
+own, which only whoever grades the class holds (`of_class`).
 """
 
 import hashlib
 import hmac
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
 from sim.student import folder_name, same, student_name
@@ -14,20 +18,38 @@ from sim.student import folder_name, same, student_name
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = ["SELF_STUDY", "folder_name", "generator", "same", "seed", "student_name"]
+__all__ = ["SELF_STUDY", "folder_name", "generator", "of_class", "same", "seed", "student_name"]
 
 # Everybody who studies alone shares this: it keeps numbers apart, it keeps nothing secret.
 SELF_STUDY = b"sysid-course: studying alone"
+_SECRET = ContextVar("secret", default=SELF_STUDY)
 
 
-def seed(student: str, exercise: str, *, secret: bytes = SELF_STUDY) -> int:
-    """The number everything of this student's exercise is drawn from."""
+@contextmanager
+def of_class(secret: bytes) -> Iterator[None]:
+    """Draw the numbers of a class with this secret, as long as the block lasts."""
+    token = _SECRET.set(secret)
+    try:
+        yield
+    finally:
+        _SECRET.reset(token)
+
+
+def seed(student: str, exercise: str, *, secret: bytes | None = None) -> int:
+    """The number everything of this student's exercise is drawn from.
+
+    Args:
+        student: who.
+        exercise: for what: ``exercise9``.
+        secret: a class's own; None takes that of the class at hand, or of self-study.
+    """
+    secret = _SECRET.get() if secret is None else secret
     message = f"{same(student)}/{exercise}".encode()
     return int.from_bytes(hmac.new(secret, message, hashlib.sha256).digest(), "big")
 
 
 def generator(
-    student: str, exercise: str, *, draw: int = 0, secret: bytes = SELF_STUDY
+    student: str, exercise: str, *, draw: int = 0, secret: bytes | None = None
 ) -> "np.random.Generator":
     """A source of random numbers of this student's own, the same on every machine.
 
@@ -35,7 +57,8 @@ def generator(
         student: who.
         exercise: for what: ``exercise9``.
         draw: another number gives another, unrelated source: for what has to be drawn again.
-        secret: a class's own, so that its numbers cannot be drawn outside it.
+        secret: a class's own, so that its numbers cannot be drawn outside it; None takes that of
+            the class at hand, or of self-study.
     """
     import numpy as np  # noqa: PLC0415 - most exercises draw nothing, and start at once
 

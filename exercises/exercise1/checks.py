@@ -1,7 +1,6 @@
 """Exercise 1: where the volts go, at four moments of a mechanism of the learner's own."""
 
 import math
-import os
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -9,10 +8,9 @@ from pathlib import Path
 
 from grader.answer import number
 from grader.check import Wrong, check
+from grader.given import hand_out
 from grader.measure import NotAUnitError, read_unit
 from grader.submission import read_answers
-from grader.variant import folder_name
-from sim.errors import BadRequest
 
 from .budget import MOMENTS, Variant
 from .drawn import draw
@@ -44,24 +42,8 @@ class Answers:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Write down the learner's numbers, where they are not there as they were."""
-    path = HERE / "data" / folder_name(student) / FILE_MADE
-    place, text = path.relative_to(HERE.parents[1]).as_posix(), _told(draw(student))
-    there = path.is_file()
-    if there and path.read_bytes() == text.encode():
-        return
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        part = path.with_name(f"{os.getpid()}.part")
-        part.write_bytes(text.encode())
-        part.replace(path)
-    except OSError as error:
-        raise BadRequest(
-            f"your numbers cannot be written: {error.strerror}",
-            where=str(path.parent),
-            advice="Make room there, or allow writing.",
-        ) from error
-    changed = "Your numbers were no longer as they were, and have been written anew"
-    say(f"{changed if there else 'Your own numbers for exercise 1'}: {place}")
+    made = {FILE_MADE: _told(draw(student))}
+    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
 
 
 def _told(variant: Variant) -> str:

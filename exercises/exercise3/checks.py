@@ -1,17 +1,15 @@
 """Exercise 3: gravity and friction from the voltages that hold, and what to do with them."""
 
 import math
-import os
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.answer import HALF, Key, judge, number
 from grader.check import Wrong, check
+from grader.given import hand_out
 from grader.submission import read_answers
-from grader.variant import folder_name
-from sim.errors import BadRequest
+from grader.word import judge_word
 
 from .drawn import draw
 from .held import Variant
@@ -36,25 +34,8 @@ class Answers:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Write down the learner's numbers, where they are not there as they were made."""
-    path = HERE / "data" / folder_name(student) / GIVEN
-    place = path.relative_to(HERE.parents[1]).as_posix()
-    text = _told(draw(student)).encode()
-    there = path.is_file()
-    try:
-        if there and path.read_bytes() == text:
-            return
-        path.parent.mkdir(parents=True, exist_ok=True)
-        part = path.with_name(f"{os.getpid()}.part.toml")
-        part.write_bytes(text)
-        part.replace(path)
-    except OSError as error:
-        raise BadRequest(
-            f"your numbers cannot be written: {error.strerror}",
-            where=str(path.parent),
-            advice="Make room there, or allow writing.",
-        ) from error
-    anew = "Your numbers were no longer as they were made, and have been made anew"
-    say(f"{anew if there else 'Your own numbers for exercise 3'}: {place}")
+    made = {GIVEN: _told(draw(student))}
+    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
 
 
 def _told(variant: Variant) -> str:
@@ -166,21 +147,14 @@ def arm_offset(answers: Answers) -> str | None:
 
 def _word(name: str, right: str, answers: Answers, *, choices: Sequence[str]) -> None:
     """Hold a word against the right one, however it is written."""
-    raw = answers.given.get(name)
-    ask = f"Choose one of: {', '.join(choices)}."
-    if raw is None or raw == "":
-        raise Wrong("nothing yet", hint=ask)
-    if not isinstance(raw, str):
-        raise Wrong(f"{raw}, which is not a word", hint=ask)
-    plain = re.sub(r"[^a-z]", "", re.sub(r"\(.*|^.*\.|\bnew\b", "", raw.strip().lower()))
-    found = next((one for one in choices if plain in {one.lower(), f"{one.lower()}meters"}), None)
-    if found == right:
-        return
-    shown = f'"{raw[:40]}"'
-    if found is None:
-        raise Wrong(f"{shown}, which is none of them", hint=ask)
-    if found.startswith("Simple"):
-        says = "Simple knows no gravity. Does yours stay where it is without a voltage? "
-        raise Wrong(shown, hint=says + ask, misconception="M-NO-KG-IN-SYSID")
-    says = "What gravity takes: is it the same everywhere, or does it change with an angle? "
-    raise Wrong(shown, hint=says + ask)
+    also = {"SimpleMotorFeedforwardMeters": CLASSES[0]} if choices is CLASSES else {}
+
+    def why(found: str) -> tuple[str, str]:
+        ask = f"Choose one of: {', '.join(choices)}."
+        if found.startswith("Simple"):
+            says = "Simple knows no gravity. Does yours stay where it is without a voltage? "
+            return says + ask, "M-NO-KG-IN-SYSID"
+        says = "What gravity takes: is it the same everywhere, or does it change with an angle? "
+        return says + ask, ""
+
+    judge_word(answers.given.get(name), right, choices, why=why, also=also)

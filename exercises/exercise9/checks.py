@@ -1,17 +1,17 @@
 """Exercise 9: the gains of a mechanism of the learner's own, from its own four tests."""
 
-import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.answer import Asked, Band, Key, gains_asked, judge, number
 from grader.check import Wrong, check
+from grader.given import hand_out
 from grader.slip import Lookalike, Scene, Slip
 from grader.submission import read_answers
-from grader.variant import folder_name, generator
-from sim.errors import BadRequest
+from grader.variant import generator
 
 if TYPE_CHECKING:
     from sim.fit import Fit
@@ -85,36 +85,10 @@ def _alike(asked: Mapping[str, Asked]) -> bool:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the learner's log, where it is not there as it was made."""
-    folder = HERE / "data" / folder_name(student)
-    place = (folder / FILES_MADE[0]).relative_to(HERE.parents[1]).as_posix()
-    there = (folder / FILES_MADE[0]).exists()
-    if not there:
-        say(f"Making your own log for exercise 9: {place}")
-    variant = draw(student)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        news = [_put(variant.log, folder / name) for name in FILES_MADE]
-    except OSError as error:
-        raise BadRequest(
-            f"your log cannot be written: {error.strerror}",
-            where=str(folder),
-            advice="Make room there, or allow writing.",
-        ) from error
-    if there and any(news):
-        say(f"Your log was no longer as it was made, and has been made anew: {place}")
-
-
-def _put(log: "Log", path: Path) -> bool:
-    """Write a log; whether the file is new, or was not as it was made."""
     from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
 
-    part = path.with_name(f"{os.getpid()}.part{path.suffix}")
-    write(log, part)
-    if path.is_file() and path.read_bytes() == part.read_bytes():
-        part.unlink()
-        return False
-    part.replace(path)
-    return True
+    made = dict.fromkeys(FILES_MADE, partial(write, draw(student).log))
+    hand_out(made, exercise=HERE, student=student, what="log", say=say)
 
 
 def read(path: Path, *, student: str) -> Answers:

@@ -1,44 +1,16 @@
 """Wrong answers to exercise 3, and what a learner must be told about each."""
 
 import math
-import re
-from collections.abc import Callable, Mapping
 
-from grader.mistake import Mistake, replacing
+from grader.mistake import Mistake, Numbers, exchanged, number, replacing
 
 ANSWERS = "answers.toml"
-LINE = re.compile(r"^(?P<name>\w+) = (?P<value>[-\d.e]+)", re.MULTILINE)
-
-Numbers = Mapping[str, float]
-
-
-def numbers(change: Callable[[Numbers], Numbers]) -> Callable[[str], str]:
-    """Make a wrong text by changing some of the numbers in the right one."""
-
-    def make(text: str) -> str:
-        right = {found["name"]: float(found["value"]) for found in LINE.finditer(text)}
-        wrong = {**right, **change(right)}
-        if wrong == right:
-            raise ValueError("the solution has none of the numbers to change")
-        return LINE.sub(lambda found: f"{found['name']} = {wrong[found['name']]:.6g}", text)
-
-    return make
-
-
-def of(name: str, change: Callable[[Numbers], float]) -> Callable[[str], str]:
-    """Make a wrong text by changing one number."""
-    return numbers(lambda right: {name: change(right)})
 
 
 def in_degrees(right: Numbers) -> float:
     """The arm's kG from the row where the encoder reads 0, by a cosine that counts in radians."""
     offset = right["arm_offset"]
     return right["arm_kG"] * math.cos(math.radians(offset)) / math.cos(offset)
-
-
-def swapped(right: Numbers) -> Numbers:
-    """Gravity for friction, and friction for gravity."""
-    return {"elevator_kG": right["elevator_kS"], "elevator_kS": right["elevator_kG"]}
 
 
 EDGE, SIMPLE, UNITS = "M-KG-EDGE", "M-NO-KG-IN-SYSID", "M-UNITS"
@@ -54,7 +26,7 @@ MISTAKES = (
     Mistake(
         "where it begins to rise for the elevator's kG",
         ANSWERS,
-        of("elevator_kG", lambda right: right["elevator_kG"] + right["elevator_kS"]),
+        number("elevator_kG", lambda right: right["elevator_kG"] + right["elevator_kS"]),
         "elevator-kg",
         "an edge of the band",
         EDGE,
@@ -62,7 +34,7 @@ MISTAKES = (
     Mistake(
         "where it does not fall for the elevator's kG",
         ANSWERS,
-        of("elevator_kG", lambda right: right["elevator_kG"] - right["elevator_kS"]),
+        number("elevator_kG", lambda right: right["elevator_kG"] - right["elevator_kS"]),
         "elevator-kg",
         "an edge of the band",
         EDGE,
@@ -70,7 +42,7 @@ MISTAKES = (
     Mistake(
         "both edges added up",
         ANSWERS,
-        of("elevator_kG", lambda right: 2.0 * right["elevator_kG"]),
+        number("elevator_kG", lambda right: 2.0 * right["elevator_kG"]),
         "elevator-kg",
         "added up",
         EDGE,
@@ -78,7 +50,7 @@ MISTAKES = (
     Mistake(
         "the whole band for the elevator's kS",
         ANSWERS,
-        of("elevator_kS", lambda right: 2.0 * right["elevator_kS"]),
+        number("elevator_kS", lambda right: 2.0 * right["elevator_kS"]),
         "elevator-ks",
         "the whole width",
         EDGE,
@@ -86,7 +58,7 @@ MISTAKES = (
     Mistake(
         "a quarter of the band for the arm's kS",
         ANSWERS,
-        of("arm_kS", lambda right: right["arm_kS"] / 2.0),
+        number("arm_kS", lambda right: right["arm_kS"] / 2.0),
         "arm-ks",
         "a quarter of the width",
         EDGE,
@@ -94,7 +66,7 @@ MISTAKES = (
     Mistake(
         "gravity and friction in one",
         ANSWERS,
-        of("elevator_kS", lambda right: right["elevator_kG"] + right["elevator_kS"]),
+        number("elevator_kS", lambda right: right["elevator_kG"] + right["elevator_kS"]),
         "elevator-ks",
         "in one",
         SIMPLE,
@@ -102,18 +74,23 @@ MISTAKES = (
     Mistake(
         "no gravity at all",
         ANSWERS,
-        of("elevator_kG", lambda _: 0.0),
+        number("elevator_kG", lambda _: 0.0),
         "elevator-kg",
         "takes nothing",
         SIMPLE,
     ),
     Mistake(
-        "kG and kS swapped", ANSWERS, numbers(swapped), "elevator-kg", "swapped?", "M-ARGORDER"
+        "kG and kS swapped",
+        ANSWERS,
+        exchanged("elevator_kG", "elevator_kS"),
+        "elevator-kg",
+        "swapped?",
+        "M-ARGORDER",
     ),
     Mistake(
         "an edge for the arm's kG",
         ANSWERS,
-        of("arm_kG", lambda right: right["arm_kG"] + right["arm_kS"]),
+        number("arm_kG", lambda right: right["arm_kG"] + right["arm_kS"]),
         "arm-kg",
         "an edge of the band",
         EDGE,
@@ -121,7 +98,7 @@ MISTAKES = (
     Mistake(
         "the reading taken for the angle",
         ANSWERS,
-        of(
+        number(
             "arm_kG",
             lambda right: right["arm_kG"] * math.cos(math.radians(right["arm_offset"])),
         ),
@@ -131,7 +108,7 @@ MISTAKES = (
     Mistake(
         "degrees in the cosine",
         ANSWERS,
-        of("arm_kG", in_degrees),
+        number("arm_kG", in_degrees),
         "arm-kg",
         "counts in radians",
         UNITS,
@@ -139,14 +116,14 @@ MISTAKES = (
     Mistake(
         "the offset turned around",
         ANSWERS,
-        of("arm_offset", lambda right: -right["arm_offset"]),
+        number("arm_offset", lambda right: -right["arm_offset"]),
         "arm-offset",
         "the sign is not",
     ),
     Mistake(
         "the offset in radians",
         ANSWERS,
-        of("arm_offset", lambda right: math.radians(right["arm_offset"])),
+        number("arm_offset", lambda right: math.radians(right["arm_offset"])),
         "arm-offset",
         "in radians?",
         UNITS,
@@ -154,14 +131,14 @@ MISTAKES = (
     Mistake(
         "the offset from vertical",
         ANSWERS,
-        of("arm_offset", lambda right: right["arm_offset"] - 90.0),
+        number("arm_offset", lambda right: right["arm_offset"] - 90.0),
         "arm-offset",
         "from vertical?",
     ),
     Mistake(
         "cosine over sine for the tangent",
         ANSWERS,
-        of(
+        number(
             "arm_offset",
             lambda right: math.copysign(90.0, right["arm_offset"]) - right["arm_offset"],
         ),

@@ -1,35 +1,11 @@
 """Wrong answers to exercise 9, and what a learner must be told about each."""
 
 import math
-import re
-from collections.abc import Callable, Mapping
 
-from grader.mistake import Mistake, replacing
+from grader.mistake import Mistake, exchanged, number, replacing, scaled
 
 ANSWERS = "answers.toml"
 RAMP, PERIOD = 0.5, 0.02  # [V/s], [s] of the learner's log
-LINE = re.compile(r"^(?P<name>\w+) = (?P<value>[-\d.e]+)", re.MULTILINE)
-
-Gains = Mapping[str, float]
-
-
-def gains(change: Callable[[Gains], Gains]) -> Callable[[str], str]:
-    """Make a wrong text by changing some of the numbers in the right one."""
-
-    def make(text: str) -> str:
-        right = {found["name"]: float(found["value"]) for found in LINE.finditer(text)}
-        wrong = {**right, **change(right)}
-        if wrong == right:
-            raise ValueError("the solution has none of the numbers to change")
-        return LINE.sub(lambda found: f"{found['name']} = {wrong[found['name']]:.6g}", text)
-
-    return make
-
-
-def scaled(factor: float, *names: str) -> Callable[[str], str]:
-    """Make a wrong text by multiplying some of the numbers."""
-    return gains(lambda right: {name: right[name] * factor for name in names})
-
 
 MISTAKES = (
     Mistake("nothing for kV", ANSWERS, replacing(("kV = ", 'kV = "" # ')), "kv", "nothing yet"),
@@ -60,7 +36,7 @@ MISTAKES = (
     Mistake(
         "kS and kV swapped",
         ANSWERS,
-        gains(lambda right: {"kS": right["kV"], "kV": right["kS"]}),
+        exchanged("kS", "kV"),
         "kv",
         "swapped?",
         "M-ARGORDER",
@@ -68,7 +44,7 @@ MISTAKES = (
     Mistake(
         "kS where the line through the slow ramp crosses zero",
         ANSWERS,
-        gains(lambda right: {"kS": right["kS"] + max(0.05, RAMP * right["kA"] / right["kV"])}),
+        number("kS", lambda right: right["kS"] + max(0.05, RAMP * right["kA"] / right["kV"])),
         "ks",
         "crosses v = 0",
         "M-KS-INTERCEPT",

@@ -1,0 +1,66 @@
+"""What a learner is given to work on, written where it is not there as it was made."""
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from grader.variant import folder_name
+from sim.errors import BadRequest
+
+Made = str | bytes | Callable[[Path], None]
+
+
+def hand_out(
+    files: Mapping[str, Made],
+    *,
+    exercise: Path,
+    student: str,
+    what: str,
+    say: Callable[[str], None],
+) -> None:
+    """Write a learner's own files into ``data/<student>`` of an exercise.
+
+    Files that are there as they were made stay untouched; others are made anew, and it is said.
+
+    Args:
+        files: name -> its text, its bytes, or what writes it to a path.
+        exercise: the exercise's folder.
+        student: for whom.
+        what: what the files are to the learner: ``numbers``, ``log``.
+        say: shows a line.
+
+    Raises:
+        BadRequest: they cannot be written.
+    """
+    folder = exercise / "data" / folder_name(student)
+    place = (folder / next(iter(files))).relative_to(exercise.parents[1]).as_posix()
+    there = any((folder / name).is_file() for name in files)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        news = [_put(made, folder / name) for name, made in files.items()]
+    except OSError as error:
+        raise BadRequest(
+            f"your {what} cannot be written: {error.strerror}",
+            where=str(folder),
+            advice="Make room there, or allow writing.",
+        ) from error
+    number = exercise.name.removeprefix("exercise")
+    if any(news) and there:
+        was = "were" if what.endswith("s") else "was"
+        say(f"Your {what} {was} no longer as made; written anew: {place}")
+    elif any(news):
+        say(f"Your own {what} for exercise {number}: {place}")
+
+
+def _put(made: Made, path: Path) -> bool:
+    """Write one file; whether it is new, or was not as it was made."""
+    part = path.with_name(f"{os.getpid()}.part{path.suffix}")
+    if callable(made):
+        made(part)
+    else:
+        part.write_bytes(made.encode() if isinstance(made, str) else made)
+    if path.is_file() and path.read_bytes() == part.read_bytes():
+        part.unlink()
+        return False
+    part.replace(path)
+    return True

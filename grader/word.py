@@ -1,0 +1,65 @@
+"""A word for an answer: one out of a list, however it is written."""
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+
+from grader.check import Wrong
+
+LONGEST = 40  # [characters] of a wrong word shown back
+
+
+def plain(text: str) -> str:
+    """A word without what people write it differently by: case, blanks, dots, parentheses."""
+    return re.sub(r"[^a-z0-9]", "", re.sub(r"\(.*|^.*\.(?=\w)|\bnew\b", "", text.strip().lower()))
+
+
+def word(raw: object, choices: Sequence[str], *, also: Mapping[str, str] | None = None) -> str:
+    """Read one of the choices.
+
+    Args:
+        raw: what was given.
+        choices: the words there are.
+        also: other spellings -> the choice that is meant.
+
+    Raises:
+        Wrong: nothing was given, or none of the choices.
+    """
+    ask = f"Choose one of: {', '.join(choices)}."
+    if raw is None or raw == "":
+        raise Wrong("nothing yet", hint=ask)
+    if not isinstance(raw, str):
+        raise Wrong(f"{raw}, which is not a word", hint=ask)
+    known = {plain(one): one for one in choices}
+    known |= {plain(other): one for other, one in (also or {}).items()}
+    found = known.get(plain(raw))
+    if found is None:
+        raise Wrong(f'"{raw[:LONGEST]}", which is none of them', hint=ask)
+    return found
+
+
+def judge_word(
+    raw: object,
+    right: str,
+    choices: Sequence[str],
+    *,
+    why: Callable[[str], tuple[str, str]],
+    also: Mapping[str, str] | None = None,
+) -> None:
+    """Hold a word against the right one.
+
+    Args:
+        raw: what was given.
+        right: the right one of the choices.
+        choices: the words there are.
+        why: what to say of a wrong choice: a hint that does not name the right one, and the
+            misconception's code, or empty.
+        also: other spellings -> the choice that is meant.
+
+    Raises:
+        Wrong: it is not the right one, or none of the choices.
+    """
+    found = word(raw, choices, also=also)
+    if found == right:
+        return
+    hint, code = why(found)
+    raise Wrong(f'"{str(raw)[:LONGEST]}"', hint=hint, misconception=code)
