@@ -7,10 +7,11 @@ import sys
 import pytest
 from dataset_made import DAMAGED, PLAIN, files, key, make, process, spec, sysid
 
-from sim.dataset import cluster
+from sim.dataset.making import make as make_log
 from sim.dataset.plan import plan
 from sim.dataset.secret import find_secret
 from sim.dataset.spec import read_spec
+from sim.work import cluster
 
 needs_dask = pytest.mark.skipif(
     importlib.util.find_spec("distributed") is None,
@@ -67,7 +68,7 @@ def test_a_refusal_on_a_worker_comes_back_as_one(tmp_path, address):
     asked = read_spec(spec(tmp_path, PLAIN + late))  # a test of 1 s drives for 0.96 s
     jobs = plan(asked, find_secret(asked, make=False))
 
-    found = list(cluster.made_on_cluster(jobs, address=address))
+    found = list(cluster.done_on_cluster(make_log, jobs, address=address))
 
     assert {one.job for one in found} == set(jobs)
     assert all("0.99 s is not within dynamic-forward" in one.what for one in found)
@@ -82,7 +83,7 @@ def test_a_cluster_that_is_lost_is_one_line(tmp_path, monkeypatch):
     with distributed.LocalCluster(
         n_workers=1, processes=False, protocol="tcp", dashboard_address="127.0.0.1:0"
     ) as found:
-        making = cluster.made_on_cluster(jobs, address=found.scheduler_address)
+        making = cluster.done_on_cluster(make_log, jobs, address=found.scheduler_address)
         next(making)
         found.close()
         with pytest.raises(cluster.BadRequest, match="was lost .* again to go on"):

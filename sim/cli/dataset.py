@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from sim.dataset.spec import Spec
 
 
+WORTH = 50  # [logs] that a further process has to save, to be worth its start
+
+
 @click.command()
 @click.argument("spec", type=FILE)
 @click.option("-o", "--output", type=FILE, help="Folder for the logs.")
@@ -84,10 +87,11 @@ def _make(
     cluster: str | None,
 ) -> int:
     """Make what is not there yet."""
-    from sim.dataset.cluster import made_on_cluster  # noqa: PLC0415 - --help must not wait
-    from sim.dataset.interrupt import noted  # noqa: PLC0415 - the same
+    from sim.dataset.making import make  # noqa: PLC0415 - --help must not wait
     from sim.dataset.run import finish, look, rehearse  # noqa: PLC0415 - the same
-    from sim.dataset.workers import cores, made_here  # noqa: PLC0415 - the same
+    from sim.work.cluster import done_on_cluster  # noqa: PLC0415 - the same
+    from sim.work.here import cores, done_here  # noqa: PLC0415 - the same
+    from sim.work.interrupt import noted  # noqa: PLC0415 - the same
 
     found = look(place, jobs, secret=secret, overwrite=overwrite)
     rehearse(found.todo)
@@ -105,9 +109,9 @@ def _make(
                 place,
                 found,
                 maker=lambda todo: (
-                    made_on_cluster(todo, address=cluster)
+                    done_on_cluster(make, todo, address=cluster)
                     if cluster
-                    else made_here(todo, processes=processes or cores())
+                    else done_here(make, todo, processes=processes or cores(), worth=WORTH)
                 ),
                 dataset=asked.name,
                 secret=secret,

@@ -1,37 +1,39 @@
-"""Making the jobs on more than one machine: a Dask cluster, the extra ``cluster``.
+"""The machines of a Dask cluster, the extra ``cluster``.
 
-A worker gets a job and gives back bytes, and this process writes them: machines need this package
-in the same version, and neither the spec, nor the secret, nor a disk in common. A job's seed and
-the truth about its log do travel: over a network that is not one's own, use ``tls://``.
+A worker gets a job and gives back plain data, and this process writes it: machines need this
+package in the same version, and no disk in common. What a job holds does travel, be it a seed, the
+truth about a log or a learner's answer: over a network that is not one's own, use ``tls://``.
 """
 
 import logging
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from importlib import import_module
 from importlib.metadata import version
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeVar
 
-from sim.dataset.workers import AHEAD, made_by
 from sim.errors import BadRequest
+from sim.work.here import AHEAD, done_by
 
-if TYPE_CHECKING:
-    from sim.dataset.making import Failed, Made
-    from sim.dataset.plan import Job
+Job = TypeVar("Job")
+Result = TypeVar("Result")
 
 ADDRESS = re.compile(r"((tcp|tls|wss?)://)?(\[[0-9a-fA-F:]+\]|[^\s/:]+):\d{1,5}/?")
 PATIENCE = 10.0  # [s] until a scheduler has to answer
 US = "sysid-course"
 
 
-def made_on_cluster(jobs: Sequence["Job"], *, address: str) -> Iterator["Made | Failed"]:
-    """Make jobs on a Dask cluster.
+def done_on_cluster(
+    work: Callable[[Job], Result], jobs: Sequence[Job], *, address: str
+) -> Iterator[Result]:
+    """Do jobs on a Dask cluster.
 
     Args:
-        jobs: what to make.
+        work: does one job; a function of a module of this package.
+        jobs: what to do.
         address: of its scheduler: ``tcp://10.0.0.5:8786``.
 
     Raises:
@@ -41,7 +43,8 @@ def made_on_cluster(jobs: Sequence["Job"], *, address: str) -> Iterator["Made | 
     with _quiet(), _client(dask, address) as client:
         workers = _workers(client, address)
         try:
-            yield from made_by(client.get_executor(pure=False), jobs, ahead=AHEAD * workers)
+            executor = client.get_executor(pure=False)
+            yield from done_by(executor, work, jobs, ahead=AHEAD * workers)
         except Exception as error:  # whatever Dask makes of a connection that is gone
             lost = isinstance(error, CancelledError | OSError | dask.KilledWorker)
             if client.status == "running" and not lost:
