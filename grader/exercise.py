@@ -7,6 +7,8 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
     def read(path, *, student) -> Subject      what the checks look at; a Refusal if unreadable
     its checks                                 functions under @check, in the order they are shown
     def prepare(student, *, say) -> None       optional: makes what the learner works on
+    BESIDE : tuple[str, ...]                   optional: files to fill in that belong to the one
+                                               graded; ``read`` finds them beside its path
 
 What does not fit there stands in modules beside it: ``from .drawn import draw``.
 """
@@ -23,7 +25,7 @@ from types import ModuleType
 from typing import Any
 
 from grader.check import Check, Result, Status, run_all, skipped
-from grader.submission import find_files
+from grader.submission import find_files, whole_answer
 from sim.errors import BadRequest, Refusal
 
 HINTS = ("concept", "pointer", "step")  # from far to near
@@ -102,6 +104,11 @@ class Exercise:
         return tuple(self.module.FILES)
 
     @property
+    def beside(self) -> tuple[str, ...]:
+        """The files to fill in that belong to the one graded, and stand beside it."""
+        return tuple(getattr(self.module, "BESIDE", ()))
+
+    @property
     def title(self) -> str:
         """The first heading of its README, without its number."""
         text = (self.folder / "README.md").read_text(encoding="utf-8")
@@ -127,7 +134,8 @@ class Exercise:
             student: whose answer it is.
         """
         try:
-            files = find_files(given, folder=self.folder, names=self.files)
+            whole = whole_answer(given, names=self.files, beside=self.beside)
+            files = find_files(whole, folder=self.folder, names=self.files)
         except Refusal as refusal:
             return self._ungradable(str(refusal), student=student)
         return best([self._grade_file(file, student=student) for file in files])

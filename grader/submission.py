@@ -44,6 +44,32 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
     return tuple(own or like)
 
 
+def whole_answer(given: Path | None, *, names: Sequence[str], beside: Sequence[str]) -> Path | None:
+    """What to grade where a learner names a file that is only a part of the answer.
+
+    Args:
+        given: the file or folder the learner named, or None.
+        names: what the exercise's own files are called, the preferred one first.
+        beside: what the files are called that belong to them.
+
+    Returns:
+        The file the part belongs to; ``given`` itself where it is no part.
+
+    Raises:
+        UnreadableFile: the part stands alone.
+    """
+    if given is None or given.name not in beside or not given.is_file():
+        return given
+    for name in names:
+        if given.with_name(name).is_file():
+            return given.with_name(name)
+    raise UnreadableFile(
+        f"{names[0]} is not beside it, and the two are graded together",
+        where=str(given),
+        advice=f"Put your {names[0]} into the same folder.",
+    )
+
+
 def _filled(file: Path) -> bool:
     """Whether there is something in it: a package's empty ``__init__.py`` is nobody's answer."""
     return file.is_file() and file.stat().st_size > 0

@@ -43,7 +43,8 @@ def answered(tmp_path):
         folder = ROOT / "solutions" / name
         one = EXERCISES[name]
         if not (folder / "solve.py").is_file():
-            return {file: (folder / file).read_text(encoding="utf-8") for file in one.files}
+            named = (*one.files, *one.beside)
+            return {file: (folder / file).read_text(encoding="utf-8") for file in named}
         copy = tmp_path / "exercises" / name
         shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data"))
         moved = type(one)(name, copy)
@@ -54,10 +55,13 @@ def answered(tmp_path):
     return answer
 
 
-def grade(name, text, file, student, folder):
-    path = folder / file
-    path.write_text(text, encoding="utf-8")
-    return EXERCISES[name].grade(path, student=student)
+def grade(name, texts, file, student, folder):
+    """Grade one file of an answer, with what belongs to it beside it."""
+    one = EXERCISES[name]
+    file = one.files[0] if file in one.beside else file
+    for part in (file, *one.beside):
+        (folder / part).write_text(texts[part], encoding="utf-8")
+    return one.grade(folder / file, student=student)
 
 
 def test_there_are_exercises():
@@ -75,7 +79,7 @@ def test_an_exercise_has_a_task_hints_checks_and_mistakes(name):
     assert all(len(hint) > 40 for hint in one.hints)
     assert all(one.checks)
     assert len({check.id for check in one.checks}) == len(one.checks)
-    assert all((one.folder / file).is_file() for file in one.files)
+    assert all((one.folder / file).is_file() for file in (*one.files, *one.beside))
     assert len(mistakes_of(name)) >= 5
 
 
@@ -91,8 +95,9 @@ def test_the_starter_is_readable_and_wrong(name):
 @pytest.mark.parametrize("student", STUDENTS)
 @pytest.mark.parametrize("name", EXERCISES)
 def test_the_solution_gets_full_marks(name, student, answered, tmp_path):
-    for file, text in answered(name, student).items():
-        result = grade(name, text, file, student, tmp_path)
+    texts = answered(name, student)
+    for file in EXERCISES[name].files:
+        result = grade(name, texts, file, student, tmp_path)
 
         assert [check for check in result.checks if check.status != "passed"] == []
         assert (result.status, result.score) == ("passed", result.max_score)
@@ -101,8 +106,9 @@ def test_the_solution_gets_full_marks(name, student, answered, tmp_path):
 @pytest.mark.parametrize("student", STUDENTS)
 @pytest.mark.parametrize(("name", "mistake"), MISTAKES)
 def test_a_mistake_is_caught_and_named(name, mistake, student, answered, tmp_path):
-    text = answered(name, student)[mistake.file]
-    result = grade(name, mistake.make(text), mistake.file, student, tmp_path)
+    texts = answered(name, student)
+    texts[mistake.file] = mistake.make(texts[mistake.file])
+    result = grade(name, texts, mistake.file, student, tmp_path)
     (check,) = (one for one in result.checks if one.id == mistake.check)
 
     assert result.status == "failed"
@@ -119,7 +125,7 @@ def test_a_mistake_names_a_known_misconception(name, mistake):
 
 @pytest.mark.parametrize("name", EXERCISES)
 def test_a_starter_is_its_solution_with_the_answers_taken_out(name):
-    for file in EXERCISES[name].files:
+    for file in (*EXERCISES[name].files, *EXERCISES[name].beside):
         solution = ROOT / "solutions" / name / file
         if solution.is_file():
             starter = (EXERCISES[name].folder / file).read_text(encoding="utf-8")
