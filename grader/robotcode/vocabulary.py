@@ -129,6 +129,7 @@ COMMANDS = {
     "setVoltageOutput": Output.VOLTAGE,
     "setPower": Output.DUTY,
     "setDutyCycle": Output.DUTY,
+    "setThrottle": Output.DUTY,  # WPILib 2027's name of set
     "setPercentOutput": Output.DUTY,
     "tankDrive": Output.DUTY,
     "arcadeDrive": Output.DUTY,
@@ -215,7 +216,14 @@ SILENT = re.compile(  # methods that show or keep a value, and move nothing
 # Where a logged value comes from, by the methods it is read with.
 APPLIED_VOLTAGE = frozenset({"getMotorVoltage", "getMotorOutputVoltage", "getOutputVoltage"})
 APPLIED_DUTY = frozenset(
-    {"get", "getAppliedOutput", "getDutyCycle", "getMotorOutputPercent", "getPercentOutput"}
+    {
+        "get",
+        "getAppliedOutput",
+        "getDutyCycle",
+        "getThrottle",  # WPILib 2027's name of get
+        "getMotorOutputPercent",
+        "getPercentOutput",
+    }
 )
 BUS_VOLTAGE = frozenset(
     {
@@ -245,3 +253,33 @@ SIGNALS = {
     "acceleration": ("acceleration", ""),
     "value": ("other", ""),
 }
+
+# RobotPy wrote all of these as above up to 2026, and as `set_voltage`, `ramp_rate` since.
+SNAKES = "2027"
+PYTHON_WORDS = frozenset(
+    {
+        *(*CONFIG, *MECHANISM, *COMMANDS, *SIGNALS, *APPLIED_VOLTAGE, *APPLIED_DUTY, *BUS_VOLTAGE),
+        *("getVoltage", "getDistance", "getRate", "getPosition", "getVelocity", "getChannel"),
+        *("setInverted", "setDistancePerPulse", "setReverseDirection", "addFollower"),
+        *("runOnce", "andThen", "withTimeout", "withName", "whileTrue", "onTrue", "isTest"),
+        *("setDefaultCommand", "getName", "setName"),
+    }
+)
+
+
+def renamed(name: str) -> str:
+    """The season to which a RobotPy name belongs that was renamed: ``2027`` of ``set_voltage``.
+
+    Args:
+        name: a method, a keyword or a constant.
+
+    Returns:
+        ``2027``, ``2026`` for what was renamed then, or nothing for any other name.
+    """
+    if constant(name) in DIRECTIONS and name not in DIRECTIONS:
+        return SNAKES if name.isupper() else str(int(SNAKES) - 1)
+    if plain(name) not in PYTHON_WORDS:
+        return ""
+    if "hrottle" in name or plain(name) != name:
+        return SNAKES
+    return str(int(SNAKES) - 1) if name.lower() != name else ""

@@ -1,0 +1,51 @@
+"""Robot code run for real: RobotPy in WPILib's own simulation, against motors of ours.
+
+    file ──apart──▶ on_bench (a process of its own) ──▶ robot.wpilog, seen.json ──logged──▶ Ran
+
+``on_bench`` lets the real scheduler run the four tests of the learner's SysIdRoutine on a tired
+battery, while what the motor controllers put out moves a model that the encoders see. ``logged``
+holds the log that the robot wrote against what the bench saw. ``season`` knows when a program is
+written for another year than the RobotPy that is installed, ``contradiction`` puts what the run
+showed into words.
+
+A run takes about a second, needs the extra ``robot``, and executes what the learner wrote; whoever
+only wants to read never comes here.
+"""
+
+import tempfile
+from importlib.util import find_spec
+from pathlib import Path
+
+from grader.robotcode.bench.apart import GRACE, Start, alone, command
+from grader.robotcode.bench.ran import Driven, Outcome, Ran, Recorded
+
+__all__ = ["SECONDS", "Driven", "Outcome", "Ran", "Recorded", "installed", "run"]
+
+SECONDS = 10.0  # [s] a run takes 0.5 s alone on a machine, and several on one that is busy
+
+
+def installed() -> bool:
+    """Whether RobotPy is here to run code with."""
+    return all(find_spec(name) is not None for name in ("wpilib", "commands2"))
+
+
+def run(path: Path, name: str, *, start: Start = alone, seconds: float = SECONDS) -> Ran:
+    """Run the SysIdRoutine of a RobotPy file.
+
+    Args:
+        path: the learner's file.
+        name: the class of its subsystem.
+        start: starts the child; another one may put it under more limits.
+        seconds: after which a program that does not end is given up.
+
+    Returns:
+        What happened; whatever the learner's code does is an answer.
+    """
+    if not installed():
+        return Ran(Outcome.CANNOT, "RobotPy is not installed here")
+    from grader.robotcode.bench.logged import told  # noqa: PLC0415 - needs NumPy
+
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
+        folder = Path(place)
+        ended = start(command(path, name, folder, seconds=seconds), folder, seconds + GRACE)
+        return told(folder, path, ended=ended, seconds=seconds)

@@ -1,0 +1,49 @@
+"""The child: the one place that starts a learner's code, in a process and a folder of its own."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from grader.robotcode.bench import on_bench
+
+# Starts a program in a folder, for at most so many seconds; whether it ended by itself.
+Start = Callable[[Sequence[str], Path, float], bool]
+
+KEPT = ("PATH", "SYSTEMROOT", "SYSTEMDRIVE", "TEMP", "TMP", "HOME", "USERPROFILE", "LANG")
+GRACE = 2.0  # [s] the child gives up by itself, and says where it was; after that it is ended
+
+
+def command(file: Path, name: str, folder: Path, *, seconds: float) -> list[str]:
+    """The program to start: it leaves ``seen.json`` and ``robot.wpilog`` in the folder.
+
+    Args:
+        file: the learner's.
+        name: its subsystem's class.
+        folder: where the results go.
+        seconds: after which it gives up by itself.
+    """
+    script = str(Path(on_bench.__file__).resolve())
+    return [
+        *(sys.executable, "-B", "-P", script),
+        *(str(file.resolve()), name, str(folder.resolve()), f"{seconds:g}"),
+    ]
+
+
+def alone(program: Sequence[str], folder: Path, seconds: float) -> bool:
+    """Start a program in a process of its own: a limit of time, no words, few variables."""
+    try:
+        subprocess.run(  # noqa: S603 - our own interpreter and script, no shell
+            program,
+            cwd=folder,
+            env={name: os.environ[name] for name in KEPT if name in os.environ},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            timeout=seconds,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return False
+    return True

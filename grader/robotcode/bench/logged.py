@@ -1,0 +1,239 @@
+"""What the child left behind, in facts: the robot's own log held against what the bench saw."""
+
+import json
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from grader.robotcode.bench.ran import Driven, Outcome, Ran, Recorded
+from grader.robotcode.bench.season import of_another
+from sim.errors import Refusal
+from sim.formats import read
+from sim.formats.wpilog.contents import contents_of
+from sim.formats.wpilog.records import load
+from sim.log import Array, Log, Run
+from sim.units import unit
+
+STATE = "sysid-test-state-"
+MOVED = 0.05  # [any unit] less motion than this tells nothing
+AWAKE = 0.5  # [V] below this the steps of a PWM signal, 20 mV, count too much
+FOLLOWS = 0.02  # relative misfit up to which a position follows an encoder
+LONGEST = 20.0  # [s] as in on_bench
+LOW = (0.85, 1.15)  # [s] of a dynamic test: the battery is low, and nothing jumps
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What the bench saw in every loop of a test.
+
+    Args:
+        test: (n,) name of the test.
+        time, asked: (n,) [s], [V].
+        applied: (n, motors) [V].
+        distance: (n, encoders) in the program's own unit.
+    """
+
+    test: NDArray[np.str_]
+    time: Array
+    asked: Array
+    applied: Array
+    distance: Array
+
+    def during(self, run: Run) -> "Seen":
+        """The loops of one test, at the log's own samples."""
+        rows = np.flatnonzero(self.test == run.test)
+        rows = rows[np.clip(np.searchsorted(self.time[rows], run.time - 1e-4), 0, rows.size - 1)]
+        return Seen(
+            self.test[rows],
+            self.time[rows],
+            self.asked[rows],
+            self.applied[rows],
+            self.distance[rows],
+        )
+
+
+def told(folder: Path, file: Path, *, ended: bool, seconds: float) -> Ran:
+    """The facts.
+
+    Args:
+        folder: where the child left its results.
+        file: the learner's file.
+        ended: whether the child ended by itself.
+        seconds: how long it was given.
+    """
+    try:
+        seen = json.loads((folder / "seen.json").read_text(encoding="utf-8"))
+        return _facts(seen, folder, file)
+    except FileNotFoundError:
+        return _gone(folder, file, ended=ended, seconds=seconds)
+    except (ValueError, KeyError, TypeError, IndexError, AttributeError):
+        return Ran(Outcome.CANNOT, "the run left nothing that can be read")
+
+
+def _gone(folder: Path, file: Path, *, ended: bool, seconds: float) -> Ran:
+    """The child left no word: it hung, or ended itself."""
+    hung = folder / "endless.txt"
+    where = hung.read_text(encoding="utf-8", errors="replace") if hung.is_file() else ""
+    if ended and not where:
+        return Ran(Outcome.CRASHED, "your code ended the robot program in the middle of a test")
+    stack = re.findall(r'File "(.*)", line (\d+) in (\w+)', where)
+    lines = [int(line) for name, line, _ in stack if Path(name).name == file.name]
+    inside = [name for _, _, name in stack if name in {"drive_callback", "log_callback"}]
+    line = lines[0] if lines else 0
+    place = f"{file.name}, line {line}: " if line else ""
+    said = f"{place}this did not come to an end within {seconds:g} s"
+    callback = inside[0].removesuffix("_callback") if inside else ""
+    return Ran(Outcome.ENDLESS, said, line, callback)
+
+
+def _facts(seen: dict[str, Any], folder: Path, file: Path) -> Ran:
+    if "cannot" in seen:
+        return Ran(Outcome.CANNOT, str(seen["cannot"]))
+    if "crash" in seen:
+        return _crash(seen["crash"], file)
+    columns = list(zip(*seen["rows"], strict=True))
+    if not columns:
+        return Ran(Outcome.CANNOT, "no test ever began")
+    numbers = [np.array(column, dtype=np.float64) for column in columns[1:5]]
+    trace = Seen(np.array(columns[0], dtype=np.str_), *numbers)
+    lasted = float(seen["lasted"]["quasistatic-forward"])
+    slow = np.flatnonzero(trace.test == "quasistatic-forward")
+    fast = np.flatnonzero(trace.test == "dynamic-forward")
+    facts: dict[str, Any] = {
+        "ramp": float(np.polyfit(trace.time[slow], trace.asked[slow], 1)[0]),
+        "step": float(np.median(trace.asked[fast])),
+        "timeout": math.inf if lasted >= LONGEST else round(lasted, 1),
+        "motors": _driven(seen["motors"], trace, slow),
+        "per_pulse": tuple(float(size) for size in seen["per_pulse"]),
+    }
+    return _with_log(folder / "robot.wpilog", trace, facts)
+
+
+def _crash(crash: dict[str, Any], file: Path) -> Ran:
+    """One line of a learner's traceback; the other season's names are nobody's mistake."""
+    error, line = str(crash["error"]), int(crash["line"])
+    other = of_another(error, file.read_text(encoding="utf-8", errors="replace"))
+    if other:
+        return Ran(Outcome.CANNOT, other)
+    place = f"{crash['file']}, line {line}: " if line else ""
+    return Ran(Outcome.CRASHED, f"{place}{error}", line, str(crash["where"]))
+
+
+def _driven(names: list[str], trace: Seen, slow: NDArray[np.intp]) -> tuple[Driven, ...]:
+    driven = []
+    for number, name in enumerate(names):
+        got, awake = trace.applied[slow, number], np.abs(trace.asked[slow]) > AWAKE
+        share = _share(got[awake], trace.asked[slow][awake]) or 0.0
+        late = slow[-max(1, slow.size // 5)]  # well before the end, where nothing limits it yet
+        at = float(trace.applied[late, number]), float(trace.asked[late])
+        driven.append(Driven(str(name), round(share, 4), *at))
+    return tuple(driven)
+
+
+def _with_log(path: Path, trace: Seen, facts: dict[str, Any]) -> Ran:
+    try:
+        names, tests = _names(path)
+        logs = [read(path, motor=name) for name in names]
+    except Refusal as refusal:
+        return Ran(Outcome.RAN, **facts, lacking=refusal.what)
+    recorded = tuple(_recorded(name, log, trace) for name, log in zip(names, logs, strict=True))
+    return Ran(Outcome.RAN, **facts, tests=tests, recorded=recorded)
+
+
+def _names(path: Path) -> tuple[list[str], tuple[str, ...]]:
+    """The motors of the log that have a voltage, a position and a velocity; its tests."""
+    entries = contents_of(load(path)).entries
+    state = next((one for one in entries if one.name.startswith(STATE)), None)
+    if state is None:
+        return [], ()
+    end = "-" + state.name.removeprefix(STATE)
+    there: dict[str, set[str]] = {}
+    for one in entries:
+        signal, _, rest = one.name.partition("-")
+        if rest.endswith(end) and signal in {"voltage", "position", "velocity"}:
+            there.setdefault(rest.removesuffix(end), set()).add(signal)
+    tests = dict.fromkeys(run.test for run in read(path).runs)
+    return [name for name, signals in there.items() if len(signals) == 3], tuple(tests)  # noqa: PLR2004 - all three
+
+
+def _recorded(name: str, log: Log, trace: Seen) -> Recorded:
+    pairs = [(run, trace.during(run)) for run in log.runs if run.test in trace.test]
+    voltage = np.concatenate([run.voltage for run, _ in pairs])
+    asked = np.concatenate([seen.asked for _, seen in pairs])
+    applied = np.concatenate([seen.applied for _, seen in pairs])
+    motor = int(np.argmin(np.abs(applied - voltage[:, None]).sum(axis=0)))
+    got = applied[:, motor]
+    awake = np.abs(got) > AWAKE
+    kept, lowered = _low(pairs, motor)
+    encoder, scale = _followed(pairs, size=unit(log.units).si)
+    as_asked = bool(np.ptp(voltage) > 0 and np.allclose(voltage, asked, rtol=0, atol=1e-9))
+    return Recorded(
+        name,
+        _share(voltage[awake], got[awake]),
+        as_asked and not np.allclose(got, asked, rtol=0, atol=1e-9),
+        kept,
+        lowered,
+        _rate(pairs),
+        _forward(pairs),
+        scale,
+        encoder,
+        unit(log.units).angular,
+    )
+
+
+def _share(part: Array, whole: Array) -> float | None:
+    """How many times ``whole`` fits ``part`` best; None where there is nothing to fit."""
+    square = float(whole @ whole)
+    return float(part @ whole) / square if square > 0 else None
+
+
+def _low(pairs: list[tuple[Run, Seen]], motor: int) -> tuple[float, float]:
+    """Logged and real voltage while the battery was low."""
+    for run, seen in pairs:
+        if run.test == "dynamic-forward":
+            passed = run.time - run.time[0]
+            low = (passed > LOW[0]) & (passed < LOW[1])
+            if low.any():
+                return float(run.voltage[low].mean()), float(seen.applied[low, motor].mean())
+    return 0.0, 0.0
+
+
+def _rate(pairs: list[tuple[Run, Seen]]) -> float | None:
+    """The logged velocities over the slopes of the logged positions, by least squares."""
+    slopes, rates = [], []
+    for run, _ in pairs:
+        if len(run) > 2 and np.ptp(run.position) > MOVED:  # noqa: PLR2004 - a slope in the middle
+            slopes.append(np.gradient(run.position, run.time)[1:-1])
+            rates.append(run.velocity[1:-1])
+    return _share(np.concatenate(rates), np.concatenate(slopes)) if slopes else None
+
+
+def _forward(pairs: list[tuple[Run, Seen]]) -> bool | None:
+    volts = np.concatenate([run.voltage for run, _ in pairs])
+    speeds = np.concatenate([run.velocity for run, _ in pairs])
+    moving = (np.abs(volts) > AWAKE) & (np.abs(speeds) > MOVED)
+    return bool((volts * speeds)[moving].sum() > 0) if moving.any() else None
+
+
+def _followed(pairs: list[tuple[Run, Seen]], *, size: float) -> tuple[int | None, float | None]:
+    """The encoder that a logged position follows, and how many times larger it is."""
+    position = np.concatenate([run.position - run.position[0] for run, _ in pairs]) / size
+    best: tuple[float, int, float] | None = None
+    for number in range(pairs[0][1].distance.shape[1]):
+        truth = np.concatenate(
+            [seen.distance[:, number] - seen.distance[0, number] for _, seen in pairs]
+        )
+        scale = _share(position, truth)
+        if not scale:
+            continue
+        misfit = float(
+            np.linalg.norm(position - scale * truth) / abs(scale) / np.linalg.norm(truth)
+        )
+        if misfit < FOLLOWS and (best is None or misfit < best[0]):
+            best = misfit, number, scale
+    return (None, None) if best is None else (best[1], round(best[2], 5))
