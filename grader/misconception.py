@@ -31,14 +31,14 @@ MISCONCEPTIONS: dict[str, str] = {
     "heavier robot gets up to speed more slowly, which is kA, and then needs the same volts.",
     "M-BELOW-THEORY-OK": "No mechanism is faster than its motor's free speed allows. A kV below "
     "theory is not a good robot, but a mistake in what was written down.",
-    "M-LIMITS-BYPASSED": "A test takes the place of your own commands, and so goes around the limits "
+    "M-LIMITS-BYPASSED": "A test takes the place of your own commands, and goes around the limits "
     "in them. Limits set inside the motor controller go on acting, and then they are in your data.",
     "M-FF-EXACT": "A feedforward is as good as its model, its gains and the day: a few percent are "
     "always left, and feedback is there for them.",
     "M-KP-EXACT": "Proportional feedback makes its volts out of an error, so some of the error has "
     "to stay. A larger kP leaves less of it, never none.",
-    "M-HEAVIER-MORE-KS": "Dry friction comes from bearings, gears and belts. Weight makes kG and kA "
-    "larger, and kS hardly.",
-    "M-SAG-ALWAYS-BAD": "A battery that sags does no harm to a fit on applied volts, as long as the "
-    "volts asked for can still be had.",
+    "M-HEAVIER-MORE-KS": "Dry friction comes from bearings, gears and belts. Weight makes kG and "
+    "kA larger, and kS hardly.",
+    "M-SAG-ALWAYS-BAD": "A battery that sags does no harm to a fit on applied volts, as long as "
+    "the volts asked for can still be had.",
 }

@@ -1,0 +1,100 @@
+"""A question with options under letters, which stand in another order for every learner."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from grader.check import Wrong
+
+LETTERS = "abcdefghijklmnop"
+SHORTEST = 4  # [characters] of an option's beginning that may stand for it
+LONGEST = 60  # [characters] of an answer shown back
+
+
+@dataclass(frozen=True)
+class Option:
+    """One thing to choose.
+
+    Args:
+        text: what the learner reads.
+        says: why it is wrong, without naming the right one; a note where it is right.
+        code: the misconception behind it, or empty.
+        share: [1] of the points it earns: 1 is right.
+    """
+
+    text: str
+    says: str = ""
+    code: str = ""
+    share: float = 0.0
+
+
+@dataclass(frozen=True)
+class Question:
+    """Something that is asked, with its options.
+
+    Args:
+        name: as in the answer file, ``KC1_answer``.
+        asks: the question, with ``{}`` fields for the learner's own numbers.
+        options: in the order they were written, which nobody sees.
+    """
+
+    name: str
+    asks: str
+    options: tuple[Option, ...]
+
+    def chosen(self, raw: object, letters: Mapping[str, Option]) -> Option:
+        """The option a learner means: by its letter, or by its first words.
+
+        Args:
+            raw: as it stands in the answer file.
+            letters: this learner's letter -> option.
+
+        Raises:
+            Wrong: nothing was given, or nothing that means one of them.
+        """
+        ask = f"Write one letter, {', '.join(letters)}: as in your questions.md."
+        if raw is None or raw == "":
+            raise Wrong("nothing yet", hint=ask)
+        if not isinstance(raw, str):
+            raise Wrong(f"{str(raw)[:LONGEST]}, which is not a letter", hint=ask)
+        given = plain(raw)
+        if given in letters:
+            return letters[given]
+        same = [one for one in self.options if plain(one.text) == given]
+        like = same or [one for one in self.options if plain(one.text).startswith(given)]
+        if (len(given) < SHORTEST and not same) or len(like) != 1:
+            raise Wrong(f'"{raw[:LONGEST]}", which is none of them', hint=ask)
+        return like[0]
+
+
+def plain(text: str) -> str:
+    """A text without what people write it differently by: case, blanks, full stops."""
+    return re.sub(r"[^a-z0-9+-]+", " ", text.lower()).strip()
+
+
+def lettered(options: Sequence[Option], order: Sequence[int]) -> dict[str, Option]:
+    """Letter -> option, in a learner's own order."""
+    return {LETTERS[place]: options[index] for place, index in enumerate(order)}
+
+
+def judged(chosen: Option, *, points: float) -> str | None:
+    """Hold the chosen option against what is right.
+
+    Returns:
+        A note, if there is something to say about it all the same.
+
+    Raises:
+        Wrong: it is not right, or only in part.
+    """
+    if chosen.share == 1.0:
+        return chosen.says or None
+    raise Wrong(
+        f'"{_short(chosen.text)}"',
+        hint=chosen.says,
+        misconception=chosen.code,
+        earned=chosen.share * points,
+    )
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1].rsplit(' ', 1)[0]} …"

@@ -1,0 +1,91 @@
+"""Wrong answers to exercise 11, and what a learner must be told about each."""
+
+from grader.mistake import Mistake, number, put
+
+ANSWERS = "answers.toml"
+
+
+def chose(name: str, words: str, says: str, code: str = "") -> Mistake:
+    """A wrong option, chosen by its first words: letters are everybody's own."""
+    check = name.lower().replace("_", "-")
+    return Mistake(f"{name}: {words}", ANSWERS, put(name, f'"{words}"'), check, says, code)
+
+
+MISTAKES = (
+    Mistake("nothing chosen", ANSWERS, put("KC1_answer", '""'), "kc1-answer", "nothing yet"),
+    Mistake("a number", ANSWERS, put("KC1_answer", "1"), "kc1-answer", "not a letter"),
+    Mistake("a letter too far", ANSWERS, put("KC1_answer", '"z"'), "kc1-answer", "one letter, a"),
+    chose("Q0_guess", "Which model of the physics", "records tests first"),
+    chose("Q0_sysid", "Which gain makes it behave", "asked anew"),
+    chose("Q0_brace", "kV", "does not stand in that formula", "M-KV-MASS"),
+    chose("Q0_brace", "none, as long", "more to move"),
+    chose("kA_use", "It tells the robot's top", "the term of kA is zero"),
+    chose("kS_flag", "Nothing: it is", "only raises its flag when"),
+    chose("null_consumer", "To the Driver", "a comment that many copy"),
+    chose("schedule", "In the practice match", "eight minutes between"),
+    chose("schedule", "As soon as the bare", "heavier", "M-KV-MASS"),
+    chose("KC1_answer", "The battery browned", "voltage would dip"),
+    chose("KC1_answer", "The log has a gap", "time stamps"),
+    chose("KC1_answer", "The mechanism hit", "stays there"),
+    chose("KC1_reason", "Hardly anything", "Errors are squared", "M-NOISE-AVERAGES"),
+    chose("KC1_reason", "R² falls", "stays above 0.9", "M-R2"),
+    chose("KC1_reason", "Nothing, once", "slow forward run is missing", "M-REVERSE-WASTE"),
+    chose("KC2_answer", "Raise kV", "on this day", "M-FF-EXACT"),
+    chose("KC2_answer", "Raise kA", "acceleration is zero"),
+    chose("KC2_answer", "Add a kP", "Feedback is part of it", "M-KP-EXACT"),
+    chose("KC2_reason", "With good gains", "from minute to minute", "M-FF-EXACT"),
+    chose("KC2_reason", "Proportional", "kP/kV", "M-KP-EXACT"),
+    chose("KC3_answer", "Raise kP", "divided by kP", "M-KP-EXACT"),
+    chose("KC3_answer", "Add kI", "swing up"),
+    chose("KC3_answer", "Use the mean", "Half as wrong"),
+    chose("KC3_answer", "Raise kV", "stands still", "M-KV-MASS"),
+    chose("KC3_reason", "A heavier arm has more friction", "helps an arm", "M-HEAVIER-MORE-KS"),
+    chose("KC3_reason", "SysId knows no", "finds kG", "M-NO-KG-IN-SYSID"),
+    Mistake(
+        "rpm as rotations per second",
+        ANSWERS,
+        number("KC2_volts", lambda right: 60.0 * right["KC2_volts"]),
+        "kc2-volts",
+        "rpm are rotations in a minute",
+        "M-UNITS",
+    ),
+    Mistake(
+        "an output for the voltage",
+        ANSWERS,
+        number("KC2_volts", lambda right: right["KC2_volts"] / 12.0),
+        "kc2-volts",
+        "volts",
+        "M-DUTY",
+    ),
+    Mistake(
+        "no test for the drivetrain",
+        ANSWERS,
+        put("drivetrain", '"usually not"'),
+        "decision-drivetrain",
+        "autonomous path",
+    ),
+    Mistake(
+        "a shooter that may be guessed",
+        ANSWERS,
+        put("shooter", '"optional"'),
+        "decision-shooter",
+        "3 % less speed",
+    ),
+    Mistake(
+        "always, without a reason that carries it",
+        ANSWERS,
+        put("conveyor", '"always"'),
+        "decision-conveyor",
+        "do better",
+    ),
+    Mistake(
+        "a word that is none",
+        ANSWERS,
+        put("arm", '"maybe"'),
+        "decision-arm",
+        "Choose one of: always, recommended, optional, usually not",
+    ),
+    Mistake(
+        "no reason", ANSWERS, put("climber_reason", '""'), "reason-climber", "letter of a reason"
+    ),
+)

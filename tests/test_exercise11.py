@@ -1,0 +1,156 @@
+"""Exercise 11: choosing an answer and a reason, and a decision with a reason that carries it."""
+
+import re
+import shutil
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from grader.cli import run
+from grader.exercise import Exercise
+from grader.misconception import MISCONCEPTIONS
+
+ROOT = Path(__file__).resolve().parents[1]
+OWN = Exercise("exercise11", ROOT / "exercises" / "exercise11")
+QUESTIONS = OWN.module.QUESTIONS
+POINTS = 7 * 1 + 3 * (2 + 2) + 1 + 7 * (1 + 1)  # short questions, knowledge checks, voltage, table
+
+
+@pytest.fixture
+def copy(tmp_path, monkeypatch):
+    """A copy of the exercise in a course of its own, in whose folder the command runs."""
+    folder = tmp_path / "exercises" / "exercise11"
+    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return Exercise("exercise11", folder)
+
+
+def graded(exercise, *, student="ann", **answers):
+    """The results of an answer, by check."""
+    path = exercise.folder / "answers.toml"
+    path.write_text("".join(f'{name} = "{value}"\n' for name, value in answers.items()), "utf-8")
+    return {check.id: check for check in exercise.grade(path, student=student).checks}
+
+
+def letter(student, name, words):
+    """Where an option stands for a student."""
+    letters = OWN.module.draw(student).letters[name]
+    (found,) = (one for one, option in letters.items() if option.text.startswith(words))
+    return found
+
+
+def right(student):
+    """All letters and numbers that are right for a student."""
+    variant = OWN.module.draw(student)
+    picks = {
+        name: next(one for one, option in letters.items() if option.share == 1.0)
+        for name, letters in variant.letters.items()
+    }
+    reasons = {key: one for one, key in variant.reasons.items()}
+    for row in OWN.module.ROWS:
+        picks |= {row.name: row.decision, f"{row.name}_reason": reasons[row.reasons[0]]}
+    return picks | {"KC2_volts": f"{variant.volts.expected:.4g}"}
+
+
+def test_fifty_students_can_earn_all_points(copy):
+    for number in range(50):
+        student = f"student {number}"
+        results = graded(copy, student=student, **right(student))
+
+        assert {check.status for check in results.values()} == {"passed"}
+        assert sum(check.points for check in results.values()) == POINTS
+
+
+def test_the_letters_of_a_neighbor_earn_little(copy):
+    earned = [
+        sum(check.points for check in graded(copy, student=f"student {n}", **right("ann")).values())
+        for n in range(20)
+    ]
+
+    assert sum(earned) / len(earned) < POINTS / 2  # decisions are words, and the same for all
+    assert right("ann") != right("ben")
+    assert right("ann") == right("Ann")
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_every_wrong_option_says_why_and_names_no_right_one(copy, name):
+    answers = [one for one in QUESTIONS[name].options if one.share == 1.0]
+    assert len(answers) == (2 if name == "KC1_answer" else 1)
+    for option in QUESTIONS[name].options:
+        check = graded(copy, **{name: letter("ann", name, option.text)})[
+            name.lower().replace("_", "-")
+        ]
+        assert (check.status == "passed") == (option.share == 1.0)
+        if option.share < 1.0:
+            assert check.points == pytest.approx(option.share * check.max_points)
+            assert len(check.hint) > 40
+            assert check.misconception in {"", *MISCONCEPTIONS}
+            for one in answers:
+                assert one.text not in check.hint
+                assert len(one.text) < 5 or f" {one.text[:20].lower()}" not in check.hint.lower()
+
+
+@pytest.mark.parametrize(
+    ("name", "words", "share"),
+    [
+        ("KC2_answer", "Add a kP", 0.6),
+        ("KC3_answer", "Raise kP", 0.4),
+        ("KC3_answer", "Add kI", 0.3),
+        ("KC3_answer", "Use the mean", 0.5),
+        ("KC3_answer", "Run SysId without", 0.0),
+    ],
+)
+def test_half_a_solution_earns_its_part(copy, name, words, share):
+    check = graded(copy, **{name: letter("ann", name, words)})[name.lower().replace("_", "-")]
+
+    assert check.points == pytest.approx(2 * share)
+
+
+@pytest.mark.parametrize(
+    ("row", "decision", "reason", "earned"),
+    [
+        ("intake", "usually not", "on-off", (1, 1)),
+        ("intake", "recommended", "if-speed", (1, 1)),
+        ("intake", "recommended", "motor", (0, 0)),
+        ("climber", "usually not", "place", (1, 1)),
+        ("climber", "Optional", "if-profile", (1, 1)),
+        ("climber", "always", "place", (0, 1)),
+        ("arm", "optional", "light", (1, 1)),
+        ("arm", "recommended", "light", (1, 0)),
+        ("arm", "optional", "angle", (0, 1)),
+        ("drivetrain", "optional", "path", (0, 1)),
+        ("elevator", "recommended", "heavy", (1, 0)),
+        ("conveyor", "usually not needed", "on-off", (1, 1)),
+    ],
+)
+def test_a_decision_of_ones_own_needs_a_reason_that_carries_it(copy, row, decision, reason, earned):
+    (own,) = (one for one, key in OWN.module.draw("ann").reasons.items() if key == reason)
+    results = graded(copy, **{row: decision, f"{row}_reason": own})
+
+    assert tuple(results[f"{kind}-{row}"].points for kind in ("decision", "reason")) == earned
+
+
+@pytest.mark.parametrize("written", ["{}", "{})", " {}. ", "({})", "kA"])
+def test_a_letter_may_be_written_in_many_ways(copy, written):
+    given = written.format(letter("ann", "Q0_brace", "kA").upper())
+
+    assert graded(copy, Q0_brace=given)["q0-brace"].status == "passed"
+
+
+@pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
+def test_the_questions_tell_the_numbers_and_not_the_answers(copy, student, capsys):
+    run(["11", "--student", student])
+    capsys.readouterr()
+    (file,) = (copy.folder / "data").glob("*/questions.md")
+    told = file.read_text("utf-8")
+    volts = OWN.module.draw(student).volts.expected
+
+    assert [
+        float(one) for one in re.findall(r"\d+\.\d+", told) if abs(float(one) - volts) < 0.02
+    ] == []
+    assert "{" not in told
+    assert all(f"### {name}" in told for name in QUESTIONS)
+    asked = tomllib.loads((OWN.folder / "answers.toml").read_text("utf-8"))
+    assert {*right(student)} == {*asked}
