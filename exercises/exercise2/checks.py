@@ -1,0 +1,170 @@
+"""Exercise 2: the kV from a log, held against the one the motor's free speed promises."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from grader.answer import Asked, Band, Key, judge, number
+from grader.check import Wrong, check
+from grader.given import hand_out
+from grader.slip import Scene
+from grader.submission import read_answers
+from grader.word import judge_word
+
+from .drawn import draw
+from .ranked import judge_list
+from .slips import lookalikes
+from .team import FLAGS, VERDICTS, Variant
+
+FILES = ("answers.toml",)
+FILE_MADE = "given.toml"
+HERE = Path(__file__).resolve().parent
+POINT = 1.0  # [%] that a difference may be off, or 1 % of measured over theory if that is more
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at."""
+
+    given: Mapping[str, object]
+    variant: Variant
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Write down the learner's numbers, where they are not there as they were made."""
+    made = {FILE_MADE: _told(draw(student))}
+    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
+
+
+def _told(variant: Variant) -> str:
+    """What a learner gets to know: parts, log, code, and what the team noticed."""
+    parts, symbol = variant.parts, variant.symbol
+    part = {"drivetrain": "wheel", "elevator": "drum"}.get(variant.kind, variant.kind)
+    lines = [
+        "# Your own numbers for exercise 2. Only read here; your answers go into answers.toml.",
+        "",
+        f'mechanism = "{variant.kind}"',
+        "",
+        "[log]  # what SysId made of the four tests",
+        f"kV = {variant.measured:g}  # [V·s/{symbol}]",
+        f"kS = {variant.friction:g}  # [V]",
+        f"typical_speed = {variant.speed:g}  # [{symbol}/s] in a match",
+        "",
+        "[parts]  # what is built in: two people counted the teeth and measured",
+        f'motor = "{parts.motor}"',
+        f"motors = {parts.motors}",
+        f"free_speed = {parts.free_rpm:g}  # [rpm] of the motor at 12 V, by its data sheet",
+        f"ratio = {parts.ratio:g}  # turns of the motor for one turn of the {part}",
+    ]
+    if parts.diameter:
+        lines.append(f"{part}_diameter = {parts.diameter:g}  # [m]")
+    for title, about in (("code", "what the robot's code says"), ("noticed", "by the team")):
+        lines += ["", f"[{title}]  # {about}"]
+        lines += [f"{name} = {value}" for name, value in variant.told[title].items()]
+    return "\n".join(lines) + "\n"
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and what they are held against.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    return Answers(given, draw(student))
+
+
+@check(points=3)
+def kv_theory(answers: Answers) -> str | None:
+    """The kV that the free speed promises, on paper."""
+    variant = answers.variant
+    value = number(answers.given.get("kv_theory"), variant.asked)
+    nearest = min(variant.theories, key=lambda one: abs(one - value))
+    key = Key(
+        {"kV_theory": replace(variant.asked, expected=nearest)},
+        Scene(lookalikes={"kV_theory": lookalikes(variant)}),
+    )
+    return judge("kV_theory", {"kV_theory": answers.given["kv_theory"]}, key, points=3)
+
+
+@check(points=2)
+def difference(answers: Answers) -> None:
+    """How far the measured kV is above the one on paper, in percent."""
+    variant, raw = answers.variant, answers.given.get("difference")
+    raw = raw.replace("%", "").replace("percent", "") if isinstance(raw, str) else raw
+    value = number(raw, Asked("difference", 0.0, "", Band(0.0, 0.0)))
+    try:
+        theirs = number(answers.given.get("kv_theory"), variant.asked)
+    except Wrong:
+        theirs = 0.0
+    known = (*variant.theories, *((theirs,) if variant.right(theirs) else ()))
+    if any(_near(value, variant.percent(one), variant) for one in known):
+        return
+    if theirs > 0.0 and _near(value, variant.percent(theirs), variant):
+        says = "that follows from your kV_theory, but your kV_theory is not right yet"
+        raise Wrong(f"{value:.4g} %", hint=says, earned=1.0)
+    raise Wrong(f"{value:.4g} %", hint=_about_percent(value, variant))
+
+
+def _near(value: float, percent: float, variant: Variant) -> bool:
+    ratio = variant.measured / variant.parts.paper
+    return abs(value - percent) <= POINT * max(1.0, ratio)
+
+
+def _about_percent(value: float, variant: Variant) -> str:
+    """What a wrong percentage may have been."""
+    percent = variant.percent(variant.parts.paper)
+    undone = (
+        (100.0 * value, "that is a share. Asked for is percent, 100 times as much"),
+        (-value, "the size is right, the sign is not: above theory is positive, below negative"),
+        (value - 100.0, "that is measured in percent of theory. How much more than 100 % is it?"),
+        (100.0 * value - 100.0, "that is measured over theory. How much more than 1 is it?"),
+    )
+    for once, says in undone:
+        if _near(once, percent, variant):
+            return says
+    of_measured = 100.0 * (1.0 - variant.parts.paper / variant.measured)
+    if _near(value, of_measured, variant):
+        return "percent of what? Divide by the kV on paper, not by the measured one"
+    return "outside the accepted ±1 %. Take measured less theory, and divide by theory"
+
+
+@check(points=2)
+def verdict(answers: Answers) -> None:
+    """What the difference says: bookkeeping, ok, watch or inspect."""
+    right = answers.variant.verdict
+
+    def why(found: str) -> tuple[str, str]:
+        if right == "bookkeeping":
+            says = "can a mechanism be faster than its motor's free speed allows? Look at the sign"
+            return f"{says} of your difference", "M-BELOW-THEORY-OK"
+        if found == "bookkeeping":
+            return (
+                "that is for a kV below the one on paper. Which sign has your difference?",
+                "",
+            )
+        return "find your difference in the README's table, sign and all", ""
+
+    judge_word(answers.given.get("verdict"), right, VERDICTS, why=why)
+
+
+@check(points=3)
+def inspection(answers: Answers) -> str | None:
+    """What to look at, in the order you would look."""
+    return judge_list(answers.given.get("inspection"), answers.variant)
+
+
+@check(points=1)
+def ks_flag(answers: Answers) -> None:
+    """What kS says about friction: fine, watch or stop."""
+
+    def why(found: str) -> tuple[str, str]:
+        if found == "stop":
+            says = "stop is for more than kV times the typical speed. Work that out in volts"
+        elif found == "watch":
+            says = "hold kS against both bounds: 0.5 V, and kV times the typical speed"
+        else:
+            says = "is it less than 0.5 V? Then hold it against kV times the typical speed, too"
+        return says, ""
+
+    judge_word(answers.given.get("ks_flag"), answers.variant.flag, FLAGS, why=why)

@@ -1,0 +1,136 @@
+"""A team for each learner, with one thing that went wrong, or none."""
+
+from functools import lru_cache
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from grader.variant import generator
+
+from .slips import lookalikes
+from .team import NEAR, Parts, Variant, verdict
+
+if TYPE_CHECKING:
+    import numpy as np
+
+LABELS = {
+    "krakenX60": "Kraken X60",
+    "krakenX44": "Kraken X44",
+    "falcon500": "Falcon 500",
+    "neo": "NEO",
+    "neoVortex": "NEO Vortex",
+    "minion": "Minion",
+}
+BUILT = {  # kind -> motors, how many, ratios, diameters [m]
+    "drivetrain": (
+        ("krakenX60", "falcon500", "neo", "neoVortex"),
+        4,
+        (8.14, 7.36, 6.75, 5.9, 5.36),
+        (0.1016, 0.0953, 0.0889),
+    ),
+    "elevator": (("krakenX60", "neo", "neoVortex"), 2, (5.0, 7.5, 9.0, 10.0), (0.0364, 0.0444)),
+    "turret": (("krakenX44", "minion", "neo"), 1, (36.0, 45.0, 48.0, 54.0), (0.0,)),
+}
+CAUSES = ("none", "ratio", "radius", "voltage", "belt")
+FREE_DRAG = (0.035, 0.06)  # [share] that grease and seals cost a sound mechanism
+BAD_DRAG = (0.26, 0.36)  # [share] of what is tight or dry
+TIRED = (10.7, 11.1)  # [V] of a battery that a duty cycle passes on
+FRICTION = {"fine": (0.12, 0.38), "watch": (0.62, 1.1), "stop": (1.3, 1.7)}  # [V], [kV·speed]
+SPEED = (2.2, 3.4)  # [V] that the typical speed takes
+OFF = (0.08, 0.35)  # [share] that a wrong ratio is off by
+CLEAR = 0.7  # [%] from a verdict's bound, whichever theory is taken
+APART = 0.045  # [share] two slips, and a slip and the key, are apart
+MOST_DRAWS = 2000  # a few are enough; so many would be our fault
+
+
+@lru_cache(maxsize=8)  # it is asked for when the numbers are made, and when they are graded
+def draw(student: str) -> Variant:
+    """A learner's team, always the same one; drawn again until every verdict is clear."""
+    for attempt in range(MOST_DRAWS):
+        variant = _drawn(generator(student, "exercise2", draw=attempt))
+        if variant is not None and _clear(variant):
+            return variant
+    raise RuntimeError(f"no clear numbers for {student!r}")
+
+
+def _drawn(rng: "np.random.Generator") -> Variant | None:
+    from sim.motors import MOTORS  # noqa: PLC0415 - only where it is needed
+
+    kind = _one(tuple(BUILT), rng)
+    names, count, ratios, diameters = BUILT[kind]
+    name = _one(names, rng)
+    rpm = round(MOTORS[name].free_speed * 30.0 / 3.141592653589793)
+    ratio, diameter = _one(ratios, rng), _one(diameters, rng)
+    parts = Parts(LABELS[name], rpm, MOTORS[name].back_emf, count, ratio, diameter)
+    cause, flag = _one(CAUSES, rng), _one(tuple(FRICTION), rng)
+    if cause == "radius" and not diameter:
+        return None
+    factor, words, told = _gone_wrong(cause, parts, ratios, rng)
+    measured = float(f"{parts.exact * factor:.4g}")
+    volts = float(rng.uniform(*SPEED))
+    friction = float(rng.uniform(*FRICTION[flag])) * (volts if flag == "stop" else 1.0)
+    speed = float(f"{volts / measured:.2g}")
+    return Variant(kind, parts, measured, round(friction, 2), speed, words, told)
+
+
+def _gone_wrong(
+    cause: str, parts: Parts, ratios: tuple[float, ...], rng: "np.random.Generator"
+) -> tuple[float, tuple[str, ...], dict[str, dict[str, str]]]:
+    """By how much kV is off, the words that name why, and what the team can see of it."""
+    factor, words = 1.0 + float(rng.uniform(*FREE_DRAG)), ()
+    ratio, radius, battery = parts.ratio, parts.diameter / 2.0, float(rng.uniform(12.2, 12.6))
+    drive, logged = "motor.setVoltage(volts)", "what the motor got"
+    mechanic = "everything turns by hand as it did when it was new"
+    if cause == "ratio":
+        ratio = _one(tuple(one for one in ratios if one != parts.ratio), rng)
+        factor, words = factor * ratio / parts.ratio, ("gear-ratio",)
+    elif cause == "radius":
+        times = _one((0.5, 2.0), rng)
+        radius *= times
+        factor, words = factor / times, ("wheel-size",)
+    elif cause == "voltage":
+        battery = round(float(rng.uniform(*TIRED)), 1)
+        drive, logged = "motor.set(volts / 12)", "volts, as it was asked for"
+        factor, words = factor * 12.0 / battery, ("logged-voltage",)
+    elif cause == "belt":
+        factor, words = 1.0 + float(rng.uniform(*BAD_DRAG)), ("tight-belt", "dry-bearing")
+        part = _one(("a belt is as hard as a guitar string", "a bearing is dry, and whistles"), rng)
+        mechanic = f"{part}; it is too hot to touch after a test"
+    code = {"ratio": f"{ratio:g}"}
+    if parts.diameter:
+        code["radius"] = f"{radius:.5g}  # [m]"
+    heavier = float(rng.uniform(2.0, 5.0))
+    noticed = {
+        "battery": f'"{battery:.1f} V, all through the tests"',
+        "mechanic": f'"{mechanic}"',
+        "changed": f'"{heavier:.1f} kg more on it than last week"',
+    }
+    code |= {"drive": f'"{drive}"', "logged_voltage": f'"{logged}"'}
+    return factor, words, {"code": code, "noticed": noticed}
+
+
+def _one(of: tuple, rng: "np.random.Generator"):  # type: ignore[no-untyped-def,type-arg]  # noqa: ANN202 - whatever is in it
+    return of[int(rng.integers(len(of)))]
+
+
+def _clear(variant: Variant) -> bool:
+    """Whether the verdict is the same by either theory, and slips are told apart."""
+    ways = {
+        verdict(variant.percent(theory) + off)
+        for theory in variant.theories
+        for off in (-CLEAR, CLEAR)
+    }
+    low, high = variant.percent(variant.parts.paper), OFF[1] * 100.0
+    if "gear-ratio" in variant.planted and not OFF[0] * 100.0 < abs(low) < high:
+        return False
+    found = lookalikes(variant)
+    near = 2.0 * NEAR.full
+    return (
+        len(ways) == 1
+        and abs(low) > 2.5
+        and not any(abs(one.value / variant.parts.paper - 1.0) < near for one in found[1:])
+        and not any(
+            abs(one.value / other.value - 1.0) < APART
+            for one, other in combinations(found[1:], 2)
+            if one.slip.misconception != other.slip.misconception
+        )
+    )

@@ -1,0 +1,41 @@
+"""What slips make of the kV on paper."""
+
+import math
+
+from grader.slip import Lookalike, Slip
+
+from .team import Variant
+
+UNITS = "M-UNITS"
+
+
+def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
+    """What the known slips make of a learner's own parts; the measured kV comes first."""
+    parts = variant.parts
+    gears = "Free speed is the motor's. How fast is the output then? Mind the gear ratio"
+    found = [
+        (variant.measured, "that is the measured kV. Asked for is the one on paper", ""),
+        (parts.paper / 60.0, "60 seconds are a minute. Did you divide by rpm?", UNITS),
+        (parts.paper * 60.0, "60 seconds are a minute. Did you multiply by 60 too often?", UNITS),
+        (parts.paper / parts.ratio, gears, UNITS),
+        (
+            parts.paper / parts.ratio**2,
+            "is the gear ratio upside down? The output is slower",
+            UNITS,
+        ),
+    ]
+    if parts.diameter:
+        radius = "2 lies between a diameter and a radius. Did you take one for the other?"
+        around = "2π = 6.28. One turn of a wheel is how many meters of ground?"
+        still = "that is volts for each turn of the wheel in a second. How far does one turn go?"
+        found += [(parts.paper * times, radius, UNITS) for times in (0.5, 2.0)]
+        found += [(parts.paper * times, around, UNITS) for times in (2 * math.pi, 0.5 / math.pi)]
+        found += [(parts.paper * math.pi * parts.diameter, still, UNITS)]
+    else:
+        turn = "2π = 6.28. Is this volts for radians, where rotations are asked for?"
+        found += [(parts.paper * times, turn, UNITS) for times in (2 * math.pi, 0.5 / math.pi)]
+        found += [(parts.paper / 360.0, "a rotation is 360°. Is your speed in degrees?", UNITS)]
+    if parts.motors == 4:
+        many = "four motors share the work, but none of them turns faster for it"
+        found += [(parts.paper * times, many, "") for times in (0.25, 4.0)]
+    return tuple(Lookalike(value, Slip(says[:12], says, code)) for value, says, code in found)

@@ -1,0 +1,139 @@
+"""A team's mechanism: what its parts promise, what its log says, and what came between."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from grader.answer import Asked, Band
+
+NEAR = Band(0.02, 0.02)  # arithmetic: within 2 % or not
+OK, WATCH = 8.0, 20.0  # [%] above theory
+FRICTION = 0.5  # [V] of kS that deserves a look: 4 % of 12 V
+FULL = 12.0  # [V] the voltage the data sheets are for
+
+KINDS = {  # word -> where to look for it; "" cannot move kV
+    "gear-ratio": "units",
+    "wheel-size": "units",
+    "velocity-unit": "units",
+    "motor-type": "units",
+    "logged-voltage": "electrical",
+    "unpowered-motor": "electrical",
+    "tight-belt": "mechanical",
+    "dry-bearing": "mechanical",
+    "mass": "",
+    "constant-friction": "",
+    "sensor-noise": "",
+}
+ORDER = ("units", "electrical", "mechanical")
+VERDICTS = ("bookkeeping", "ok", "watch", "inspect")
+FLAGS = ("fine", "watch", "stop")
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What is built in.
+
+    Args:
+        motor: as on its label.
+        free_rpm: [rpm] of the motor itself at 12 V.
+        back_emf: [V·s/rad] of the motor.
+        motors: how many.
+        ratio: turns of the motor for one of the output.
+        diameter: [m] of wheel or drum; 0 for what turns.
+    """
+
+    motor: str
+    free_rpm: float
+    back_emf: float
+    motors: int
+    ratio: float
+    diameter: float
+
+    @property
+    def _per(self) -> float:
+        """Output units for one radian of the motor: meters, or rotations."""
+        return (self.diameter / 2.0 if self.diameter else 0.5 / math.pi) / self.ratio
+
+    @property
+    def paper(self) -> float:
+        """KV as 12 V over the free speed promises it."""
+        return FULL / (self.free_rpm * math.pi / 30.0) / self._per
+
+    @property
+    def exact(self) -> float:
+        """KV as the back-EMF gives it: free current has its own small drop."""
+        return self.back_emf / self._per
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One learner's team.
+
+    Args:
+        kind: ``drivetrain``, ``elevator`` or ``turret``.
+        parts: what is built in.
+        measured: kV from the log.
+        friction: [V] kS from the log.
+        speed: a typical speed.
+        planted: the words that name what went wrong; empty if nothing did.
+        told: what the code says, and what was noticed, line by line.
+    """
+
+    kind: str
+    parts: Parts
+    measured: float
+    friction: float
+    speed: float
+    planted: tuple[str, ...]
+    told: Mapping[str, Mapping[str, str]]
+
+    @property
+    def symbol(self) -> str:
+        """Of its unit of position."""
+        return "m" if self.parts.diameter else "rot"
+
+    @property
+    def asked(self) -> Asked:
+        """The number on paper, as it is asked for."""
+        return Asked("kV_theory", self.parts.paper, f"V·s/{self.symbol}", NEAR)
+
+    def right(self, value: float) -> bool:
+        """Whether this is a kV that theory gives, by either formula."""
+        return any(abs(value - one) <= NEAR.full * one for one in self.theories)
+
+    @property
+    def theories(self) -> tuple[float, float]:
+        """Both ways to compute it."""
+        return self.parts.paper, self.parts.exact
+
+    def percent(self, theory: float) -> float:
+        """How far the measured kV is above a theory [%]."""
+        return 100.0 * (self.measured / theory - 1.0)
+
+    @property
+    def verdict(self) -> str:
+        """What the difference says."""
+        return verdict(self.percent(self.parts.paper))
+
+    @property
+    def flag(self) -> str:
+        """What kS says."""
+        if self.friction > self.measured * self.speed:
+            return "stop"
+        return "watch" if self.friction > FRICTION else "fine"
+
+    def valid(self, word: str) -> bool:
+        """Whether a cause can be behind a kV that is off as this one is."""
+        if word == "wheel-size" and not self.parts.diameter:
+            return False
+        if word == "unpowered-motor" and self.parts.motors == 1:
+            return False
+        down = KINDS[word] == "units" or word == "logged-voltage"
+        return bool(KINDS[word]) and (down or self.verdict != "bookkeeping")
+
+
+def verdict(percent: float) -> str:
+    """The word for a difference [%]."""
+    if percent < 0.0:
+        return "bookkeeping"
+    return "ok" if percent <= OK else "watch" if percent <= WATCH else "inspect"

@@ -1,0 +1,150 @@
+"""Wrong answers to exercise 2, and what a learner must be told about each."""
+
+import math
+import re
+from collections.abc import Callable
+
+from grader.mistake import Mistake, number, put, scaled
+
+ANSWERS = "answers.toml"
+
+
+def measured(right: str) -> float:
+    """Measured over theory, as the right answers have it."""
+    found = re.search(r"^difference = (\S+)", right, re.MULTILINE)
+    return 1.0 + float(found[1] if found else "nan") / 100.0
+
+
+def verdict(text: str) -> str:
+    """A verdict of another bucket: ok, or what a low kV is called."""
+    return put("verdict", '"ok"' if '"ok"' not in text else '"inspect"')(text)
+
+
+def flag(text: str) -> str:
+    """Another word about kS."""
+    return put("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
+
+
+def causes(*words: str) -> Callable[[str], str]:
+    """Make another list of causes."""
+    return put("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
+
+
+MISTAKES = (
+    Mistake("nothing", ANSWERS, put("kV_theory", '""'), "kv-theory", "nothing yet"),
+    Mistake(
+        "divided by rpm",
+        ANSWERS,
+        scaled(1 / 60, "kV_theory"),
+        "kv-theory",
+        "Did you divide by rpm?",
+        "M-UNITS",
+    ),
+    Mistake(
+        "radians for rotations, or no way around the wheel",
+        ANSWERS,
+        scaled(1 / (2 * math.pi), "kV_theory"),
+        "kv-theory",
+        "2π = 6.28",
+        "M-UNITS",
+    ),
+    Mistake(
+        "one volt for twelve",
+        ANSWERS,
+        scaled(1 / 12, "kV_theory"),
+        "kv-theory",
+        "12 V is a full battery",
+        "M-DUTY",
+    ),
+    Mistake(
+        "the measured kV",
+        ANSWERS,
+        lambda text: number("kV_theory", lambda right: right["kV_theory"] * measured(text))(text),
+        "kv-theory",
+        "that is the measured kV",
+    ),
+    Mistake(
+        "a unit that measures something else",
+        ANSWERS,
+        put("kV_theory", '"2 m/s"'),
+        "kv-theory",
+        "does not measure",
+        "M-UNITS",
+    ),
+    Mistake(
+        "a number from nowhere",
+        ANSWERS,
+        scaled(1.37, "kV_theory"),
+        "kv-theory",
+        "outside the accepted ±2 %",
+    ),
+    Mistake("a share", ANSWERS, scaled(0.01, "difference"), "difference", "that is a share"),
+    Mistake("above for below", ANSWERS, scaled(-1, "difference"), "difference", "the sign is not"),
+    Mistake(
+        "percent of theory",
+        ANSWERS,
+        number("difference", lambda right: right["difference"] + 100.0),
+        "difference",
+        "How much more than 100 %",
+    ),
+    Mistake(
+        "a difference from nowhere",
+        ANSWERS,
+        number("difference", lambda right: right["difference"] + 41.0),
+        "difference",
+        "outside the accepted ±1 %",
+    ),
+    Mistake(
+        "a word that is none",
+        ANSWERS,
+        put("verdict", '"great"'),
+        "verdict",
+        "Choose one of: bookkeeping, ok, watch, inspect",
+    ),
+    Mistake(
+        "mass",
+        ANSWERS,
+        causes("gear-ratio", "logged-voltage", "mass"),
+        "inspection",
+        "does it take more volts to move more mass?",
+        "M-KV-MASS",
+    ),
+    Mistake(
+        "friction that is kS's",
+        ANSWERS,
+        causes("gear-ratio", "constant-friction"),
+        "inspection",
+        "in another gain than kV",
+    ),
+    Mistake(
+        "noise",
+        ANSWERS,
+        causes("sensor-noise", "gear-ratio", "logged-voltage"),
+        "inspection",
+        "noise scatters to both sides",
+    ),
+    Mistake(
+        "wires before paper",
+        ANSWERS,
+        causes("logged-voltage", "gear-ratio"),
+        "inspection",
+        "where looking costs least",
+    ),
+    Mistake(
+        "one kind only",
+        ANSWERS,
+        causes("gear-ratio", "motor-type"),
+        "inspection",
+        "all of one kind",
+    ),
+    Mistake("no list", ANSWERS, put("inspection", "[]"), "inspection", "Choose from: gear-ratio"),
+    Mistake(
+        "a cause that there is not",
+        ANSWERS,
+        causes("gear-ratio", "gremlins"),
+        "inspection",
+        "none of them",
+    ),
+    Mistake("another verdict", ANSWERS, verdict, "verdict", ""),
+    Mistake("another flag", ANSWERS, flag, "ks-flag", "kV times the typical speed"),
+)
