@@ -92,9 +92,8 @@ def test_between_them_they_get_every_trouble_verdict_and_flag():
 
 def test_theory_is_what_the_bench_says_of_the_same_parts():
     """Kraken X60, 6.75:1, 4 inches: 2.538 V·s/m on paper, 2.524 with the free current's drop."""
-    made = type(OWN.module.draw("ann").parts)(
-        "Kraken X60", 6000, motor("krakenX60").back_emf, 4, 6.75, 0.1016
-    )
+    parts = type(OWN.module.draw("ann").parts)
+    made = parts("Kraken X60", 6000, motor("krakenX60").back_emf, 4, 6.75, 0.1016)
 
     assert made.paper == pytest.approx(
         theoretical_kv(motor("krakenX60"), ratio=6.75, radius=0.0508), rel=1e-9
@@ -103,7 +102,7 @@ def test_theory_is_what_the_bench_says_of_the_same_parts():
 
 
 def test_a_duty_cycle_on_a_tired_battery_logged_as_asked_for_does_what_is_told():
-    """12 V over 10.9 V: on the bench, too, kV comes out 10 % too large, and a little more by sag."""
+    """12 V over 10.9 V: on the bench, too, kV comes out 10 % too large."""
     sound = MECHANISMS["shooter"]
     tired = replace(sound, battery=Battery(10.9, 0.005))
     routine = Routine(ramp=0.5, step=3.0, timeout=6.0)
@@ -227,6 +226,15 @@ def test_what_a_turret_has_not_explains_nothing(copy, word):
 
     assert found.status == "failed"
     assert found.hint.startswith(word)
+
+
+def test_a_theory_made_with_the_ratio_in_the_code_is_named(copy):
+    student = student_who(lambda one: one.planted == ("gear-ratio",))
+    variant = OWN.module.draw(student)
+    other = float(variant.told["code"]["ratio"]) / variant.parts.ratio
+    found = graded(copy, student=student, kV_theory=variant.parts.paper * other)["kv-theory"]
+
+    assert "the ratio in the code" in found.hint
 
 
 @pytest.mark.parametrize("times", [0.5, 2 * 3.14159265])

@@ -5,7 +5,7 @@ from grader.word import word
 
 from .team import KINDS, ORDER, Variant
 
-FULL, LEAST = 3.0, 2  # points; causes to name
+LEAST = 2  # causes to name, and kinds of them
 SOME = 1.0  # points for causes that are possible, in an order that is not
 NEARLY = 2.0  # points for a good list on which the team's own trouble is missing
 

@@ -24,6 +24,10 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
             UNITS,
         ),
     ]
+    coded = float(variant.told["code"]["ratio"])
+    if coded != parts.ratio:
+        says = "that is with the ratio in the code. What counts is what is built in"
+        found.append((parts.paper * coded / parts.ratio, says, ""))
     if parts.diameter:
         radius = "2 lies between a diameter and a radius. Did you take one for the other?"
         around = "2π = 6.28. One turn of a wheel is how many meters of ground?"

@@ -145,6 +145,6 @@ MISTAKES = (
         "inspection",
         "none of them",
     ),
-    Mistake("another verdict", ANSWERS, verdict, "verdict", ""),
+    Mistake("another verdict", ANSWERS, verdict, "verdict", "difference"),
     Mistake("another flag", ANSWERS, flag, "ks-flag", "kV times the typical speed"),
 )
