@@ -1,0 +1,15 @@
+"""A learner's code is run apart: a process of its own that holds no key and returns only numbers.
+
+    outcome = run(Path("fit.py"), calls=[Call("fit", {"time": time, "voltage": voltage})])
+
+The child (``child.py``) confines itself before it reads the learner's file: no files but Python's
+own, the data and an empty folder (``landlock.py``), no network, no processes, nobody else's process
+(``seccomp.py``), so much time, memory and disk (``limits.py``). What it says is judged outside
+(``received.py``), where nothing it made is ever imported or unpickled. Where a system has no such
+confinement there are limits only, and ``level`` says so.
+"""
+
+from grader.isolation.apart import Call, Limits, Outcome, level, run
+from grader.isolation.received import Answer
+
+__all__ = ["Answer", "Call", "Limits", "Outcome", "level", "run"]

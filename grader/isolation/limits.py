@@ -1,0 +1,49 @@
+"""Limits a process sets for itself: processor time, memory, size of files, how many of them."""
+
+import contextlib
+import importlib
+import sys
+from collections.abc import Iterator
+
+OPEN_FILES = 64
+MILLION = 1_000_000
+
+
+def limit(*, seconds: int, memory: int, file: int, processes: bool) -> tuple[str, ...]:
+    """Set the limits this system has; there is no way back.
+
+    Args:
+        seconds: [s] of processor time.
+        memory: [bytes] of address space.
+        file: [bytes] of one file.
+        processes: whether it may start others.
+
+    Returns:
+        What is limited, in words.
+    """
+    if sys.platform == "win32":
+        return ()
+    return tuple(_set(seconds=seconds, memory=memory, file=file, processes=processes))
+
+
+def _set(*, seconds: int, memory: int, file: int, processes: bool) -> Iterator[str]:
+    resource = importlib.import_module("resource")  # Windows has none
+    wanted = [
+        ("RLIMIT_CPU", seconds, "processor time"),
+        ("RLIMIT_AS", memory, "memory"),
+        ("RLIMIT_FSIZE", file, "files"),
+        ("RLIMIT_NOFILE", OPEN_FILES, ""),
+        ("RLIMIT_CORE", 0, ""),
+    ]
+    if not processes:
+        wanted.append(("RLIMIT_NPROC", 1, ""))  # it counts all of a user's, and not root's
+    for name, value, words in wanted:
+        which = getattr(resource, name, None)
+        if which is None:
+            continue
+        with contextlib.suppress(ValueError, OSError):  # macOS knows some by name only
+            hard = resource.getrlimit(which)[1]
+            most = value if hard == resource.RLIM_INFINITY else min(value, hard)
+            resource.setrlimit(which, (most, most))
+            if words:
+                yield words

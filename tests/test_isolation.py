@@ -1,0 +1,467 @@
+"""A learner's code is run apart: it reaches nothing, stops nothing, and returns only numbers."""
+
+import os
+import socket
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from grader.isolation import Call, Limits, apart, level, run
+from grader.variant import of_class
+
+SHORT = Limits(seconds=0.6)
+LEVEL = level()
+NO_ISOLATION = "" if LEVEL.startswith("isolated") else f"this system is {LEVEL}"
+isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolated")
+posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such call")
+
+
+@pytest.fixture
+def apart_run(tmp_path):
+    """Runs a learner's text; calls ``fit`` as often as asked, with the number of the call."""
+
+    def start(text, *, times=1, limits=SHORT, **data):
+        file = tmp_path / "fit.py"
+        file.write_text(text, encoding="utf-8")
+        calls = [Call("fit", {"number": number, **data}) for number in range(times)]
+        return run(file, calls=calls, limits=limits)
+
+    return start
+
+
+@pytest.fixture(params=["all there is", "limits only"])
+def each_level(request, monkeypatch):
+    """Once with all the confinement this system has, once with limits only."""
+    monkeypatch.setattr(apart, "CONFINED", request.param != "limits only")
+    return request.param
+
+
+@pytest.fixture
+def listening():
+    """A server on this machine: its port, and who came."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        came = []
+
+        def accept():
+            try:
+                came.append(server.accept()[0])
+            except OSError:
+                return
+
+        thread = threading.Thread(target=accept, daemon=True)
+        thread.start()
+        yield server.getsockname()[1], came
+        server.shutdown(socket.SHUT_RDWR) if came == [] else came[0].close()
+        thread.join(1.0)
+
+
+def attempt(code):
+    """A fit that tries something and says 1 if it worked; else it stops with the reason."""
+    lines = "\n".join(f"    {line}" for line in code.splitlines())
+    return f"import os, sys\ndef fit(number):\n{lines}\n    return {{'worked': 1.0}}\n"
+
+
+# --- what is believed -----------------------------------------------------------------------------
+
+NUMBERS = [
+    ("1.5", 1.5),
+    ("3", 3.0),
+    ("np.float64(1.5)", 1.5),
+    ("np.float32(0.5)", 0.5),
+    ("np.int64(7)", 7.0),
+    ("np.array(2.5)", 2.5),
+]
+NO_NUMBERS = [
+    ("float('nan')", "nan"),
+    ("float('-inf')", "a number without end"),
+    ("10**400", "a number without end"),
+    ("None", "None"),
+    ("True", "True, which is yes or no"),
+    ("'0.5'", 'the text "0.5"'),
+    ("[0.5]", "a list"),
+    ("1j", "a complex"),
+    ("np.array([0.5])", "an array of shape (1,)"),
+    ("np.nan", "nan"),
+    ("np.bool_(True)", "True, which is yes or no"),
+    ("Sly(0.5)", "a Sly, which only poses as a number"),
+    ("fit", "a function"),
+]
+SLY = """
+import numpy as np
+class Sly(float):
+    def __sub__(self, other): return Sly(0)
+    def __abs__(self): return Sly(0)
+    def __le__(self, other): return True
+    __lt__ = __rsub__ = __eq__ = __le__
+    __hash__ = None
+"""
+
+
+@pytest.mark.usefixtures("each_level")
+def test_numbers_come_back_as_plain_floats_and_the_rest_by_what_it_is(apart_run):
+    items = [text for text, _ in NUMBERS + NO_NUMBERS]
+    listed = ", ".join(f"'n{index}': {text}" for index, text in enumerate(items))
+    (answer,) = apart_run(
+        f"{SLY}\ndef fit(number, x):\n    return {{{listed}}}\n", x=np.ones(2)
+    ).answers
+
+    good, bad = len(NUMBERS), len(NO_NUMBERS)
+    assert [answer.numbers[f"n{i}"] for i in range(good)] == [value for _, value in NUMBERS]
+    assert {type(value) for value in answer.numbers.values()} == {float}
+    assert [answer.refused[f"n{good + i}"] for i in range(bad)] == [why for _, why in NO_NUMBERS]
+
+
+@pytest.mark.parametrize(
+    ("returned", "said"),
+    [
+        ("None", "fit.py returned None, not numbers by name in a dict"),
+        ("0.5", "fit.py returned a number, not numbers by name in a dict"),
+        ("(1, 2)", "fit.py returned a tuple, not numbers by name in a dict"),
+        ("type('D', (dict,), {})(kS=1)", "fit.py returned a D, not numbers by name in a dict"),
+    ],
+)
+def test_what_is_no_dict_is_said_to_be_none(apart_run, returned, said):
+    (answer,) = apart_run(f"def fit(number):\n    return {returned}\n").answers
+
+    assert (dict(answer.numbers), answer.reason) == ({}, said)
+
+
+def test_arrays_arrive_as_they_were(apart_run):
+    text = "def fit(number, x, name):\n    return {'sum': x.sum(), 'a': (name == 'a').sum()}\n"
+    outcome = apart_run(text, x=np.arange(5.0), name=np.array(["a", "b", "a"]))
+
+    assert dict(outcome.answers[0].numbers) == {"sum": 10.0, "a": 2.0}
+
+
+def test_scipy_is_there_where_it_is_asked_for_and_other_packages_never(tmp_path):
+    file = tmp_path / "fit.py"
+    file.write_text(
+        "def fit():\n    from scipy.linalg import det\n    return {'d': det([[2.0]])}\n"
+        "def plot():\n    import matplotlib\n",
+        encoding="utf-8",
+    )
+    calls = [Call("fit"), Call("plot")]
+    with_it = run(file, calls=calls, packages=("numpy", "scipy")).answers
+    without = run(file, calls=calls[:1]).answers
+
+    assert dict(with_it[0].numbers) == {"d": 2.0}
+    assert with_it[1].reason == (
+        "fit.py, line 5: ModuleNotFoundError: No module named 'matplotlib'"
+    )
+    assert "No module named 'scipy'" in without[0].reason
+
+
+# --- crashes --------------------------------------------------------------------------------------
+
+CRASHES = [
+    ("def fit(number):\n    return {'a': 1 / number}\n", "line 2: ZeroDivisionError: division by"),
+    ("def fit(number):\n  return {\n", "line 2: SyntaxError: '{' was never closed"),
+    ("import nothing_here\n", "line 1: ModuleNotFoundError: No module named 'nothing_here'"),
+    ("x = 1\n", "fit.py: TypeError: there is no function fit"),
+    ("def fit(t):\n    return {}\n", "fit.py: TypeError: fit() got an unexpected keyword"),
+    ("def fit(number):\n    raise SystemExit(0)\n", "line 2: SystemExit: 0"),
+    ("def fit(number):\n    input()\n", "line 2: EOFError: EOF when reading a line"),
+    ("def fit(number):\n    fit(number)\n", "line 2: RecursionError: maximum recursion depth"),
+    ("def fit(number):\n    raise ValueError('a\\nb\\x1b[2J')\n", "line 2: ValueError: a"),
+    ("raise SystemExit\n", "line 1: SystemExit"),
+]
+
+
+@pytest.mark.parametrize(("text", "says"), CRASHES, ids=[says for _, says in CRASHES])
+def test_a_crash_is_one_line_that_names_file_and_line(apart_run, text, says):
+    outcome = apart_run(text)
+    reason = outcome.answers[0].reason
+
+    assert reason.startswith("fit.py")
+    assert says in reason
+    assert reason.isprintable()
+
+
+def test_a_call_that_fails_stops_no_other(apart_run):
+    outcome = apart_run("def fit(number):\n    return {'a': 1 / (number - 1)}\n", times=3)
+
+    assert [dict(one.numbers) for one in outcome.answers] == [{"a": -1.0}, {}, {"a": 1.0}]
+    assert outcome.ended == ""
+
+
+# --- the tricks: none earns a number, none stops anything -----------------------------------------
+
+
+@pytest.mark.usefixtures("each_level")
+@pytest.mark.parametrize(
+    ("end", "says"),
+    [
+        ("os._exit(0)", "it ended itself before it had answered"),
+        ("os._exit(3)", "it ended itself, with code 3"),
+        ("while True: pass", "it was still running after 0.6 s and was stopped"),
+        ("import time; time.sleep(60)", "it was still running after 0.6 s and was stopped"),
+        ("os.closerange(0, 100)", "it ended itself"),
+    ],
+)
+def test_answers_given_before_an_end_are_kept(apart_run, end, says):
+    begin = time.monotonic()
+    text = (
+        f"import os\ndef fit(number):\n    if number == 2:\n        {end}\n"
+        "    return {'n': number}\n"
+    )
+    outcome = apart_run(text, times=4)
+
+    assert [dict(one.numbers) for one in outcome.answers] == [{"n": 0.0}, {"n": 1.0}, {}, {}]
+    assert says in outcome.answers[2].reason
+    assert says in outcome.ended
+    assert time.monotonic() - begin < 4.0
+
+
+@pytest.mark.usefixtures("each_level")
+def test_a_flood_of_output_is_dropped_and_said(apart_run):
+    text = "def fit(number):\n    for _ in range(50): print('x' * 1_000_000)\n    return {'n': 1}\n"
+    outcome = apart_run(text, limits=Limits(seconds=8.0))
+
+    assert dict(outcome.answers[0].numbers) == {"n": 1.0}
+    assert len(outcome.printed) < 5000
+    assert outcome.printed.endswith(f"and {50 * 1_000_001 - 4000:,} bytes more, which were dropped")
+
+
+def test_prints_are_kept_from_both_streams(apart_run):
+    text = "import sys\ndef fit(number):\n    print('one é')\n    sys.stderr.write('two')\n"
+
+    assert apart_run(text).printed == "one é\ntwo"
+
+
+@pytest.mark.usefixtures("each_level")
+def test_the_pipe_takes_only_lines_with_the_nonce_and_only_so_many(apart_run):
+    text = (
+        "import os\ndef fit(number):\n"
+        '    line = b\'{"call": 0, "result": {"names": [["n", 7]]}}\\n\'\n'
+        "    for fd in range(3, 20):\n"
+        "        try: os.write(fd, b'[' * 9999 + b'\\n' + line + b'x' * 9_000_000)\n"
+        "        except OSError: pass\n"
+        "    return {'n': 1}\n"
+    )
+    outcome = apart_run(text, times=2)
+
+    assert 7.0 not in [number for one in outcome.answers for number in one.numbers.values()]
+
+
+@pytest.mark.usefixtures("each_level")
+def test_a_checker_patched_from_inside_is_another_checker(apart_run):
+    text = (
+        "import builtins, json, sys\n"
+        "class Yes:\n    def __getattr__(self, name): return Yes()\n"
+        "    def __call__(self, *a, **k): return Yes()\n"
+        "for module in list(sys.modules.values()):\n"
+        "    for name in ('check', 'judge', 'right', 'grade', 'receive', 'isfinite'):\n"
+        "        setattr(module, name, Yes())\n"
+        "frame = sys._getframe()\n"
+        "while frame:\n"
+        "    for value in [*frame.f_locals.values(), *frame.f_globals.values()]:\n"
+        "        if isinstance(value, dict) and 'limits' in value: value['limits'] = {}\n"
+        "    frame = frame.f_back\n"
+        "def fit(number): return {'n': 5.0, 'right': True}\n"
+    )
+    (answer,) = apart_run(text).answers
+
+    assert (dict(answer.numbers), dict(answer.refused)) == (
+        {"n": 5.0},
+        {"right": "True, which is yes or no"},
+    )
+
+
+@pytest.mark.usefixtures("each_level")
+def test_nothing_the_child_made_is_unpickled_or_imported_outside(apart_run, tmp_path):
+    marker = tmp_path / "marker"
+    text = (
+        "import os, pickle, sys\n"
+        f"mark = {str(marker)!r}\n"
+        "class Bomb:\n    def __reduce__(self): return (open, (mark, 'w'))\n"
+        "def fit(number):\n"
+        "    for fd in range(1, 20):\n"
+        "        try: os.write(fd, pickle.dumps(Bomb()) + b'\\n')\n"
+        "        except OSError: pass\n"
+        "    for name in ('sitecustomize.py', 'json.py', 'numpy.py'):\n"
+        "        open(name, 'w').write(f'open({mark!r}, chr(119))')\n"
+        "    return {'n': Bomb()}\n"
+    )
+    (answer,) = apart_run(text).answers
+
+    assert dict(answer.refused) == {"n": "a Bomb"}
+    assert not marker.exists()
+
+
+@pytest.mark.usefixtures("each_level")
+def test_neither_arguments_nor_environment_nor_memory_hold_a_secret(apart_run, monkeypatch):
+    monkeypatch.setenv("CLASS_SECRET", "swordfish")
+    text = (
+        "import gc, os, sys\n"
+        "def fit(number):\n"
+        "    seen = repr((sys.argv, sys.orig_argv, dict(os.environ)))\n"
+        "    frame = sys._getframe()\n"
+        "    while frame:\n"
+        "        seen += repr(frame.f_locals)\n"
+        "        frame = frame.f_back\n"
+        "    found = [one for one in gc.get_objects() if isinstance(one, (dict, list, tuple))]\n"
+        "    seen += ''.join(str(one) for one in found if len(one) < 50)\n"
+        "    name = ''.join(['sword', 'fish'])\n"
+        "    ours = any(n.startswith('grader') for n in sys.modules)\n"
+        "    return {'secret': name in seen, 'grader': ours}\n"
+    )
+    with of_class(b"swordfish"):
+        (answer,) = apart_run(text).answers
+
+    assert answer.reason == ""
+    assert dict(answer.refused) == {
+        "secret": "False, which is yes or no",
+        "grader": "False, which is yes or no",
+    }
+
+
+def unreadable():
+    """Files a learner's code must not see: how to say the path inside the child."""
+    course = Path(__file__).resolve().parents[1]
+    return {
+        "the grader": str(course / "grader" / "variant.py"),
+        "its own program": str(course / "grader" / "isolation" / "child.py"),
+        "an exercise's checks": str(course / "exercises" / "exercise9" / "checks.py"),
+        "the bench": str(course / "sim" / "mechanisms" / "shooter.py"),
+        "the parent's memory": f"/proc/{os.getpid()}/maps",
+        "the parent's environment": f"/proc/{os.getpid()}/environ",
+        "the system's users": "/etc/passwd",
+    }
+
+
+@isolated
+@pytest.mark.parametrize("name", unreadable())
+def test_a_key_cannot_be_read(apart_run, name):
+    (answer,) = apart_run(attempt(f"open({unreadable()[name]!r}).read()")).answers
+
+    assert "PermissionError" in answer.reason
+
+
+@isolated
+@pytest.mark.parametrize(
+    "code",
+    [
+        "open({file!r}).read()",
+        "open({file!r}, 'w')",
+        "open({file!r} + '.new', 'w')",
+        "os.listdir(os.path.dirname({file!r}))",
+        "os.remove({file!r})",
+        "os.rename({file!r}, {file!r} + '2')",
+        "os.truncate({file!r}, 0)",
+        "os.chmod({file!r}, 0)",
+        "os.chown({file!r}, 1, 1)",
+        "os.utime({file!r}, (0, 0))",
+        "os.link({file!r}, 'mine')",
+        "os.symlink({file!r}, 'mine'); open('mine').read()",
+    ],
+)
+def test_another_learners_file_is_neither_read_nor_changed(apart_run, tmp_path, code):
+    other = tmp_path / "others.toml"
+    other.write_text("kS = 0.5", encoding="utf-8")
+    before = other.stat()
+    (answer,) = apart_run(attempt(code.format(file=str(other)))).answers
+    after = other.stat()
+
+    assert "Error" in answer.reason
+    assert other.read_text(encoding="utf-8") == "kS = 0.5"
+    assert (before.st_mode, before.st_mtime, before.st_uid) == (
+        after.st_mode,
+        after.st_mtime,
+        after.st_uid,
+    )
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["fit.py", "others.toml"]
+
+
+@isolated
+@pytest.mark.parametrize(
+    "code",
+    [
+        "os.fork()",
+        "for _ in range(200): os.fork()",
+        "import subprocess; subprocess.run([sys.executable, '-c', ''])",
+        "os.system('true') == 0 or os.fork()",
+        "os.execv('/bin/true', ['true'])",
+        "os.posix_spawn('/bin/true', ['true'], {})",
+        "os.setsid()",
+        "os.kill(os.getppid(), 0)",
+        "os.kill(-1, 0)",
+        "import resource; resource.prlimit(os.getppid(), resource.RLIMIT_CPU, (1, 1))",
+        "import resource; resource.setrlimit(resource.RLIMIT_CPU, (999, 999))",
+    ],
+)
+def test_no_process_is_started_or_touched(apart_run, code):
+    (answer,) = apart_run(attempt(code)).answers
+
+    assert "Error" in answer.reason
+
+
+@isolated
+@pytest.mark.parametrize("kind", ["SOCK_STREAM", "SOCK_DGRAM"])
+def test_there_is_no_network(apart_run, listening, kind):
+    port, came = listening
+    code = f"import socket; s = socket.socket(type=socket.{kind}); s.connect(('127.0.0.1', {port}))"
+    (answer,) = apart_run(attempt(code)).answers
+
+    assert "PermissionError" in answer.reason
+    assert came == []
+
+
+def test_threads_still_work(apart_run):
+    code = "import threading\nt = threading.Thread(target=print)\nt.start()\nt.join()"
+
+    assert dict(apart_run(attempt(code)).answers[0].numbers) == {"worked": 1.0}
+
+
+@posix
+@pytest.mark.skipif(sys.platform == "darwin", reason="macOS does not hold programs to it")
+@pytest.mark.usefixtures("each_level")
+def test_memory_and_files_are_limited(apart_run):
+    hog = apart_run(attempt("bytearray(4 * 1024**3)")).answers[0].reason
+    wide = apart_run(attempt("open('big', 'wb').write(bytes(32 * 1024**2))")).answers[0].reason
+
+    assert "MemoryError" in hog
+    assert "File too large" in wide
+
+
+@posix
+def test_children_left_behind_are_ended_with_it(apart_run, monkeypatch, tmp_path):
+    monkeypatch.setattr(apart, "CONFINED", False)  # else there are none
+    note = tmp_path / "pids"
+    text = (
+        "import os, time\ndef fit(number):\n    for _ in range(20):\n"
+        f"        pid = os.fork()\n        if pid == 0: time.sleep(30)\n"
+        f"        open({str(note)!r}, 'a').write(f'{{pid}}\\n')\n    while True: pass\n"
+    )
+    outcome = apart_run(text, limits=Limits(seconds=0.5))
+    born = [int(line) for line in note.read_text().split()] if note.exists() else []
+
+    assert outcome.seconds < 4.0
+    assert not [pid for pid in born if alive(pid)]
+
+
+def alive(pid):
+    """Whether a process still runs; one that only waits to be counted out does not."""
+    said = subprocess.run(["ps", "-o", "stat=", "-p", str(pid)], capture_output=True, check=False)  # noqa: S607 - every system with fork has it
+    return said.stdout.strip()[:1] not in {b"", b"Z"}
+
+
+def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
+    text = "def fit(number): return {}\n"
+    assert apart_run(text).level == LEVEL
+    monkeypatch.setattr(apart, "CONFINED", False)
+
+    assert apart_run(text).level.startswith("limited: time")
+    assert apart_run(text).level.endswith("it can read files and reach the network")
+
+
+def test_a_run_leaves_nothing_behind(apart_run, monkeypatch, tmp_path):
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    apart_run("import os\ndef fit(number):\n    os.mkdir('a', 0)\n    open('b', 'w').write('c')\n")
+
+    assert [file.name for file in tmp_path.iterdir()] == ["fit.py"]
