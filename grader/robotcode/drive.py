@@ -50,6 +50,8 @@ class DriveTrace(Trace):
             self.cannot_read(call)  # a motor is handed out: what it gets is not told here
             return None
         if not self._may_be_motor(method, receiver, at):
+            if receiver is not None and self._may_lead_to_one(method, receiver, args):
+                self.cannot_read(call)
             return None
         values = [arg for arg in args if _mode(arg) is None]
         sent = joined(values[:1] if method in BY_MODE else values, at=at)
@@ -100,7 +102,7 @@ class DriveTrace(Trace):
         named = method in COMMANDS or method in BY_REQUEST
         if receiver is None:  # a method of a class above, which these files do not hold
             above = bool(at.scope.classes and at.scope.classes[-1].bases)
-            method_here = at.scope.module.language == "java" and method[:1].islower()
+            method_here = at.scope.module.language == "java" and not method[:1].isupper()
             return method_here and (named or above)
         origin = receiver.origin
         if isinstance(origin, Self):
@@ -113,6 +115,12 @@ class DriveTrace(Trace):
             return True
         return named or method in BY_MODE - {"set"}  # much can be set that is no motor
 
+    def _may_lead_to_one(self, method: str, receiver: Value, args: list[Value]) -> bool:
+        """Whether an object of a class that is not here may send the voltage on to a motor."""
+        given = any(arg.carries for arg in args) and receiver.carries is False
+        variable = self._is_variable(receiver.origin, receiver.scope)
+        return given and variable and not SILENT.fullmatch(method)
+
     def _is_motor(self, value: Value) -> bool:
         return is_motor(type_of(value.origin, value.scope, self.names))
 
@@ -123,7 +131,8 @@ class DriveTrace(Trace):
         brought = {one.name for one in scope.module.imports}
         if isinstance(node, Name) and node.name in brought:
             return bool(self.names.local(node.name, scope))
-        return isinstance(node, Call) or last_name(node).lstrip("_")[:1].islower()
+        named = last_name(node).lstrip("_")  # in any script: most have no capitals
+        return isinstance(node, Call) or (bool(named) and not named[:1].isupper())
 
 
 def _mode(value: Value) -> Output | None:

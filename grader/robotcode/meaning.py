@@ -5,6 +5,7 @@ import re
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Definitions, Scope
 from grader.robotcode.syntax import (
+    Assign,
     Call,
     Cast,
     Class,
@@ -48,8 +49,9 @@ def resolve(node: Node, scope: Scope, names: Names) -> Placed:
         several.
     """
     for _ in range(MOST_STEPS):
-        if isinstance(node, Cast):
-            node = node.value
+        inner = node.value if isinstance(node, Cast | Assign) else None  # Python's walrus
+        if inner is not None:
+            node = inner
             continue
         if isinstance(node, Call):
             methods = called(node, scope, names)
@@ -64,6 +66,11 @@ def resolve(node: Node, scope: Scope, names: Names) -> Placed:
         if len(valued) != 1 or valued[0].value is None:
             break
         node, scope = valued[0].value, valued[0].scope
+        if isinstance(node, Function) and node.property:
+            returned = only_return(node)
+            if returned is None:
+                break
+            node, scope = returned, scope.within(node)
     return node, scope
 
 
@@ -78,7 +85,7 @@ def type_of(node: Node, scope: Scope, names: Names) -> str:
     if isinstance(node, Parameter):
         return node.type
     node = _without_settings(node)
-    made = _made(node)
+    made = _made(node, scope)
     return made if made is not None else type_from(names.definitions(node, scope), names)
 
 
@@ -90,7 +97,7 @@ def type_from(definitions: Definitions, names: Names) -> str:
         if declared or first is None or first.value is None:
             return declared
         value = _one_of(first.value)
-        made = _made(value)
+        made = _made(value, first.scope)
         if made == "" and isinstance(value, Call):
             return _made_by_method(value, first.scope, names)
         if made is not None:
@@ -115,21 +122,28 @@ def constructed(call: Call, scope: Scope, names: Names) -> str:
     """The class a call makes, by its own name whatever it is called here; empty if it is none."""
     target = call.target
     if isinstance(target, Name):
-        brought = (one.path for one in scope.module.imports if one.name == target.name)
-        path = next(brought, "")
-        if path:
-            return path.rpartition(".")[2]
+        brought = brought_name(target.name, scope)
+        if brought:
+            return brought
     target, _ = resolve(target, scope, names)  # Config = SysIdRoutine.Config
     made = last_name(target)
     return made if made[:1].isupper() else ""
 
 
-def _made(node: Node) -> str | None:
+def brought_name(name: str, scope: Scope) -> str:
+    """What an imported name is called where it comes from; empty if it is not imported."""
+    path = next((one.path for one in scope.module.imports if one.name == name), "")
+    return path.rpartition(".")[2]
+
+
+def _made(node: Node, scope: Scope) -> str | None:
     """The class that a constructor call makes; empty for another call, None for no call."""
     node = _without_settings(node)
     if not isinstance(node, Call):
         return None
     made = last_name(node.target)
+    if isinstance(node.target, Name):
+        made = brought_name(made, scope) or made
     return made if made[:1].isupper() else ""
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from grader.robotcode.meaning import called, last_name, only_return, simple
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope
-from grader.robotcode.syntax import Call, Cast, Member, Name, Node, Number, Operation
+from grader.robotcode.syntax import Assign, Call, Cast, Member, Name, Node, Number, Operation
 from grader.robotcode.vocabulary import PYTHON_UNITS, UNITS
 
 DEEPEST = 50  # expressions inside one another, names followed on the way
@@ -83,6 +83,8 @@ class Measures:
             return Measure(node.value, integer=node.integer)
         if isinstance(node, Name | Member):
             return self._named(node, scope, depth)
+        if isinstance(node, Assign):  # Python's walrus
+            return None if node.value is None else self.of(node.value, scope, depth=depth)
         if isinstance(node, Cast):
             return _typed(self.of(node.value, scope, depth=depth), node.type)
         if isinstance(node, Operation):

@@ -14,6 +14,7 @@ from grader.robotcode.syntax import (
     Member,
     Name,
     Node,
+    Opaque,
     Parameter,
     Reference,
     Self,
@@ -45,6 +46,13 @@ def label(node: Node) -> str:
 
 def elements(node: Node, scope: Scope, names: Names) -> tuple[Placed, ...]:
     """The motors in an array, a list, a motor group or a drive, if they have names of their own."""
+    found = _listed(node, scope, names)
+    named = all(isinstance(item, Name | Member | Element | Items) for item, _ in found)
+    return found[:MOST] if named else ()
+
+
+def _listed(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tuple[Placed, ...]:
+    """What is in an array, a list or a group, whatever it is."""
     value, where = resolve(node, scope, names)
     several: tuple[Node, ...] = ()
     if isinstance(value, Items):
@@ -54,9 +62,30 @@ def elements(node: Node, scope: Scope, names: Names) -> tuple[Placed, ...]:
         owner = last_name(value.target.owner) if isinstance(value.target, Member) else ""
         if maker in GROUPS | DRIVES or owner in COLLECTIONS:
             several = value.args
-    found = tuple(item.owner if isinstance(item, Reference) else item for item in several)
-    named = all(isinstance(item, Name | Member | Element | Items) for item in found)
-    return tuple((item, where) for item in found[:MOST]) if named else ()
+        elif where.module.language == "python" and depth < DEEPEST:
+            return _paired(value, where, names, depth + 1)
+    return tuple((item.owner if isinstance(item, Reference) else item, where) for item in several)
+
+
+def _paired(call: Call, scope: Scope, names: Names, depth: int) -> tuple[Placed, ...]:
+    """What Python's enumerate, zip and a dictionary's items and values run over."""
+    name = last_name(call.target)
+    lists: list[tuple[Placed, ...]] = []
+    if isinstance(call.target, Name) and name in {"enumerate", "zip"}:
+        lists = [_listed(arg, scope, names, depth=depth) for arg in call.args]
+    elif isinstance(call.target, Member) and name in {"items", "values"}:
+        table, scope = resolve(call.target.owner, scope, names)
+        if isinstance(table, Call) and last_name(table.target) == "dict":
+            lists = [_listed(arg, scope, names, depth=depth) for arg in table.args]
+    if not lists or name == "values":
+        return lists[-1] if lists else ()
+    if name == "enumerate":
+        lists = [tuple((Opaque(item.place, ()), where) for item, where in lists[0]), lists[0]]
+    return tuple(
+        (Items(group[-1][0].place, tuple(item for item, _ in group)), group[-1][1])
+        for group in zip(*lists, strict=False)
+        if len({where for _, where in group}) == 1
+    )
 
 
 def motor_names(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tuple[str, ...]:

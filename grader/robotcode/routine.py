@@ -7,7 +7,15 @@ from grader.robotcode.drive import DriveTrace
 from grader.robotcode.facts import Known, Problem, Quantity, RoutineFacts
 from grader.robotcode.files import Files
 from grader.robotcode.logged import LogTrace
-from grader.robotcode.meaning import Placed, constructed, methods, resolve, simple, type_of
+from grader.robotcode.meaning import (
+    Placed,
+    brought_name,
+    constructed,
+    methods,
+    resolve,
+    simple,
+    type_of,
+)
 from grader.robotcode.measure import Measures
 from grader.robotcode.motors import owned
 from grader.robotcode.names import Names
@@ -56,7 +64,11 @@ def facts_of(path: Path) -> RoutineFacts:
     measures = Measures(names)
     home = routine.scope.home
     if home.classes:
-        above = {base for place in names.lineage(home) for base in place.classes[-1].bases}
+        above = {
+            brought_name(base, place) or base
+            for place in names.lineage(home)
+            for base in place.classes[-1].bases
+        }
         facts = replace(
             facts,
             class_name=home.classes[-1].name,

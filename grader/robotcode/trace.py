@@ -58,7 +58,11 @@ class Trace(Statements):
             self.cannot_read(callback)
             return False
         frame = Frame(where)
-        self._invoked(frame.value(node), [parameter], frame)
+        callee = frame.value(node)
+        if isinstance(callback, Call):  # a function that makes one, with what it was given
+            made = self.evaluate(callback, Frame(scope))
+            callee = made if isinstance(made.origin, Function | Member) else callee
+        self._invoked(callee, [parameter], frame)
         return True
 
     def then(self, method: Method) -> None:

@@ -164,7 +164,9 @@ _REQUESTS = (  # Phoenix 6 control requests; the first that fits
     (re.compile(r"(Differential)?VoltageOut|SysIdSwerve\w+"), Output.VOLTAGE),
     (re.compile(r"(Differential)?DutyCycleOut"), Output.DUTY),
     (
-        re.compile(r"(Diff_|Differential|Dynamic)*(MotionMagic|Position|Velocity)\w*"),
+        re.compile(
+            r"(Diff_|Differential|Dynamic)*(MotionMagic|Position|Velocity)\w*|TorqueCurrent\w*"
+        ),
         Output.CLOSED_LOOP,
     ),
 )

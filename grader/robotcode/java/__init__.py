@@ -21,6 +21,7 @@ FIRST = 1_024  # [bytes] parsed first, then twice as much, and so on
 LONGEST = 0.2  # [s of this thread alone: a busy machine must not count] what garbage may take,
 SECONDS_PER_BYTE = 3e-6  # and this for its length; Java takes a twentieth
 
+_CLASS = re.compile(r"\b(class|interface|enum|record)\s+\w+[^;:]*\{")
 _LANGUAGE = Language(tree_sitter_java.language())
 
 
@@ -89,7 +90,7 @@ def _import(line: str) -> syntax.Import:
 def _problems(root: Tree, lowering: Lowering, text: str) -> tuple[Problem, ...]:
     """What is not Java, the cause before its echoes."""
     bracket = unmatched(text)
-    found = [] if bracket is None else [bracket]
+    found = _without_a_class(text) if bracket is None else [bracket]
     waiting = [root]
     while waiting and len(found) < MOST_PROBLEMS:
         tree = waiting.pop()
@@ -97,11 +98,25 @@ def _problems(root: Tree, lowering: Lowering, text: str) -> tuple[Problem, ...]:
             continue  # the parser's repair of the same mistake, farther from its cause
         if tree.is_missing:
             found.append(Problem(f"a '{tree.type}' is missing", tree.start_point[0] + 1))
+        elif tree.is_error and bracket is not None and _around(tree, bracket):
+            continue  # what the parser made of it
         elif tree.is_error:
             found.append(Problem(_misread(lowering.said(tree)), tree.start_point[0] + 1))
         elif tree.has_error:
             waiting.extend(reversed(tree.children))
     return tuple(dict.fromkeys(found))
+
+
+def _around(tree: Tree, cause: Problem) -> bool:
+    return tree.start_point[0] < cause.line <= tree.end_point[0] + 1
+
+
+def _without_a_class(text: str) -> list[Problem]:
+    """What to say of a text that never was Java: a letter, a page, another language."""
+    if _CLASS.search(text):
+        return []
+    first = next((at for at, line in enumerate(text.split("\n"), 1) if line.strip()), 1)
+    return [Problem(_misread(text.split("\n")[first - 1]), first)]
 
 
 def _misread(text: str) -> str:

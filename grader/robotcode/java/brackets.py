@@ -18,11 +18,12 @@ CLOSES = {"(": ")", "[": "]", "{": "}"}
 _TOKEN = re.compile(
     r"(?P<comment>//[^\n]*|/\*(?:.*?\*/|.*))"
     r'|"""(?:\\.|[^\\])*?(?:"""|\Z)'
-    r'|"(?:\\.|[^"\\\n])*"?'
+    r'|(?P<quoted>"(?:\\.|[^"\\\n])*(?P<end>")?)'
     r"|'(?:\\.|[^'\\\n])*'?"
     r"|->|\w+|[^\s\w]",
     re.DOTALL,
 )
+_Opened = tuple[str, int, bool]  # the sign, its line, whether it holds statements
 _LOOP = re.compile(r"\b(for|try)\s*$")  # their round brackets hold semicolons
 
 
@@ -56,34 +57,55 @@ def refuse_garbage(text: str, *, where: str) -> None:
 
 
 def unmatched(text: str) -> Problem | None:
-    """The first bracket that has no partner, said so that it can be found."""
-    opened: list[tuple[str, int, bool]] = []  # the sign, its line, whether it holds statements
+    """The first bracket, quote or comment that has no partner, said so that it can be found."""
+    opened: list[_Opened] = []
     line, at = 1, 0
     for match in _TOKEN.finditer(text):
-        sign = match.group()
-        if match["comment"]:
-            continue
         line, at = line + text.count("\n", at, match.start()), match.start()
-        if sign in CLOSES:
-            loop = _LOOP.search(text, max(at - 12, 0), at)
-            opened.append((sign, line, sign == "{" or loop is not None))
-        elif sign in CLOSES.values() and not opened:
-            return Problem(f"this '{sign}' closes nothing; it is one too many", line)
-        elif sign in CLOSES.values() and CLOSES[opened[-1][0]] == sign:
-            opened.pop()
-        elif sign in CLOSES.values() and opened[-1][0] == "{":
-            return Problem(
-                f"this '{sign}' closes nothing: it is one too many, or a '}}' is missing before it",
-                line,
-            )
-        elif sign in CLOSES.values() or (sign == ";" and opened and not opened[-1][2]):
-            bracket, since, _ = opened[-1]
-            return Problem(
-                f"a '{CLOSES[bracket]}' is missing before this '{sign}': "
-                f"count the brackets from line {since} on",
-                line,
-            )
+        problem = _endless(match, line)
+        if problem is None and not match["comment"]:
+            sign = match.group()
+            if sign in CLOSES:
+                loop = _LOOP.search(text, max(at - 12, 0), at)
+                opened.append((sign, line, sign == "{" or loop is not None))
+            else:
+                problem = _closed(sign, opened, line)
+        if problem is not None:
+            return problem
     if not opened:
         return None
     bracket, since, _ = opened[-1]
     return Problem(f"a '{CLOSES[bracket]}' is missing: the '{bracket}' here is never closed", since)
+
+
+def _endless(match: re.Match[str], line: int) -> Problem | None:
+    """What to say of a string or a comment that goes on where it should have ended."""
+    sign = match.group()
+    if match["quoted"] and not match["end"]:
+        return Problem("the text in quotes that begins here has no closing '\"'", line)
+    if sign.startswith("/*") and (not sign.endswith("*/") or len(sign) < len("/**/")):
+        return Problem("the comment that begins here is never closed: a '*/' is missing", line)
+    return None
+
+
+def _closed(sign: str, opened: list[_Opened], line: int) -> Problem | None:
+    """Take the bracket away that a sign closes, or say why it cannot close one."""
+    closing = sign in CLOSES.values()
+    if closing and not opened:
+        return Problem(f"this '{sign}' closes nothing; it is one too many", line)
+    if not opened or not (closing or (sign == ";" and not opened[-1][2])):
+        return None
+    bracket, since, _ = opened[-1]
+    if CLOSES[bracket] == sign:
+        opened.pop()
+        return None
+    if bracket == "{":
+        return Problem(
+            f"this '{sign}' closes nothing: it is one too many, or a '}}' is missing before it",
+            line,
+        )
+    return Problem(
+        f"a '{CLOSES[bracket]}' is missing before this '{sign}': "
+        f"count the brackets from line {since} on",
+        line,
+    )

@@ -39,12 +39,34 @@ def _call(lowering: Lowering, tree: ast.Call) -> tuple[syntax.Node, ...]:
     named = tuple((word.arg, lowering.one(word.value)) for word in tree.keywords if word.arg)
     spread = len(args) + len(named) < len(tree.args) + len(tree.keywords)
     target = lowering.one(tree.func)
+    if args and not spread and lowering.said(tree.func) in {"partial", "functools.partial"}:
+        return (_partial(lowering.place(tree), args, named),)
     if isinstance(target, syntax.Member):  # a chain begins far above; its method stands here
         start = target.place.end - len(target.name.encode())
         line = tree.func.end_lineno or tree.lineno
         place = syntax.Place(lowering.source, start, lowering.place(tree).end, line)
         target = syntax.Member(place, target.owner, target.name)
     return (syntax.Call(lowering.place(tree), target, args, named=named, spread=spread),)
+
+
+def _partial(
+    place: syntax.Place, args: tuple[syntax.Node, ...], named: tuple[tuple[str, syntax.Node], ...]
+) -> syntax.Node:
+    """A function with some arguments given, as the lambda that it stands for."""
+    last = syntax.Parameter(place, "(the rest)", "")  # no name in any program
+    call = syntax.Call(place, args[0], (*args[1:], syntax.Name(place, last.name)), named=named)
+    return syntax.Function(place, "", (last,), (syntax.Return(place, call),))
+
+
+def _dictionary(lowering: Lowering, tree: ast.Dict) -> tuple[syntax.Node, ...]:
+    """A dictionary, as the call ``dict(keys, values)``."""
+    place = lowering.place(tree)
+    keys = tuple(lowering.one(key) for key in tree.keys if key is not None)
+    values = tuple(lowering.one(value) for value in tree.values)
+    if len(keys) < len(values):  # some come from another one
+        return (syntax.Opaque(place, (*keys, *values)),)
+    both = (syntax.Items(place, keys), syntax.Items(place, values))
+    return (syntax.Call(place, syntax.Name(place, "dict"), both),)
 
 
 def _binary(lowering: Lowering, tree: ast.BinOp) -> tuple[syntax.Node, ...]:
@@ -95,6 +117,7 @@ EXPRESSIONS: dict[type[ast.AST], Maker] = {
     ast.IfExp: _choice,
     ast.List: _items,
     ast.Tuple: _items,
+    ast.Dict: _dictionary,
     ast.NamedExpr: _walrus,
     ast.ListComp: _comprehension,
     ast.SetComp: _comprehension,

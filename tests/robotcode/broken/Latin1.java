@@ -1,0 +1,3 @@
+public class Latin1 {
+  // Geschwindigkeit für den Arm
+}

@@ -1,0 +1,3 @@
+// TODO: everything
+
+/* nothing yet */

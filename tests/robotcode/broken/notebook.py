@@ -1,0 +1,4 @@
+{
+ "cells": [{"cell_type": "code", "source": ["routine = SysIdRoutine()"], "outputs": []}],
+ "nbformat": 4
+}

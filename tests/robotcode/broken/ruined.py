@@ -1,0 +1,3 @@
+class Ruined:
+    def __init__(self):
+    self.motor = None

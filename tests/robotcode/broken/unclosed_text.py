@@ -1,0 +1,3 @@
+"""The docstring that never ends.
+
+from commands2.sysid import SysIdRoutine
