@@ -22,7 +22,8 @@ MISCONCEPTIONS: dict[str, str] = {
     "of that column toward zero. Let the noisiest column be the one you explain.",
     "M-REVERSE-WASTE": "The reverse runs show friction from the other side; without them kS is "
     "only half seen.",
-    "M-R2": "There is more than one R²: say of which quantity, and look up how it is computed.",
+    "M-R2": "There is more than one R²: say of which quantity, and look up how it is computed. "
+    "None of them is a lie detector: it can be high on a damaged log, so look at the signals, too.",
     "M-BIG-STEP": "A big step spins the wheels, meets the current limit and drains the battery. "
     "A smaller one shows kA just as well.",
     "M-SLOW-SAFE": "A slower ramp is not the safer one: it covers more ground on its way to the "
@@ -41,4 +42,8 @@ MISCONCEPTIONS: dict[str, str] = {
     "kA larger, and kS hardly.",
     "M-SAG-ALWAYS-BAD": "A battery that sags does no harm to a fit on applied volts, as long as "
     "the volts asked for can still be had.",
+    "M-TRIM-PRETTY": "Trim where the physics of the test ends, not where the picture stops being "
+    "pretty: fast samples tell kV and the first rise of a step tells kA, however noisy they are.",
+    "M-FILTER-FREE": "A filter is not free: a long one bends whatever is quicker than itself, and "
+    "a step then looks like the start of a heavier mechanism.",
 }

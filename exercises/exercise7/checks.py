@@ -1,0 +1,73 @@
+"""Exercise 7: which of twelve logs are damaged, how, where, and what to do about it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from grader.check import Check, Wrong, check
+from grader.given import hand_out
+from grader.submission import read_answers
+
+from .drawn import LOGS, Case, draw
+from .line import CLEAN, read_claims
+from .scored import scored
+
+if TYPE_CHECKING:
+    from grader.given import Made
+
+FILES = ("answers.toml",)
+HERE = Path(__file__).resolve().parent
+POINTS = 2.0  # for each log: 1 for what it is, half for where, half for what to do
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at."""
+
+    given: Mapping[str, object]
+    cases: tuple[Case, ...]
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Make the learner's logs, where they are not there as they were made."""
+    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
+
+    made: dict[str, Made] = {
+        f"log{number:02}{suffix}": partial(write, case.log)
+        for suffix in (".wpilog", ".csv")
+        for number, case in enumerate(draw(student), start=1)
+    }
+    hand_out(made, exercise=HERE, student=student, what="logs", say=say)
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and what they are held against.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    return Answers(given, draw(student))
+
+
+def _of(number: int) -> Check[Answers]:
+    """The check of one log."""
+
+    def look(answers: Answers) -> None:
+        claims = read_claims(answers.given.get(f"log{number:02}"))
+        result = scored(claims, answers.cases[number - 1], points=POINTS)
+        if result.hint:
+            seen = "; ".join(one.fault for one in claims)
+            code = "M-R2" if seen == CLEAN else ""
+            raise Wrong(seen, hint=result.hint, misconception=code, earned=result.points)
+
+    look.__name__ = f"log{number:02}"
+    look.__doc__ = f"Log {number}: what is wrong with it, where, and what to do."
+    return check(points=POINTS)(look)
+
+
+log01, log02, log03, log04, log05, log06, log07, log08, log09, log10, log11, log12 = (
+    _of(number) for number in range(1, LOGS + 1)
+)

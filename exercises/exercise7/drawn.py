@@ -1,0 +1,139 @@
+"""Twelve logs for each learner: some sound, most damaged, each so that its damage can be found."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from grader.variant import generator, seed
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from sim.fault import Stretch
+    from sim.log import Log
+
+LOGS = 12
+SOUND = (2, 3)  # this many of them are sound: two or three, so that nobody can count them off
+RAMP, STEP, TIMEOUT, PERIOD = 1.0, 4.0, 5.0, 0.02  # [V/s], [V], [s], [s]: short logs
+SEVERITY = (0.6, 2.0)  # [1] 1 is an ordinary bad day; equally likely per factor
+KINDS = ("drivetrain", "shooter", "intake", "turret")  # gravity would look like a fault to many
+LESSON = ("encoder-slip", "brownout", "hard-stop", "loop-overrun")  # the four that the lesson names
+ALWAYS = ("wheel-slip", "stale-samples")  # what two of the four are taken for
+OTHERS = (
+    "command-logged",
+    "unit-error",
+    "sign-flip",
+    "mislabelled-test",
+    "noisy-standstill",
+    "voltage-dropout",
+    "stuck-sensor",
+)
+TWICE = ("encoder-slip", "brownout", "stuck-sensor")  # one of these, and gaps in another test
+NEAR = 0.5  # [shared over covered time] what the bench's own detective must reach
+MOST_DRAWS = 200  # so many in a row that cannot be solved would be our fault
+
+
+@dataclass(frozen=True, eq=False)
+class Damaged:
+    """One fault of a log: what it is, and where.
+
+    Args:
+        fault: its name.
+        where: the damaged parts.
+        whole: it spoils whole tests, so that only the tests count.
+    """
+
+    fault: str
+    where: "tuple[Stretch, ...]"
+    whole: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """One of a learner's logs, and the truth about it.
+
+    Args:
+        log: as the learner gets it.
+        damage: none, one or two.
+    """
+
+    log: "Log"
+    damage: tuple[Damaged, ...]
+
+
+def draw(student: str) -> tuple[Case, ...]:
+    """A learner's logs, always the same ones."""
+    return _drawn(student, seed(student, "exercise7"))
+
+
+@lru_cache(maxsize=4)  # they are asked for when the logs are made, and when they are graded
+def _drawn(student: str, _seed: int) -> tuple[Case, ...]:
+    rng = generator(student, "exercise7")
+    return tuple(_case(faults, rng) for faults in _plan(rng))
+
+
+def _plan(rng: "np.random.Generator") -> list[tuple[str, ...]]:
+    """Which faults strike which log; the first has one that the lesson names."""
+    first, *lesson = (str(name) for name in rng.permutation(LESSON))
+    sound = int(rng.choice(SOUND))
+    twice = str(rng.choice(TWICE))
+    left = LOGS - len(LESSON) - len(ALWAYS) - sound - 1
+    others = (str(name) for name in rng.choice(OTHERS, left, replace=False))
+    rest = [(name,) for name in (*lesson, *ALWAYS, *others)]
+    rest += [(twice, "loop-overrun"), *[()] * sound]
+    return [(first,), *(rest[int(index)] for index in rng.permutation(len(rest)))]
+
+
+def _case(faults: tuple[str, ...], rng: "np.random.Generator") -> Case:
+    """A log with these faults, drawn until the bench's own detective finds them and no others."""
+    for _ in range(MOST_DRAWS):
+        case = _one(faults, rng)
+        if case is not None and _solvable(case):
+            return case
+    raise RuntimeError(f"no log that shows {' and '.join(faults) or 'nothing'}")
+
+
+def _one(faults: tuple[str, ...], rng: "np.random.Generator") -> Case | None:
+    from sim.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
+    from sim.errors import Refusal  # noqa: PLC0415 - the same
+    from sim.faults import FAULTS  # noqa: PLC0415 - the same
+    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
+    from sim.routine import Routine  # noqa: PLC0415 - the same
+    from sim.simulate import simulate  # noqa: PLC0415 - the same
+
+    kinds = ("drivetrain",) if "wheel-slip" in faults else KINDS
+    mechanism = MECHANISMS[str(rng.choice(kinds))].draw(rng)
+    routine = Routine(ramp=RAMP, step=STEP, timeout=TIMEOUT)
+    log = simulate(mechanism, routine, rng=rng, period=PERIOD)
+    damage: list[Damaged] = []
+    for name in faults:
+        low, high = SEVERITY
+        severity = float(low * (high / low) ** rng.random())
+        try:
+            spoilt = contaminate(log, name, severity=severity, rng=rng)
+        except Refusal:  # it would not show there
+            return None
+        log = spoilt.log
+        damage.append(Damaged(name, spoilt.where, FAULTS[name].whole))
+    struck = [{part.run for part in one.where} for one in damage]
+    if len(struck) > 1 and set.intersection(*struck):
+        return None
+    return Case(log, tuple(damage))
+
+
+def _solvable(case: Case) -> bool:
+    """Whether the faults, no others, are found in the record, each in its place."""
+    from sim.inspection import inspect  # noqa: PLC0415 - numpy only where it is needed
+
+    found = inspect(case.log)
+    if found.clean and not case.damage:
+        return True
+    if {one.fault for one in found.damages} != {one.fault for one in case.damage}:
+        return False
+    return all(
+        any(
+            part.overlap(other.where) >= NEAR for other in found.damages if other.fault == one.fault
+        )
+        for one in case.damage
+        for part in one.where
+    ) and len(found.damages) == sum(len(one.where) for one in case.damage)

@@ -1,0 +1,165 @@
+"""One line of an answer: what is wrong with a log, where, and what to do, in any order.
+
+    log04 = "hard-stop, dynamic-forward, 1.20 to 1.66, trim"
+
+Two faults of one log are joined by ``+``, or stand in a list.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from grader.check import Wrong
+from grader.word import LONGEST
+
+if TYPE_CHECKING:
+    from sim.log import Log
+
+CLEAN = "clean"
+ACTIONS = ("rerun", "trim", "filter", "fix-config")
+FAULTS = (
+    "encoder-slip",
+    "brownout",
+    "hard-stop",
+    "loop-overrun",
+    "stale-samples",
+    "command-logged",
+    "unit-error",
+    "sign-flip",
+    "mislabelled-test",
+    "noisy-standstill",
+    "voltage-dropout",
+    "stuck-sensor",
+    "wheel-slip",
+)
+TESTS = tuple(
+    f"{kind}-{way}" for kind in ("quasistatic", "dynamic") for way in ("forward", "reverse")
+)
+PLACES = (*TESTS, "quasistatic", "dynamic", "forward", "reverse", "whole")
+SPELLED = {"mislabeled-test": "mislabelled-test", "all": "whole"}  # what else people write
+FILLERS = {"from", "to", "until", "till", "s", "sec", "seconds", "at", "in", "the", "test", "tests"}
+FILLERS |= {"log", "run", "t", "between"}
+NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+MANY = 6  # claims about one log; more are a list of all there are
+
+Span = tuple[int, float, float]  # which run, from [s], to [s] in the log's own time
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What a learner says about one fault.
+
+    Args:
+        fault: one of ``FAULTS``, or ``CLEAN``.
+        places: of ``PLACES``: which tests.
+        times: [s] from, to; None if none are given.
+        action: one of ``ACTIONS``, or empty.
+    """
+
+    fault: str
+    places: tuple[str, ...]
+    times: tuple[float, float] | None
+    action: str
+
+    def _means(self, test: str) -> bool:
+        """Whether a test is one of those that are named, or has all the marks that are."""
+        named = [place for place in self.places if place in TESTS]
+        if named:
+            return test in named
+        return all(place in ("whole", *test.split("-")) for place in self.places)
+
+    def spans(self, log: "Log", *, whole: bool) -> list[list[Span]]:
+        """The parts of a log that may be meant; none if no place was given.
+
+        Args:
+            log: which the claim is about.
+            whole: only the tests count, not the times.
+
+        Returns:
+            Ways to read it: times may count from the beginning of the log, or of the test.
+        """
+        named = [
+            (index, float(run.time[0]), float(run.time[-1]))
+            for index, run in enumerate(log.runs)
+            if self._means(run.test)
+        ]
+        if self.times is None:
+            return [named] if self.places else []
+        ways = []
+        for since_test in (False, True) if self.places else (False,):
+            first, last = self.times
+            cut = [
+                (index, max(begin, first + shift), min(end, last + shift))
+                for index, begin, end in named
+                for shift in (begin if since_test else 0.0,)
+            ]
+            kept = {index for index, begin, end in cut if end > begin}
+            part = [one for one in (named if whole else cut) if one[0] in kept]
+            ways.append(part)
+        return ways
+
+
+def read_claims(raw: object) -> tuple[Claim, ...]:
+    """Read one line of the answers.
+
+    Raises:
+        Wrong: there is nothing, no fault in it, or a word that nobody knows.
+    """
+    if raw is None or raw in ("", []):
+        raise Wrong("nothing yet", hint=f'Write "{CLEAN}", or what, where, and what to do.')
+    parts = raw if isinstance(raw, list) else [raw]
+    if not all(isinstance(part, str) for part in parts):
+        raise Wrong(f"{raw}, which is not words", hint=f"Write words in quotes. {_listed()}")
+    said = [part for whole in parts for part in re.split(r"[+;&\n]|\band\b", whole)]
+    claims = tuple(_claim(part) for part in said if part.strip())
+    if not claims or len(claims) > MANY:
+        raise Wrong(f"{len(claims)} faults", hint=f"Name those you can see. {_listed()}")
+    if len(claims) > 1 and any(one.fault == CLEAN for one in claims):
+        raise Wrong(f'"{CLEAN}" and a fault', hint="It cannot be both. Say which.")
+    return claims
+
+
+def _listed() -> str:
+    return f"Choose one of: {', '.join((CLEAN, *FAULTS))}."
+
+
+def _claim(text: str) -> Claim:
+    left = re.sub(r"[\s_]+", " ", text.lower())
+    faults, left = _take(left, (CLEAN, *FAULTS))
+    actions, left = _take(left, ACTIONS)
+    places, left = _take(left, PLACES)
+    times = [float(number.replace(",", ".")) for number in NUMBER.findall(left)]
+    unknown = [word for word in re.findall(r"[^\W\d_]+", left) if word not in FILLERS]
+    shown = f'"{text.strip()[:LONGEST]}"'
+    if unknown:
+        hint = f"{_listed()} And of: {', '.join(ACTIONS)}. And of: {', '.join(PLACES)}."
+        raise Wrong(f'{shown}, in which "{unknown[0][:LONGEST]}" is not known', hint=hint)
+    if len(faults) != 1:
+        raise Wrong(f"{shown}, with {len(faults) or 'no'} faults in it", hint=_one_each(faults))
+    if len(actions) > 1:
+        raise Wrong(f"{shown}, with {len(actions)} actions", hint="Give the one you would take.")
+    if len(times) not in (0, 2):
+        hint = "Give two times, where it begins and where it ends: 1.20 to 1.66."
+        raise Wrong(f"{shown}, with {len(times)} number(s)", hint=hint)
+    span = (min(times), max(times)) if times else None
+    return Claim(faults[0], tuple(places), span, "".join(actions))
+
+
+def _one_each(faults: Sequence[str]) -> str:
+    return "Put a + between two faults, each with its own place." if faults else _listed()
+
+
+def _take(text: str, words: Sequence[str]) -> tuple[list[str], str]:
+    """The words that stand in a text, and the text without them."""
+    known = {word: word for word in words}
+    known |= {other: word for other, word in SPELLED.items() if word in words}
+    found = []
+    for other, word in known.items():
+        pattern = re.compile(rf"\b{other.replace('-', '[ -]?')}\b|\b{other}\b")
+        if other == "rerun":
+            pattern = re.compile(r"\bre[ -]?run\b")
+        if pattern.search(text):
+            found.append(word)
+            text = pattern.sub(" ", text)
+    return list(dict.fromkeys(found)), text

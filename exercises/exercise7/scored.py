@@ -1,0 +1,131 @@
+"""Hold what was said about one log against the truth about it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .drawn import Case, Damaged
+from .line import CLEAN, Claim, Span
+from .told import ACCEPTED, ACTS, mixed_up, overlooked, would_show
+
+LABEL, PLACE, ACTION = 0.5, 0.25, 0.25  # [share of a fault's points]
+NEAR = 0.5  # [shared over covered time] that is the right place
+SLACK = 0.1  # [s] or: both ends this near, as who reads them off a picture can be
+FALSE_ALARM = 0.5  # points off for each fault where there is none
+
+
+@dataclass(frozen=True)
+class Scored:
+    """What a line earns, and what to say; nothing to say if all is right."""
+
+    points: float
+    hint: str
+
+
+def scored(claims: Sequence[Claim], case: Case, *, points: float) -> Scored:
+    """Judge the claims about one log.
+
+    Args:
+        claims: what was said, at least one.
+        case: the log, and the truth about it.
+        points: what a log is worth.
+    """
+    if claims[0].fault == CLEAN:
+        if case.damage:
+            return Scored(0.0, overlooked(case.damage[0].fault))
+        return Scored(points, "")
+    pairs, alarms = _paired(claims, case)
+    if not case.damage:
+        return Scored(0.0, _alarm(claims[0]))
+    share, says = 0.0, []
+    for damaged, claim in pairs:
+        earned, hint = _one(claim, damaged, case)
+        share += earned / len(case.damage)
+        says += [hint] if hint else []
+    says += [_alarm(claim) for claim in alarms]
+    return Scored(max(points * share - FALSE_ALARM * len(alarms), 0.0), " ".join(says))
+
+
+def _paired(
+    claims: Sequence[Claim], case: Case
+) -> tuple[list[tuple[Damaged, Claim | None]], list[Claim]]:
+    """Each damage with the claim that means it, and the claims that mean none."""
+    left = list(claims)
+    pairs: list[tuple[Damaged, Claim | None]] = []
+    for damaged in case.damage:
+        named = [one for one in left if one.fault == damaged.fault]
+        pairs.append((damaged, named[0] if named else None))
+        left = [one for one in left if one not in named[:1]]
+    for index, (damaged, found) in enumerate(pairs):
+        there = [one for one in left if not found and _overlap(one, damaged, case) > 0.0]
+        if there:  # seen, but taken for something else
+            pairs[index] = (damaged, there[0])
+            left.remove(there[0])
+    return pairs, left
+
+
+def _one(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[float, str]:
+    """Share of a fault's points, and what to say."""
+    if claim is None:
+        return 0.0, overlooked(damaged.fault)
+    placed = _overlap(claim, damaged, case) >= NEAR
+    share = PLACE * placed
+    if claim.fault != damaged.fault:
+        return share, mixed_up(claim.fault, damaged.fault)
+    share += LABEL
+    says = []
+    if not placed:
+        says.append(_place(claim, whole=damaged.whole))
+    if claim.action in ACCEPTED[damaged.fault]:
+        share += ACTION
+    elif claim.action:
+        says.append(f"{ACTS[claim.action]}: not here. What would keep it from happening again?")
+    else:
+        says.append("What is to be done? Add one of: rerun, trim, filter, fix-config.")
+    return share, " ".join(says)
+
+
+def _place(claim: Claim, *, whole: bool) -> str:
+    if not claim.places and claim.times is None:
+        return "Where is it? Add the test, and the times where it begins and ends."
+    if whole:
+        return "This damage spoils whole tests. Which ones? Look at each of the four."
+    if not claim.places:
+        return (
+            "The fault is right, the place is not. Add the name of the test: without it, times "
+            "count from the beginning of the log."
+        )
+    return (
+        "The fault is right, the place is not: from the first sample that is wrong to the last. "
+        "Is it in this test, and is it as long as you say?"
+    )
+
+
+def _alarm(claim: Claim) -> str:
+    return (
+        f"{would_show(claim.fault)} Show it on a plot before you say it: what looks odd may be "
+        "how a sound mechanism moves. Is it the same in the test the other way?"
+    )
+
+
+def _overlap(claim: Claim, damaged: Damaged, case: Case) -> float:
+    """Shared over covered time, of the better way to read the claim; 1 where both ends are near."""
+    truth = [(part.run or 0, part.start, part.end) for part in damaged.where]
+    if damaged.whole:
+        runs = case.log.runs
+        truth = [(i, float(runs[i].time[0]), float(runs[i].time[-1])) for i, _, _ in truth]
+    ways = claim.spans(case.log, whole=damaged.whole)
+    return max((_shared(way, truth) for way in ways), default=0.0)
+
+
+def _shared(one: Sequence[Span], other: Sequence[Span]) -> float:
+    mine, others = ({run: ends for run, *ends in spans} for spans in (one, other))
+    if mine.keys() == others.keys() and all(
+        abs(a - b) <= SLACK for run in mine for a, b in zip(mine[run], others[run], strict=True)
+    ):
+        return 1.0
+    shared = sum(
+        max(min(mine[run][1], others[run][1]) - max(mine[run][0], others[run][0]), 0.0)
+        for run in mine.keys() & others.keys()
+    )
+    covered = sum(max(end - begin, 0.0) for begin, end in (*mine.values(), *others.values()))
+    return shared / (covered - shared) if covered > shared else 0.0

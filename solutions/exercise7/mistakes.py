@@ -1,0 +1,86 @@
+"""Wrong answers to exercise 7, and what a learner must be told about each.
+
+They change the first log, which has one fault in a part of one test.
+"""
+
+import re
+from collections.abc import Callable
+
+from grader.mistake import Mistake, put
+
+ANSWERS = "answers.toml"
+FIRST = re.compile(
+    r'^log01 = "(?P<fault>[\w-]+), (?P<kind>\w+)-(?P<way>\w+), (?P<begin>[\d.]+) to '
+    r'(?P<end>[\d.]+), (?P<action>[\w-]+)"$',
+    re.MULTILINE,
+)
+TAKEN_FOR = {
+    "encoder-slip": "wheel-slip",
+    "brownout": "hard-stop",
+    "hard-stop": "brownout",
+    "loop-overrun": "stale-samples",
+}
+OTHER_WAY = {"forward": "reverse", "reverse": "forward"}
+
+
+def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
+    """Make another line of the first, out of its parts: some of them changed."""
+
+    def make(text: str) -> str:
+        found = FIRST.search(text)
+        if found is None:
+            raise ValueError("the first line of the solution is not what it was")
+        parts = found.groupdict()
+        parts |= {name: change(parts[name]) for name, change in changes.items()}
+        return put("log01", f'"{line.format(**parts)}"')(text)
+
+    return make
+
+
+WHOLE = "{fault}, {kind}-{way}, {begin} to {end}, {action}"
+
+MISTAKES = (
+    Mistake(
+        "all sound, as R² is fine", ANSWERS, put("log01", '"clean"'), "log01", "a fine R²", "M-R2"
+    ),
+    Mistake("nothing", ANSWERS, put("log01", '""'), "log01", "nothing yet"),
+    Mistake(
+        "what it is taken for",
+        ANSWERS,
+        first(WHOLE, fault=TAKEN_FOR.__getitem__),
+        "log01",
+        "would show like this",
+    ),
+    Mistake(
+        "the other way", ANSWERS, first(WHOLE, way=OTHER_WAY.__getitem__), "log01", "the place"
+    ),
+    Mistake("no place", ANSWERS, first("{fault}, {action}"), "log01", "Where is it?"),
+    Mistake(
+        "no action",
+        ANSWERS,
+        first("{fault}, {kind}-{way}, {begin} to {end}"),
+        "log01",
+        "What is to be done?",
+    ),
+    Mistake(
+        "a filter for everything",
+        ANSWERS,
+        first(WHOLE, action=lambda _: "filter"),
+        "log01",
+        "single samples tremble",
+    ),
+    Mistake(
+        "a fault too many",
+        ANSWERS,
+        first(f"{WHOLE} + sign-flip whole fix-config"),
+        "log01",
+        "Show it on a plot",
+    ),
+    Mistake(
+        "a word that is none",
+        ANSWERS,
+        put("log01", '"sensor broke, rerun"'),
+        "log01",
+        "Choose one of: clean, encoder-slip",
+    ),
+)

@@ -1,0 +1,242 @@
+"""Exercise 7: twelve logs of one's own, judged by eye."""
+
+import re
+import shutil
+import subprocess
+import sys
+from collections import Counter
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from grader.check import Wrong
+from grader.exercise import Exercise
+from grader.variant import of_class
+from sim.fault import Stretch
+from sim.faults import FAULTS
+from sim.formats import read
+from sim.inspection import inspect
+from sim.log import FOUR_TESTS, Log, Run
+
+ROOT = Path(__file__).resolve().parents[1]
+OWN = Exercise("exercise7", ROOT / "exercises" / "exercise7")
+CHECKS = OWN.module
+DRAWN, LINE, SCORED, TOLD = (
+    sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "line", "scored", "told")
+)
+
+
+def right(case):
+    """The line that earns everything, from the truth."""
+    said = []
+    for one in case.damage:
+        tests = ", ".join(dict.fromkeys(part.test for part in one.where))
+        first, begin = one.where[0], case.log.runs[one.where[0].run].time[0]
+        times = "" if one.whole else f"{first.start - begin:.2f} to {first.end - begin:.2f}"
+        said.append(f"{one.fault}, {tests}, {times}, {TOLD.ACCEPTED[one.fault][0]}")
+    return " + ".join(said) or "clean"
+
+
+def graded(folder, lines, *, student="ann"):
+    """The grade of twelve lines."""
+    path = folder / "answers.toml"
+    text = (f'log{number:02} = "{line}"\n' for number, line in enumerate(lines, start=1))
+    path.write_text("".join(text), "utf-8")
+    return OWN.grade(path, student=student)
+
+
+def case(*damage):
+    """A log of four quiet tests, each of 4 s, and one fault for each (name, run, start, end)."""
+    runs = []
+    for index, test in enumerate(FOUR_TESTS):
+        time = 10.0 * index + 1.0 + 0.02 * np.arange(201)
+        runs.append(Run(test, time, np.ones(201), np.zeros(201), np.zeros(201)))
+    return DRAWN.Case(
+        Log(tuple(runs)),
+        tuple(
+            DRAWN.Damaged(name, (Stretch(run, FOUR_TESTS[run], start, end),), FAULTS[name].whole)
+            for name, run, start, end in damage
+        ),
+    )
+
+
+SLIP = ("encoder-slip", 2, 22.0, 23.0)  # dynamic-forward, from 1 to 2 s after its beginning
+SIGN = ("sign-flip", 3, 31.0, 35.0)  # all of dynamic-reverse
+
+
+def test_twenty_students_get_twelve_solvable_logs_and_all_of_the_faults_come_up(tmp_path):
+    seen = Counter()
+    for number in range(20):
+        student = f"student {number}"
+        cases = CHECKS.draw(student)
+        seen.update(one.fault for case in cases for one in case.damage)
+
+        assert len(cases) == 12
+        assert sum(not case.damage for case in cases) in {2, 3}
+        assert sum(len(case.damage) == 2 for case in cases) == 1
+        assert len(cases[0].damage) == 1
+        grade = graded(tmp_path, [right(case) for case in cases], student=student)
+        assert (grade.status, grade.score) == ("passed", 24)
+    assert set(seen) == set(LINE.FAULTS)
+
+
+def test_a_student_gets_the_same_logs_every_time_and_nobody_elses():
+    def told(student):
+        return [tuple(run.velocity.sum() for run in one.log.runs) for one in CHECKS.draw(student)]
+
+    assert told("ann") == told("Ann") != told("ben")
+    alone = told("ann")
+    with of_class(b"a class"):
+        assert told("ann") != alone
+    assert told("ann") == alone
+
+
+def test_the_files_hold_the_logs_and_not_the_answers(tmp_path):
+    folder = tmp_path / "exercises" / "exercise7"
+    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    said = []
+    Exercise("exercise7", folder).prepare("ann", say=said.append)
+    files = sorted((folder / "data" / "ann").iterdir())
+
+    assert len(files) == 24
+    assert said == ["Your own logs for exercise 7: exercises/exercise7/data/ann/log01.wpilog"]
+    words = [form for name in FAULTS for form in (name, name.replace("-", "_"))]
+    for file in files:
+        text = file.read_bytes().lower()
+        assert [word for word in words if word.encode() in text] == []
+    for number, case in enumerate(CHECKS.draw("ann"), start=1):
+        for suffix in (".wpilog", ".csv"):
+            found = inspect(read(folder / "data" / "ann" / f"log{number:02}{suffix}"))
+            assert {one.fault for one in found.damages} == {one.fault for one in case.damage}
+
+
+@pytest.mark.parametrize(
+    ("line", "damage", "points"),
+    [
+        ("clean", (), 2.0),
+        ("encoder-slip, dynamic-forward, 1 to 2, rerun", (), 0.0),  # a false alarm
+        ("clean", (SLIP,), 0.0),
+        ("encoder-slip, dynamic-forward, 1 to 2, rerun", (SLIP,), 2.0),
+        ("Encoder slip: dynamic forward from 1,0 s to 2,0 s; ", (SLIP,), 1.5),
+        ("rerun encoder_slip dynamic-forward 2.00-1.00", (SLIP,), 2.0),
+        ("encoder-slip, dynamic-forward, 22 to 23, trim", (SLIP,), 2.0),  # the log's own time
+        ("encoder-slip, 22 to 23, trim", (SLIP,), 2.0),
+        ("encoder-slip, 1 to 2, trim", (SLIP,), 1.5),  # no test: the log's own time
+        ("encoder-slip, dynamic-forward, 1 to 3, trim", (SLIP,), 2.0),  # half is shared
+        ("encoder-slip, dynamic-forward, 1 to 3.1, trim", (SLIP,), 1.5),
+        ("encoder-slip, dynamic-forward, 1 to 2, filter", (SLIP,), 1.5),
+        ("encoder-slip", (SLIP,), 1.0),
+        ("wheel-slip, dynamic-forward, 1 to 2, rerun", (SLIP,), 0.5),  # seen, and mistaken
+        ("wheel-slip, dynamic-reverse, 1 to 2, rerun", (SLIP,), 0.0),
+        ("encoder-slip, dynamic-forward, 1 to 2, rerun + sign-flip, reverse", (SLIP,), 1.5),
+        ("sign-flip, dynamic-reverse, fix-config", (SIGN,), 2.0),
+        ("sign-flip, dynamic-reverse, 0.5 to 1, fix config", (SIGN,), 2.0),  # the test counts
+        ("sign-flip, reverse, fix-config", (SIGN,), 2.0),  # half of what it says
+        ("sign-flip, whole, fix-config", (SIGN,), 1.5),
+        ("sign-flip, dynamic-reverse, fix-config", (SLIP, SIGN), 1.0),
+        ("sign-flip dynamic-reverse fix-config + encoder-slip 22 to 23 trim", (SLIP, SIGN), 2.0),
+        ("brownout 22 to 23 + sign-flip dynamic-reverse fix-config", (SLIP, SIGN), 1.25),
+        ("encoder-slip 22 23 trim + brownout 1 2 + hard-stop 1 2 + wheel-slip 1 2", (SLIP,), 0.5),
+    ],
+)
+def test_what_a_line_earns(line, damage, points):
+    claims = LINE.read_claims(line)
+    result = SCORED.scored(claims, case(*damage), points=2.0)
+
+    assert result.points == pytest.approx(points)
+    assert (result.hint == "") == (points == 2.0)
+
+
+def test_half_a_sample_off_is_forgiven_where_damage_is_short():
+    short = case(("wheel-slip", 2, 21.0, 21.12))
+
+    for line, points in (("0.04 to 0.2", 2.0), ("0.3 to 0.42", 1.5)):
+        claims = LINE.read_claims(f"wheel-slip dynamic-forward {line} rerun")
+        assert SCORED.scored(claims, short, points=2.0).points == points
+
+
+@pytest.mark.parametrize(
+    ("raw", "says"),
+    [
+        ("", "nothing yet"),
+        (None, "nothing yet"),
+        (7, "which is not words"),
+        ([1], "which is not words"),
+        ("the belt is loose", 'in which "belt" is not known'),
+        ("rerun", "with no faults in it"),
+        ("brownout sign-flip", "with 2 faults in it"),
+        ("brownout 1.2", "with 1 number(s)"),
+        ("brownout rerun trim", "with 2 actions"),
+        ("clean + brownout", "and a fault"),
+        (" + ", "0 faults"),
+        (" + ".join(LINE.FAULTS), "13 faults"),
+    ],
+)
+def test_a_line_that_cannot_be_read_is_told_why(raw, says):
+    with pytest.raises(Wrong) as wrong:
+        LINE.read_claims(raw)
+
+    assert says in wrong.value.seen
+    assert wrong.value.hint
+
+
+@pytest.mark.parametrize("name", [*LINE.FAULTS, "clean"])
+def test_every_word_can_be_read_and_stands_in_the_task(name):
+    (claim,) = LINE.read_claims(f"{name.replace('-', ' ')}, whole")
+
+    assert claim == LINE.Claim(name, ("whole",), None, "")
+    assert f"| {name} |" in (OWN.folder / "README.md").read_text("utf-8")
+
+
+def test_american_spelling_is_read_too():
+    (claim,) = LINE.read_claims("mislabeled test, dynamic, re-run")
+
+    assert (claim.fault, claim.action) == ("mislabelled-test", "rerun")
+
+
+def test_no_feedback_names_what_it_really_is():
+    for said, really in product(LINE.FAULTS, repeat=2):
+        words = re.compile(rf"\b{really.replace('-', '[ -]')}\b")
+        assert not words.search(TOLD.overlooked(really))
+        assert said == really or not words.search(TOLD.mixed_up(said, really))
+
+
+@pytest.mark.parametrize(
+    ("said", "really", "asks"),
+    [
+        ("encoder-slip", "wheel-slip", "When did this begin?"),
+        ("brownout", "hard-stop", "speed up again"),
+        ("hard-stop", "brownout", "Does the position?"),
+        ("loop-overrun", "stale-samples", "are samples missing"),
+    ],
+)
+def test_who_mistakes_a_look_alike_is_asked_what_tells_the_two_apart(said, really, asks):
+    assert asks in TOLD.mixed_up(said, really)
+
+
+def test_calling_all_logs_clean_or_all_the_same_earns_little(tmp_path):
+    for line in ("clean", "encoder-slip whole rerun", "brownout dynamic trim"):
+        assert graded(tmp_path, [line] * 12).score <= 8
+
+
+def test_a_log_is_drawn_whole_and_close_up(tmp_path):
+    folder = tmp_path / "exercises" / "exercise7"
+    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    Exercise("exercise7", folder).prepare("ann", say=lambda _: None)
+
+    def look(*arguments):
+        return subprocess.run(
+            [sys.executable, str(folder / "look.py"), *arguments, "--student", "ann"],
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+
+    assert look("4").returncode == 0
+    whole = (folder / "data" / "ann" / "log04.svg").read_bytes()
+    part = look("4", "dynamic-forward", "0.1", "0.6")
+    assert "dynamic-forward" in part.stdout
+    assert (folder / "data" / "ann" / "log04.svg").read_bytes() != whole
+    assert look("13").returncode == 2
