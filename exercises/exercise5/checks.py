@@ -1,0 +1,166 @@
+"""Exercise 5: four tests on four buttons, held, explained and guarded. Read, never run."""
+
+from pathlib import Path
+
+from grader.check import NotReached, Wrong, check
+from grader.robotcode.binding_facts import BindingFacts
+from grader.robotcode.bindings import bindings_of
+from grader.submission import read_text
+from sim.errors import UnreadableFile
+
+from .explained import check_comment
+from .four import TESTS, all_of, missing, named, times
+from .guarded import check_guard
+from .holding import check_hold, held_share
+
+FILES = ("RobotContainer.java", "robotcontainer.py")
+READ = "looked at once a test is bound to a button"
+
+
+def read(path: Path, *, student: str) -> BindingFacts:  # noqa: ARG001 - one task for everyone
+    """What the file says about its buttons.
+
+    Raises:
+        UnreadableFile: it cannot be read, or does not parse.
+    """
+    read_text(path)
+    facts = bindings_of(path)
+    if facts.problems:
+        first = facts.problems[0]
+        raise UnreadableFile(
+            first.message,
+            where=f"{path}, line {first.line}",
+            advice="Mend that line first: code with a mistake like this does not compile.",
+        )
+    return facts
+
+
+@check(points=2)
+def factories(facts: BindingFacts) -> None:
+    """Public methods of the subsystem make the commands of all four tests."""
+    made = all_of(one.test for one in facts.factories)
+    public = all_of(one.test for one in facts.factories if one.public)
+    if public >= TESTS:
+        return
+    earned = 2 * len(public) / len(TESTS)
+    hidden = [one for one in facts.factories if not one.public and all_of([one.test]) - public]
+    if hidden:
+        raise Wrong(
+            f"other classes may not call {hidden[0].method}",
+            hint="Make it public: in Java by that word, in Python by a name without a _ in front.",
+            earned=earned,
+        )
+    if not made and any(not test.read for one in facts.bindings for test in one.tests):
+        raise Wrong(
+            f"I cannot see the methods that {facts.bindings[0].text} calls",
+            hint="Put the subsystem's file beside this one, or its class into it, and grade again.",
+        )
+    if any(not one.test.direction for one in facts.factories):
+        one = next(one for one in facts.factories if not one.test.direction)
+        raise Wrong(
+            f"I cannot tell the direction of {one.method} by reading",
+            hint="Hand it Direction.kForward or kReverse, or let it be the method's parameter.",
+            earned=earned,
+        )
+    lacking = named(TESTS - public)
+    raise Wrong(
+        f"no method makes {lacking}" if made else "no method makes the command of a test",
+        hint="The routine makes the commands: quasistatic(direction) and dynamic(direction). Hand "
+        "them out from public methods of the subsystem.",
+        earned=earned,
+    )
+
+
+@check(points=3)
+def held(facts: BindingFacts) -> None:
+    """Each of the four tests runs while a button of its own is held, and no longer."""
+    reached(facts)
+    earned = round(3 * held_share(facts), 2)
+    for one in facts.bindings:
+        check_hold(one, facts, earned=earned)
+    lacking = missing(facts)
+    if lacking and facts.unread:
+        first = facts.unread[0]
+        hint = "Write the test into the line that binds it: then I can read it."
+        raise Wrong(f"line {first.line}: {first.message}", hint=hint, earned=earned)
+    if lacking:
+        hint = "Four tests, four buttons: two kinds, each forward and reverse."
+        raise Wrong(f"no button runs {named(lacking)}", hint=hint, earned=earned)
+
+
+@check(points=1)
+def each_once(facts: BindingFacts) -> None:
+    """Every test is there once: two kinds, two directions."""
+    reached(facts)
+    for one in facts.bindings:
+        if len(one.tests) > 1:
+            hint = "A command of several tests runs one after the other. Give each its own button."
+            raise Wrong(f"line {one.line} runs {named(all_of(one.tests))}", hint=hint)
+        if not all_of(one.tests) or one.tests[0].direction == "any":
+            raise Wrong(
+                f"I cannot tell the direction in line {one.line} by reading {one.text}",
+                hint="Write Direction.kForward or Direction.kReverse there.",
+            )
+    twice = [test for test in TESTS if len(times(facts, test)) > 1]
+    if twice:
+        first = min(twice, key=lambda test: times(facts, test)[0])
+        lines = " and ".join(f"line {line}" for line in times(facts, first))
+        hint = "Copied and not changed? Look at the kind and the direction in both lines."
+        raise Wrong(f"{' '.join(first)} twice: {lines}", hint=hint)
+    lacking = missing(facts)
+    if lacking:
+        only = {way for _, way in lacking} == {"reverse"}
+        raise Wrong(
+            f"{named(lacking)} missing",
+            hint="The reverse runs are no luxury: friction and gravity show only in both."
+            if only
+            else "Two kinds, each forward and reverse.",
+            misconception="M-REVERSE-WASTE" if only else "",
+        )
+
+
+@check(points=2)
+def comments(facts: BindingFacts) -> None:
+    """A comment beside each binding says which test it is and what that measures."""
+    reached(facts)
+    wrong: list[Wrong] = []
+    for one in facts.bindings:
+        try:
+            check_comment(one)
+        except Wrong as why:
+            wrong.append(why)
+    if wrong:
+        right = len(facts.bindings) - len(wrong)
+        wrong[0].earned = round(2 * right / max(len(facts.bindings), len(TESTS)), 2)
+        raise wrong[0]
+
+
+@check(points=2)
+def guard(facts: BindingFacts) -> str | None:
+    """No test can be started by accident in a match."""
+    reached(facts)
+    return check_guard(facts, points=2)
+
+
+def reached(facts: BindingFacts) -> None:
+    """Ask for bindings, where there are none.
+
+    Raises:
+        Wrong: tests are started in another way, or cannot be read.
+        NotReached: there is nothing yet.
+    """
+    if facts.bindings:
+        return
+    if facts.elsewhere:
+        text, line = facts.elsewhere[0]
+        raise Wrong(
+            f"{text} in line {line}",
+            hint="There nobody holds a button, and nobody can let it go. Bind the test to one.",
+        )
+    if facts.unread:
+        first = facts.unread[0]
+        raise Wrong(
+            f"line {first.line}: {first.message}",
+            hint="Write the test into the line that binds it: then I can read it.",
+        )
+    raise NotReached(READ)

@@ -1,0 +1,80 @@
+"""Whether a test can be started by accident: test mode, a chord, a switch, another controller."""
+
+from grader.check import Wrong
+from grader.robotcode.binding_facts import Binding, BindingFacts, Controller, Guard
+
+from .four import TESTS, missing
+
+WAYS = (
+    "Ask for something a driver never does in a match: test mode, a second button held along, a "
+    "switch on the dashboard, or a controller that is not plugged in then."
+)
+NOT_IN_ROBOTPY = "RobotModeTriggers"  # as of 2026
+HOLDS = frozenset({Guard.TEST_MODE, Guard.CHORD, Guard.TOGGLE})
+
+
+def check_guard(facts: BindingFacts, *, points: float) -> str | None:
+    """Whether every binding is guarded.
+
+    Returns:
+        A note, if there is something to say all the same.
+
+    Raises:
+        Wrong: some or all are not.
+    """
+    open_ = [one for one in facts.bindings if not _guarded(one, facts)]
+    if not open_ and missing(facts):
+        earned = points * (len(TESTS) - len(missing(facts))) / len(TESTS)
+        hint = "The guard is right. It counts for the whole once all four tests are there."
+        raise Wrong(f"{len(facts.bindings)} of 4 tests bound", hint=hint, earned=earned)
+    if not open_:
+        return _note(facts)
+    first = open_[0]
+    seen = f"nothing guards {first.text} in line {first.line}"
+    if Guard.ASKED_ONCE in first.guards:
+        raise Wrong(
+            f"test mode is asked in an if around line {first.line}",
+            hint="That if is asked once, while the robot starts, and it is not in test mode then. "
+            "Let the trigger ask, every time.",
+        )
+    guarded = len(facts.bindings) - len(open_)
+    if guarded:
+        lines = ", ".join(str(one.line) for one in open_)
+        said = f"{guarded} of {len(facts.bindings)} bindings are guarded; not so: line {lines}"
+        hint = "One open door is enough. Guard all four the same way."
+        raise Wrong(said, hint=hint, earned=points * guarded / max(len(facts.bindings), 4))
+    used = [one for one in _controllers(first, facts) if one.uses]
+    if used and len(facts.controllers) > 1:
+        text, line = used[0].uses[0]
+        raise Wrong(
+            seen, hint=f"Its controller is in use in a match: {text} in line {line}. {WAYS}"
+        )
+    raise Wrong(seen, hint=WAYS)
+
+
+def _note(facts: BindingFacts) -> str | None:
+    """What to say about guards that are right."""
+    if facts.language == "python" and any(NOT_IN_ROBOTPY in one.trigger for one in facts.bindings):
+        return f"RobotPy of 2026 has no {NOT_IN_ROBOTPY}; DriverStation.isTest asks the same."
+    if any(not HOLDS.intersection(one.guards) for one in facts.bindings):
+        return "Unplug that controller before a match: only then nobody touches it."
+    return None
+
+
+def _guarded(one: Binding, facts: BindingFacts) -> bool:
+    """Whether something in the trigger guards it, or its controller serves nothing else."""
+    if HOLDS.intersection(one.guards):
+        return True
+    if Guard.ASKED_ONCE in one.guards:
+        return False
+    return any(_apart(controller, facts) for controller in _controllers(one, facts))
+
+
+def _apart(controller: Controller, facts: BindingFacts) -> bool:
+    """Whether a controller is there for the tests only, beside the driver's."""
+    another = any(one.name != controller.name for one in facts.controllers)
+    return not controller.uses and (another or bool(controller.port))
+
+
+def _controllers(one: Binding, facts: BindingFacts) -> list[Controller]:
+    return [controller for controller in facts.controllers if controller.name in one.controllers]

@@ -1,0 +1,76 @@
+"""Whether a test runs while its button is held, and on a button of its own."""
+
+from grader.check import Wrong
+from grader.robotcode.binding_facts import Binding, BindingFacts, Hold
+
+from .four import TESTS, all_of
+
+PRESSED = 1 / 3  # [share] of the points for a test that starts, but does not stop on release
+
+SAYS = {
+    Hold.PRESS: "Once started, the test runs to its timeout even after release. It has to stop "
+    "when the button is let go",
+    Hold.TOGGLE: "It takes a second press to stop, and in a hurry nobody finds the button. It has "
+    "to stop when the button is let go",
+    Hold.RELEASED: "Then it runs as long as nobody presses anything. It has to run while the "
+    "button is held",
+    Hold.UNKNOWN: "It has to run while the button is held",
+}
+
+
+def check_hold(one: Binding, facts: BindingFacts, *, earned: float) -> None:
+    """Whether a binding holds its test, and no other test shares its trigger.
+
+    Args:
+        one: the binding.
+        facts: all of them.
+        earned: points all the same, if it does not.
+
+    Raises:
+        Wrong: it does not, or it cannot be told.
+    """
+    at = f"{one.text} in line {one.line}"
+    if one.hold is not Hold.WHILE and one.stopped:
+        hint = "There is a simpler way to run it while the button is held: whileTrue()."
+        raise Wrong(f"I cannot tell when {at} stops", hint=hint, earned=earned)
+    if one.hold is not Hold.WHILE:
+        raise Wrong(at, hint=f"{SAYS[one.hold]}: whileTrue().", earned=earned)
+    if one.scheduled:
+        hint = (
+            "The command that is held only starts another one, which then runs to its timeout. "
+            "Hand the test itself to whileTrue()."
+        )
+        raise Wrong(at, hint=hint, earned=earned)
+    for name, line in facts.uncalled:
+        raise Wrong(
+            f"nothing calls {name} in line {line}",
+            hint="Call it where the RobotContainer is made. Until then no button does anything.",
+            earned=earned,
+        )
+    if not one.trigger:
+        hint = "Write the button into the line that binds it: controller.a(), say."
+        raise Wrong(f"I cannot tell which button line {one.line} binds", hint=hint, earned=earned)
+    for other in facts.bindings:
+        if other.line != one.line and other.trigger == one.trigger and other.tests != one.tests:
+            raise Wrong(
+                f"lines {one.line} and {other.line} share the trigger {one.trigger}",
+                hint="Both tests start at once, and each wants the motors for itself. Give each "
+                "its own button.",
+                earned=earned,
+            )
+
+
+def held_share(facts: BindingFacts) -> float:
+    """The share of the points: whole for a test that is held, part of it for one that is not."""
+    best = dict.fromkeys(TESTS, 0.0)
+    taken: set[str] = set()
+    for one in facts.bindings:
+        fresh = bool(one.trigger) and one.trigger not in taken
+        taken.add(one.trigger)
+        good = one.hold is Hold.WHILE and not one.scheduled and fresh and not facts.uncalled
+        started = (one.hold is Hold.PRESS or one.scheduled) and fresh
+        share = 1.0 if good else PRESSED if started else 0.0
+        if len(one.tests) == 1:
+            for test in all_of(one.tests):
+                best[test] = max(best[test], share)
+    return sum(best.values()) / len(TESTS)

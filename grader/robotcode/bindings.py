@@ -1,0 +1,254 @@
+"""From a file to the facts about the buttons that start its SysId tests.
+
+Every method is gone through once from where it is called, with what it is given; a loop over a list
+that is written out, once for each element.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from grader.robotcode.binding_facts import (
+    Binding,
+    BindingFacts,
+    Guard,
+)
+from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS
+from grader.robotcode.commands import Commands, Runs
+from grader.robotcode.comments import beside, comments
+from grader.robotcode.controllers import controllers
+from grader.robotcode.factories import factories, is_private
+from grader.robotcode.facts import Problem
+from grader.robotcode.files import Files
+from grader.robotcode.meaning import last_name
+from grader.robotcode.measure import Measures
+from grader.robotcode.names import Names
+from grader.robotcode.scope import Scope, walk
+from grader.robotcode.sight import Seen, entered, followed, functions_named, functions_of
+from grader.robotcode.syntax import (
+    Branch,
+    Call,
+    Class,
+    Function,
+    Items,
+    Loop,
+    Member,
+    Node,
+    Place,
+)
+from grader.robotcode.triggers import Asks, Part, Triggers
+from grader.robotcode.vocabulary import plain
+
+DEEPEST = 120  # pieces of code one inside the other
+MOST_CALLS = 5  # methods followed, one inside the other
+MOST_STEPS = 50_000  # pieces of code gone through; a robot's container has a thousandth
+_GUARDS = {Asks.TEST_MODE: Guard.TEST_MODE, Asks.SWITCH: Guard.TOGGLE}
+
+
+@dataclass(frozen=True)
+class _Way:
+    """How a piece of code was come to.
+
+    Args:
+        conditions: what was asked on the way, while the program starts.
+        places: the calls and the elements of lists on the way.
+        functions: the functions on the way, so that none calls itself.
+        depth: how many pieces of code are around it.
+    """
+
+    conditions: tuple[Seen, ...] = ()
+    places: tuple[Place, ...] = ()
+    functions: tuple[Function, ...] = ()
+    depth: int = 0
+
+
+def bindings_of(path: Path) -> BindingFacts:
+    """Read what a robot program says about starting its tests, without running any of it.
+
+    Args:
+        path: a ``.java`` or ``.py`` file: the RobotContainer, say.
+
+    Raises:
+        UnreadableFile: it is missing, empty, too large, not text, or neither Java nor Python.
+    """
+    names = Names(Files(path))
+    if names.main.problems:
+        return BindingFacts(names.main.language, problems=names.main.problems)
+    return _Reader(names).facts()
+
+
+class _Reader:
+    """Goes through one file."""
+
+    def __init__(self, names: Names) -> None:
+        measures = Measures(names)
+        self._names = names
+        self._commands = Commands(names)
+        self._triggers = Triggers(names, measures)
+        self._comments = comments(names.main)
+        self._bindings: list[Binding] = []
+        self._elsewhere: dict[str, int] = {}
+        self._unread: list[Problem] = []
+        self._steps = 0
+
+    def facts(self) -> BindingFacts:
+        """All facts of the file."""
+        main = self._names.main
+        every = list(walk(main.body, Scope(main)))
+        called_ = {f for node, scope in every for f in functions_named(node, scope, self._names)}
+        uncalled = []
+        for node, scope in every:
+            if isinstance(node, Class):
+                fields = [one for one in node.body if not isinstance(one, Function | Class)]
+                self._several(fields, Seen(node, scope.within(node)), _Way())
+            elif isinstance(node, Function) and node.name and node not in called_:
+                before = len(self._bindings)
+                way = _Way(functions=(node,))
+                self._several(node.body, Seen(node, scope.within(node)), way)
+                if len(self._bindings) > before and is_private(node, main.language):
+                    uncalled.append((node.name, node.place.line))
+        top = [one for one in main.body if not isinstance(one, Function | Class)]
+        self._several(top, Seen(top[0], Scope(main)) if top else None, _Way())
+        return BindingFacts(
+            main.language,
+            factories=tuple(factories(every, self._names, self._commands)),
+            bindings=tuple(dict.fromkeys(self._bindings)),
+            controllers=controllers(every, self._names, self._triggers),
+            elsewhere=tuple(self._elsewhere.items()),
+            uncalled=tuple(uncalled),
+            unread=tuple(dict.fromkeys(self._unread)),
+        )
+
+    def _several(
+        self, nodes: Iterator[Node] | list[Node] | tuple[Node, ...], around: Seen | None, way: _Way
+    ) -> None:
+        for node in nodes:
+            if around is not None:
+                self._through(around.at(node), way)
+
+    def _through(self, seen: Seen, way: _Way) -> None:
+        """Go through a piece of code, what is inside it first."""
+        node = seen.node
+        self._steps += 1
+        if way.depth > DEEPEST or self._steps > MOST_STEPS or isinstance(node, Class):
+            return
+        if isinstance(node, Function):
+            if not node.name:
+                within = replace(seen, scope=seen.scope.within(node))
+                self._several(node.body, within, replace(way, depth=way.depth + 1))
+            return
+        if isinstance(node, Loop):
+            self._loop(seen, node, way)
+            return
+        inner = replace(way, depth=way.depth + 1)
+        if isinstance(node, Branch) and node.inside and node.place.text.startswith(("if", "elif")):
+            condition = seen.at(node.inside[0])
+            inner = replace(inner, conditions=(*way.conditions, condition))
+        self._several(node.parts, seen, inner)
+        if isinstance(node, Call):
+            self._call(seen, node, way)
+
+    def _loop(self, seen: Seen, loop: Loop, way: _Way) -> None:
+        """Go through a loop's body for each element, where they are written out."""
+        several = followed(seen.at(loop.collection), self._names)
+        items: tuple[Node, ...] = ()
+        if isinstance(several.node, Items):
+            items = several.node.items
+        elif isinstance(several.node, Call) and last_name(several.node.target) in {"of", "asList"}:
+            items = several.node.args
+        inner = replace(way, depth=way.depth + 1)
+        if not items:
+            self._several(loop.body, seen, inner)
+        for item in items:
+            element = several.at(item)
+            parts = item.items if isinstance(item, Items) else (item,)
+            named = dict(zip(loop.variables, map(several.at, parts), strict=False))
+            if len(loop.variables) == 1:
+                named = {loop.variables[0]: element}
+            given = {**seen.given, **named}
+            there = replace(inner, places=(*inner.places, item.place))
+            self._several(loop.body, replace(seen, given=given), there)
+
+    def _call(self, seen: Seen, call: Call, way: _Way) -> None:
+        name = plain(last_name(call.target))
+        args = [*call.args, *(node for _, node in call.named)]
+        functions = functions_of(seen, self._names)
+        if name in HOLDS and isinstance(call.target, Member) and args and not functions:
+            self._bound(seen, call, seen.at(args[-1]), way)
+        elif name in CHOOSERS and not functions:
+            self._chosen(seen, call, args)
+        elif len(functions) == 1 and functions[0][1].module is self._names.main:
+            function = functions[0][0]
+            if function in way.functions or len(way.functions) > MOST_CALLS:
+                return
+            into = replace(
+                way,
+                places=(*way.places, call.place) if args else way.places,
+                functions=(*way.functions, function),
+                depth=way.depth + 1,
+            )
+            self._several(function.body, entered(seen, functions[0]), into)
+
+    def _chosen(self, seen: Seen, call: Call, args: list[Node]) -> None:
+        """A test that somebody chooses instead of holding a button."""
+        owner = [call.target.owner] if isinstance(call.target, Member) else []
+        runs = [self._commands.of(seen.at(node)) for node in [*args, *owner]]
+        if any(one.tests for one in runs):
+            self._elsewhere.setdefault(call.place.text, call.target.place.line)
+
+    def _bound(self, seen: Seen, call: Call, command: Seen, way: _Way) -> None:
+        runs = self._commands.of(command)
+        line = call.target.place.line
+        said = f"{last_name(call.target)}({command.node.place.text})"
+        if runs.unclear is not None and (not runs.tests or len(runs.tests) > 1):
+            self._unread.append(Problem(f"I cannot tell which test {said} runs", line))
+        if not runs.tests or not isinstance(call.target, Member):
+            return
+        parts = self._triggers.parts(seen.at(call.target.owner))
+        keys = sorted({part.key for part in parts if part.asks is not Asks.NOTHING})
+        unknown = any(part.asks is Asks.UNKNOWN for part in parts)
+        controllers = (part.controller for part in parts if part.controller)
+        self._bindings.append(
+            Binding(
+                runs.tests,
+                HOLDS[plain(last_name(call.target))],
+                "" if unknown else " + ".join(keys),
+                tuple(dict.fromkeys(controllers)),
+                self._guards(parts, runs, way),
+                runs.scheduled,
+                runs.stopped,
+                self._said((*way.places, call.place)),
+                said,
+                way.places[-1].line if seen.given and way.places else line,
+            )
+        )
+
+    def _guards(self, parts: tuple[Part, ...], runs: Runs, way: _Way) -> tuple[Guard, ...]:
+        """What has to be true beside the button."""
+        asked = [*parts]
+        for condition in runs.conditions:
+            asked += self._triggers.parts(condition)
+        found = [_GUARDS[part.asks] for part in asked if part.asks in _GUARDS]
+        buttons = {part.key for part in asked if part.asks is Asks.BUTTON}
+        if len(buttons) > 1:
+            found.append(Guard.CHORD)
+        for condition in way.conditions:
+            for part in self._triggers.parts(condition):
+                once = part.asks is Asks.TEST_MODE
+                if once or part.asks is Asks.SWITCH:
+                    found.append(Guard.ASKED_ONCE if once else Guard.TOGGLE)
+        return tuple(dict.fromkeys(found))
+
+    def _said(self, places: tuple[Place, ...]) -> str:
+        """The comments beside the places that led to a binding."""
+        found = dict.fromkeys(
+            beside(self._comments, place.line, _last(place))
+            for place in places
+            if place.source is self._names.main.source
+        )
+        return " ".join(filter(None, found))
+
+
+def _last(place: Place) -> int:
+    """The line a piece of code ends on."""
+    return place.line + place.source.count(b"\n", place.start, place.end)

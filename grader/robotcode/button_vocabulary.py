@@ -1,0 +1,78 @@
+"""The words of the season for buttons, triggers and commands; spelled as in ``vocabulary``."""
+
+import re
+
+from grader.robotcode.binding_facts import Hold
+
+# Methods of a trigger that bind a command, as `plain` gives them; the older names did the same.
+HOLDS = {
+    "whileTrue": Hold.WHILE,
+    "whileHeld": Hold.WHILE,
+    "whenHeld": Hold.WHILE,
+    "whileActiveOnce": Hold.WHILE,
+    "whileActiveContinuous": Hold.WHILE,
+    "onTrue": Hold.PRESS,
+    "whenPressed": Hold.PRESS,
+    "whenActive": Hold.PRESS,
+    "onChange": Hold.PRESS,
+    "toggleOnTrue": Hold.TOGGLE,
+    "toggleOnFalse": Hold.TOGGLE,
+    "toggleWhenPressed": Hold.TOGGLE,
+    "toggleWhenActive": Hold.TOGGLE,
+    "whileFalse": Hold.RELEASED,
+    "onFalse": Hold.RELEASED,
+    "whenReleased": Hold.RELEASED,
+    "whenInactive": Hold.RELEASED,
+}
+
+# A command's decorators with a condition: how many commands stand before it.
+CONDITIONED = {
+    "onlyIf": 0,
+    "unless": 0,
+    "onlyWhile": 0,
+    "until": 0,
+    "either": 2,
+    "ConditionalCommand": 2,
+}
+ENDED = frozenset({"until", "onlyWhile"})  # ... that end it, too
+CHOOSERS = frozenset({"addOption", "setDefaultOption", "addDefaultOption", "addCmd", "schedule"})
+
+CONTROLLER = re.compile(
+    r"(Command|NiDs)*(Xbox|PS[45]|Stadia|Gamepad|Joystick|GenericHID|Generic|HID)"
+    r"(Controller|HID|Joystick)?"
+)
+WRAPPERS = frozenset({"Trigger", "Button", "NetworkButton", "InternalButton"})
+BUTTONS = frozenset({"JoystickButton", "POVButton"})  # made of a controller and a number
+BOTH = frozenset({"and", "and_", "whenBoth"})
+EITHER = frozenset({"or", "or_"})
+UNCHANGED = frozenset({"debounce", "rising", "falling", "castTo", "getAsBoolean", "get"})
+NOT = frozenset({"negate", "not_", "not"})
+
+# Ways to ask for test mode; WPILib 2027 calls it utility mode.
+TEST_MODE = re.compile(r"(is)?(test|utility)(mode)?(enabled)?", re.IGNORECASE)
+OTHER_MODE = re.compile(
+    r"(is)?(teleop|autonomous|disabled|enabled|dsattached|fmsattached)(enabled)?", re.IGNORECASE
+)
+MODES_OF = frozenset({"RobotModeTriggers", "DriverStation", "RobotState", "RobotBase", "Robot"})
+
+# An Xbox controller's buttons by their number.
+NUMBERED = (
+    "",
+    "a",
+    "b",
+    "x",
+    "y",
+    "leftbumper",
+    "rightbumper",
+    "back",
+    "start",
+    "leftstick",
+    "rightstick",
+)
+
+
+def button(method: str) -> str:
+    """A button by whatever method it is asked: ``getAButton``, ``a`` and ``getHID`` aside."""
+    bare = re.sub(r"^(get|k)(?=[A-Z])", "", method)
+    bare = re.sub(r"(Button|Axis)?(Pressed|Released)?$", "", bare) or method
+    return bare.replace("_", "").lower()

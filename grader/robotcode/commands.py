@@ -1,0 +1,173 @@
+"""Which SysId tests a command runs, through factories, decorators and compositions."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from grader.robotcode.binding_facts import KINDS, SysIdTest
+from grader.robotcode.button_vocabulary import CONDITIONED, ENDED
+from grader.robotcode.meaning import called, last_name, simple, type_from, type_of
+from grader.robotcode.names import Names
+from grader.robotcode.sight import Seen, definitions, entered, followed, functions_of, returned
+from grader.robotcode.syntax import (
+    Call,
+    Choice,
+    Element,
+    Function,
+    Items,
+    Member,
+    Name,
+    Node,
+    Opaque,
+    Parameter,
+    Reference,
+    Return,
+)
+from grader.robotcode.vocabulary import DIRECTIONS, constant, plain
+
+DEEPEST = 12  # methods and compositions one inside the other
+KIND = re.compile(r"(quasi)|(dynamic)", re.IGNORECASE)
+WAY = re.compile(r"(forward|fwd)|(reverse|backward|rev(?![a-z])|bwd)", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Runs:
+    """What a command runs.
+
+    Args:
+        tests: the tests.
+        conditions: what its own decorators ask before it starts.
+        scheduled: whether a test is only handed to the scheduler.
+        stopped: whether a decorator ends it early.
+        unclear: what could not be told; None if nothing was left open.
+    """
+
+    tests: tuple[SysIdTest, ...] = ()
+    conditions: tuple[Seen, ...] = ()
+    scheduled: bool = False
+    stopped: bool = False
+    unclear: Node | None = None
+
+
+class Commands:
+    """Looks through commands for tests.
+
+    Args:
+        names: the names of the program.
+    """
+
+    def __init__(self, names: Names) -> None:
+        self._names = names
+
+    def of(self, seen: Seen, *, depth: int = 0) -> Runs:
+        """What a command, or what makes one, runs."""
+        if depth > DEEPEST:
+            return Runs(unclear=seen.node)
+        seen = followed(seen, self._names)
+        node = seen.node
+        if isinstance(node, Call):
+            return self._call(seen, node, depth + 1)
+        if isinstance(node, Reference | Member) and self._is_method(seen, node):
+            call = Call(node.place, Member(node.place, node.owner, node.name), ())
+            return self._call(seen.at(call), call, depth + 1)
+        if isinstance(node, Name | Member | Parameter | Element):
+            return Runs(unclear=node)
+        return self._parts(seen, node, depth + 1)
+
+    def _parts(self, seen: Seen, node: Node, depth: int) -> Runs:
+        """What a choice, a list or a lambda runs."""
+        parts = node.parts
+        if isinstance(node, Choice):
+            parts = (node.one, node.other)
+        elif isinstance(node, Function):
+            seen, parts = replace(seen, scope=seen.scope.within(node)), node.body
+        elif not isinstance(node, Items | Opaque | Return):
+            parts = ()
+        found = joined(self.of(seen.at(one), depth=depth) for one in parts)
+        return replace(found, unclear=node) if isinstance(node, Choice) and found.tests else found
+
+    def _is_method(self, seen: Seen, node: Member) -> bool:
+        """Whether a member is a method that is named, not called."""
+        if isinstance(node, Reference):
+            return True
+        call = Call(node.place, node, ())
+        return bool(called(call, seen.scope, self._names))
+
+    def _call(self, seen: Seen, call: Call, depth: int) -> Runs:
+        name = plain(last_name(call.target))
+        functions = functions_of(seen, self._names)
+        if len(functions) == 1:
+            inner = entered(seen, functions[0])
+            results = returned(functions[0][0])
+            found = joined(self.of(inner.at(one), depth=depth) for one in results)
+            return found if results else Runs()
+        if len(functions) > 1:
+            return Runs(unclear=call)
+        args = [*call.args, *(node for _, node in call.named)]
+        owner = [call.target.owner] if isinstance(call.target, Member) else []
+        if name in KINDS and len(args) == 1:
+            read = not owner or self._type(seen.at(owner[0])) in {"", "SysIdRoutine"}
+            return Runs((SysIdTest(name, self._direction(seen.at(args[0])), read=read),))
+        return self._library(seen, name, owner, args, depth) or self._by_name(seen, name, args)
+
+    def _library(
+        self, seen: Seen, name: str, owner: list[Node], args: list[Node], depth: int
+    ) -> Runs | None:
+        """What a library's method makes of the commands it is given; None if there are none."""
+        asked = CONDITIONED.get(name)
+        parts = [*owner, *args]
+        if asked is not None:
+            parts = [*owner, *args[:asked]]
+        found = joined(self.of(seen.at(part), depth=depth) for part in parts)
+        if not found.tests:
+            return None
+        if asked is not None:
+            conditions = tuple(seen.at(arg) for arg in args[asked : asked + 1])
+            found = replace(found, conditions=(*found.conditions, *conditions))
+        unclear = found.unclear if len(found.tests) > 1 else None
+        return replace(
+            found,
+            unclear=unclear,
+            scheduled=found.scheduled or name == "schedule",
+            stopped=found.stopped or name in ENDED,
+        )
+
+    def _type(self, seen: Seen) -> str:
+        """The class of what a method is called on, by its own name; empty if unknown."""
+        found = type_of(seen.node, seen.scope, self._names)
+        return simple(found or type_from(tuple(definitions(seen, self._names)), self._names))
+
+    def _by_name(self, seen: Seen, name: str, args: list[Node]) -> Runs:
+        """A method of a class that is not in these files: only its name can tell."""
+        kind = KIND.search(name)
+        if kind is None or name[:1].isupper():
+            return Runs()
+        ways = [self._direction(seen.at(arg)) for arg in args] or [""]
+        way = WAY.search(name)
+        if way is not None:
+            ways = ["forward" if way[1] else "reverse"]
+        return Runs((SysIdTest("quasistatic" if kind[1] else "dynamic", ways[0], read=False),))
+
+    def _direction(self, seen: Seen) -> str:
+        seen = followed(seen, self._names)
+        node = seen.node
+        if isinstance(node, Name):
+            found = self._names.local(node.name, seen.scope)
+            if any(isinstance(one.value, Parameter) for one in found):
+                return "any"
+        if isinstance(node, Name | Member):
+            word = constant(node.name)
+            return word if word in DIRECTIONS else ""
+        return ""
+
+
+def joined(several: Iterable[Runs]) -> Runs:
+    """What several commands together run, each test once."""
+    found = list(several)
+    return Runs(
+        tuple(dict.fromkeys(test for one in found for test in one.tests)),
+        tuple(condition for one in found for condition in one.conditions),
+        scheduled=any(one.scheduled for one in found),
+        stopped=any(one.stopped for one in found),
+        unclear=next((one.unclear for one in found if one.unclear is not None), None),
+    )

@@ -1,0 +1,73 @@
+"""The comments of a file, which the common syntax leaves out, and those that belong to a line."""
+
+import io
+import re
+import tokenize
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from grader.robotcode.syntax import Module
+
+_JAVA = re.compile(
+    r"(?P<line>//[^\n]*)|(?P<block>/\*.*?(?:\*/|\Z))"
+    r'|"""(?:\\.|[^\\])*?(?:"""|\Z)'
+    r'|"(?:\\.|[^"\\\n])*"?'
+    r"|'(?:\\.|[^'\\\n])*'?",
+    re.DOTALL,
+)
+
+
+@dataclass(frozen=True)
+class Comment:
+    """One comment.
+
+    Args:
+        first, last: its lines, from 1.
+        alone: whether nothing but the comment stands on them.
+        text: what it says, without its signs.
+    """
+
+    first: int
+    last: int
+    alone: bool
+    text: str
+
+
+def comments(module: Module) -> tuple[Comment, ...]:
+    """All comments of a file, in order."""
+    text = module.source.decode("utf-8", errors="replace")
+    found = _in_java(text) if module.language == "java" else _in_python(text)
+    return tuple(found)
+
+
+def _in_java(text: str) -> Iterator[Comment]:
+    for match in _JAVA.finditer(text):
+        if match["line"] is None and match["block"] is None:
+            continue
+        first = text.count("\n", 0, match.start()) + 1
+        before = text[text.rfind("\n", 0, match.start()) + 1 : match.start()]
+        said = re.sub(r"^\s*(//+|/\*+|\*+(?!/))|\*/\s*$", "", match.group(), flags=re.MULTILINE)
+        last = first + match.group().count("\n")
+        yield Comment(first, last, not before.strip(), " ".join(said.split()))
+
+
+def _in_python(text: str) -> Iterator[Comment]:
+    try:
+        for token in tokenize.generate_tokens(io.StringIO(text).readline):
+            if token.type == tokenize.COMMENT:
+                line, column = token.start
+                alone = not token.line[:column].strip()
+                yield Comment(line, line, alone, token.string.lstrip("# ").strip())
+    except (tokenize.TokenError, SyntaxError):
+        return  # what does not parse has been said before
+
+
+def beside(found: tuple[Comment, ...], first: int, last: int) -> str:
+    """The comments on some lines, and the block of comments directly above them."""
+    said = [one.text for one in found if first <= one.first <= last]
+    top = first
+    for one in reversed(found):
+        if one.alone and one.last == top - 1:
+            said.insert(0, one.text)
+            top = one.first
+    return " ".join(said)

@@ -1,0 +1,47 @@
+"""The controllers of a program, and what they do beside starting SysId's tests."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from grader.robotcode.binding_facts import Controller
+from grader.robotcode.names import Names
+from grader.robotcode.scope import Scope
+from grader.robotcode.sight import Seen, functions_named
+from grader.robotcode.syntax import Call, Member, Name, Node
+from grader.robotcode.triggers import Triggers
+
+
+def controllers(
+    every: Sequence[tuple[Node, Scope]], names: Names, triggers: Triggers
+) -> tuple[Controller, ...]:
+    """The controllers of the file, with what else is done with their buttons and sticks."""
+    found: dict[str, Controller] = {}
+    for node, scope in every:
+        seen = Seen(node, scope)
+        if isinstance(node, Name | Member):
+            name = triggers.controller(seen)
+            if name and name not in found:
+                found[name] = Controller(name, triggers.port(seen))
+    for node, name in _other_uses(every, names, triggers):
+        one = found.setdefault(name, Controller(name, None))
+        found[name] = replace(one, uses=(*one.uses, (node.place.text, node.place.line)))
+    return tuple(found.values())
+
+
+def _other_uses(
+    every: Sequence[tuple[Node, Scope]], names: Names, triggers: Triggers
+) -> Iterator[tuple[Node, str]]:
+    """Where a controller does something that no test's trigger asks for."""
+    asked = triggers.asked
+    mine = asked | {node.target for node in asked if isinstance(node, Call)}
+    for node, scope in every:
+        seen = Seen(node, scope)
+        if isinstance(node, Member) and node not in mine:
+            name = triggers.controller(seen.at(node.owner))
+            if name:
+                yield node, name
+        elif (
+            isinstance(node, Call) and node not in asked and not functions_named(node, scope, names)
+        ):
+            handed = (triggers.controller(seen.at(arg)) for arg in node.args)
+            yield from ((node, name) for name in handed if name)

@@ -1,0 +1,266 @@
+"""What a trigger asks: buttons of controllers, the robot's mode, switches."""
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from grader.robotcode.button_vocabulary import (
+    BOTH,
+    BUTTONS,
+    CONTROLLER,
+    EITHER,
+    MODES_OF,
+    NOT,
+    NUMBERED,
+    OTHER_MODE,
+    TEST_MODE,
+    UNCHANGED,
+    WRAPPERS,
+    button,
+)
+from grader.robotcode.meaning import last_name, simple, type_from, type_of
+from grader.robotcode.measure import Measures
+from grader.robotcode.names import Names
+from grader.robotcode.sight import Seen, definitions, entered, followed, functions_of, returned
+from grader.robotcode.syntax import (
+    Call,
+    Function,
+    Member,
+    Name,
+    Node,
+    Opaque,
+    Operation,
+    Parameter,
+    Return,
+)
+from grader.robotcode.vocabulary import plain
+
+DEEPEST = 12  # triggers made of triggers
+JOINING = {"&": "and", "&&": "and", "and": "and", "|": "or", "||": "or", "or": "or"}
+
+
+class Asks(Enum):
+    """What one part of a trigger looks at."""
+
+    BUTTON = "button"
+    TEST_MODE = "test mode"
+    OTHER_MODE = "other mode"
+    SWITCH = "switch"  # anything a person sets before the test
+    NOTHING = "nothing"  # literally true
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True)
+class Part:
+    """One part of a trigger; all parts have to hold.
+
+    Args:
+        asks: what it looks at.
+        key: the same text for the same thing.
+        controller: whose button it is.
+    """
+
+    asks: Asks
+    key: str
+    controller: str = ""
+
+
+class Triggers:
+    """Takes triggers and conditions apart.
+
+    Args:
+        names: the names of the program.
+        measures: its constants.
+    """
+
+    def __init__(self, names: Names, measures: Measures) -> None:
+        self._names = names
+        self._measures = measures
+        self.asked: set[Node] = set()  # calls that were looked at as part of some trigger
+
+    def parts(self, seen: Seen, *, depth: int = 0) -> tuple[Part, ...]:
+        """The parts of a trigger, or of a condition."""
+        before = seen
+        seen = followed(seen, self._names)
+        node = seen.node
+        if depth > DEEPEST:
+            return (Part(Asks.UNKNOWN, ""),)
+        if isinstance(node, Call):
+            return self._call(seen, node, depth + 1)
+        if isinstance(node, Function):
+            return self._function(replace(seen, scope=seen.scope.within(node)), node, depth + 1)
+        if isinstance(node, Operation | Opaque):
+            return self._operation(seen, node, depth + 1, named=node is not before.node)
+        if isinstance(node, Name | Member):
+            return self._named(seen, node, depth + 1)
+        unknown = isinstance(node, Parameter)
+        return (Part(Asks.UNKNOWN if unknown else Asks.SWITCH, node.place.text),)
+
+    def controller(self, seen: Seen) -> str:
+        """The controller that a node stands for: its port, or else its variable; empty if none."""
+        node = seen.node
+        if isinstance(node, Name) and node.name in seen.given:
+            return self.controller(seen.given[node.name])
+        if isinstance(node, Call) and plain(last_name(node.target)) == "getHID":
+            owner = node.target.owner if isinstance(node.target, Member) else node
+            return self.controller(seen.at(owner))
+        if not isinstance(node, Name | Member) or not CONTROLLER.fullmatch(self._type(seen)):
+            return ""
+        port = self.port(seen)
+        return f"port {port}" if port is not None else node.name
+
+    def port(self, seen: Seen) -> int | None:
+        """The port a controller is made with; None if it cannot be told."""
+        made = followed(seen, self._names)
+        if not isinstance(made.node, Call):
+            return None
+        args = [*made.node.args, *(node for word, node in made.node.named if word == "port")]
+        found = self._measures.of(args[0], made.scope) if args else None
+        return None if found is None else int(found.value)
+
+    def _type(self, seen: Seen) -> str:
+        found = type_of(seen.node, seen.scope, self._names)
+        return simple(found or type_from(tuple(definitions(seen, self._names)), self._names))
+
+    def _function(self, seen: Seen, function: Function, depth: int) -> tuple[Part, ...]:
+        """A supplier: what it returns."""
+        results = returned(function)
+        if len(results) == 1:
+            return self.parts(seen.at(results[0]), depth=depth)
+        return (Part(Asks.SWITCH, function.place.text),)
+
+    def _call(self, seen: Seen, call: Call, depth: int) -> tuple[Part, ...]:
+        self.asked.add(call)
+        name, args = plain(last_name(call.target)), list(call.args)
+        args += [node for _, node in call.named]
+        owner = call.target.owner if isinstance(call.target, Member) else None
+        functions = functions_of(seen, self._names)
+        if len(functions) == 1:
+            results = returned(functions[0][0])
+            if len(results) == 1:
+                return self.parts(entered(seen, functions[0]).at(results[0]), depth=depth)
+            return (Part(Asks.SWITCH, call.place.text),)
+        if name in WRAPPERS and args:
+            return self.parts(seen.at(args[-1]), depth=depth)
+        if name in BUTTONS and args:
+            rest = [self._argument(seen.at(arg)) for arg in args[1:]]
+            return self._button(seen.at(args[0]), "button" if name[0] == "J" else "pov", rest)
+        found = () if owner is None else self._method(seen, owner, name, args, depth)
+        return found or self._named(seen, call.target, depth, text=call.place.text)
+
+    def _method(
+        self, seen: Seen, owner: Node, name: str, args: list[Node], depth: int
+    ) -> tuple[Part, ...]:
+        """What a library's method of a trigger or a controller asks; nothing if it is neither."""
+        if name in BOTH:
+            both = (owner, *args)
+            return tuple(part for one in both for part in self.parts(seen.at(one), depth=depth))
+        if name in EITHER | NOT:
+            return (self._mixed(seen, [owner, *args], name, depth),)
+        if self.controller(seen.at(owner)):
+            return self._on_controller(seen, owner, name, args, depth)
+        return self.parts(seen.at(owner), depth=depth) if name in UNCHANGED else ()
+
+    def _on_controller(
+        self, seen: Seen, owner: Node, name: str, args: list[Node], depth: int
+    ) -> tuple[Part, ...]:
+        """A button of a controller; one that is only polled in a loop of its own has a switch."""
+        loops = [arg for arg in args if self._type(seen.at(arg)) == "EventLoop"]
+        rest = [self._argument(seen.at(arg)) for arg in args if arg not in loops]
+        switches = tuple(part for arg in loops for part in self.parts(seen.at(arg), depth=depth))
+        return (*self._button(seen.at(owner), name, rest), *switches)
+
+    def _button(self, owner: Seen, method: str, args: list[str]) -> tuple[Part, ...]:
+        controller = self.controller(owner)
+        word = button(method)
+        if word in {"button", "raw"} and args:
+            word = self._numbered(args[0], owner)
+            args = []
+        key = f"{controller} {word} {' '.join(args)}".strip()
+        return (Part(Asks.BUTTON if all([controller, *args]) else Asks.UNKNOWN, key, controller),)
+
+    def _numbered(self, text: str, owner: Seen) -> str:
+        """A button given by its number, or by a name of the Button enum."""
+        if "xbox" in self._type(owner).lower() and text.isdigit() and int(text) < len(NUMBERED):
+            return NUMBERED[int(text)]
+        return text
+
+    def _argument(self, seen: Seen) -> str:
+        """A button's number, or its name; empty if it cannot be told."""
+        found = self._measures.of(seen.node, seen.scope)
+        seen = followed(seen, self._names)
+        node = seen.node
+        if found is None:
+            found = self._measures.of(node, seen.scope)
+        if found is not None:
+            return f"{found.value:g}"
+        if isinstance(node, Member) and node.name == "value":
+            node = node.owner
+        if isinstance(node, Call) and isinstance(node.target, Name | Member):
+            node = node.target
+        if isinstance(node, Member):
+            return button(node.name)
+        return ""
+
+    def _operation(
+        self, seen: Seen, node: Operation | Opaque, depth: int, *, named: bool
+    ) -> tuple[Part, ...]:
+        inside = [part for part in node.parts if not isinstance(part, Return)]
+        sign = _sign(node)
+        if sign == "and" and len(inside) > 1:
+            return tuple(part for one in inside for part in self.parts(seen.at(one), depth=depth))
+        if isinstance(node, Opaque) and len(inside) == 1:
+            return self.parts(seen.at(inside[0]), depth=depth)
+        if not inside:
+            always = node.place.text.lower() == "true" and not named
+            return (Part(Asks.NOTHING if always else Asks.SWITCH, node.place.text),)
+        return (self._mixed(seen, inside, sign or node.place.text, depth),)
+
+    def _mixed(self, seen: Seen, several: list[Node], sign: str, depth: int) -> Part:
+        """Parts of which not all have to hold, or not as they are: one, of the weakest kind."""
+        found = [part for one in several for part in self.parts(seen.at(one), depth=depth)]
+        key = f"{sign}({', '.join(sorted(part.key for part in found))})"
+        kinds = {part.asks for part in found}
+        controllers = {part.controller for part in found if part.controller}
+        weak = (Asks.UNKNOWN, Asks.NOTHING, Asks.BUTTON, Asks.OTHER_MODE)
+        asks = next((kind for kind in weak if kind in kinds), Asks.SWITCH)
+        if kinds == {Asks.TEST_MODE} and sign not in {*NOT, "!"}:
+            asks = Asks.TEST_MODE
+        elif asks is Asks.BUTTON and sign in {*NOT, "!"}:
+            asks = Asks.OTHER_MODE  # a button nobody presses keeps nobody from anything
+        return Part(asks, key, min(controllers, default=""))
+
+    def _named(self, seen: Seen, node: Node, depth: int, *, text: str = "") -> tuple[Part, ...]:
+        """A method or a variable that has no one value."""
+        if isinstance(node, Member) and not text:
+            call = Call(node.place, node, ())
+            self.asked.add(node)
+            if self.controller(seen.at(node.owner)) or functions_of(seen.at(call), self._names):
+                return self._call(seen.at(call), call, depth)
+        word = last_name(node)
+        owner = last_name(node.owner) if isinstance(node, Member) else ""
+        mode = owner in MODES_OF or word.lower().startswith("is")
+        if mode and TEST_MODE.fullmatch(word):
+            by = " of RobotModeTriggers" if owner == "RobotModeTriggers" else ""
+            return (Part(Asks.TEST_MODE, f"test mode{by}"),)
+        if mode and OTHER_MODE.fullmatch(word):
+            return (Part(Asks.OTHER_MODE, word),)
+        if isinstance(node, Name) and self._is_open(seen, node):
+            return (Part(Asks.UNKNOWN, ""),)
+        return (Part(Asks.SWITCH, text or node.place.text),)
+
+    def _is_open(self, seen: Seen, node: Name) -> bool:
+        found = self._names.local(node.name, seen.scope)
+        return any(isinstance(one.value, Parameter) for one in found)
+
+
+def _sign(node: Operation | Opaque) -> str:
+    """``and``, ``or``, ``not`` or a sign; Python's own words stand in the text only."""
+    first, *more = node.parts or (node,)
+    source = node.place.source
+    if isinstance(node, Operation) and node.sign != "?":
+        return JOINING.get(node.sign, node.sign)
+    if not more:
+        said = source[node.place.start : first.place.start].decode("utf-8", errors="replace")
+        return "not" if said.strip(" (") in {"not", "~"} else ""
+    said = source[first.place.end : more[0].place.start].decode("utf-8", errors="replace")
+    return JOINING.get(said.strip(" ()\n\t\\"), "")

@@ -1,0 +1,247 @@
+"""Exercise 5: bindings in many styles, and what is right in more than one way."""
+
+import re
+from pathlib import Path
+
+import pytest
+from binding_styles import ARM, FOUR, PLAIN, PYTHON_STYLES, STYLES, four, java, python
+
+from grader.exercise import Exercise
+from grader.robotcode.binding_facts import Hold
+from grader.robotcode.bindings import bindings_of
+
+ROOT = Path(__file__).resolve().parents[1]
+EXERCISE = Exercise("exercise5", ROOT / "exercises" / "exercise5")
+SOLUTIONS = ROOT / "solutions" / "exercise5"
+JAVA, PYTHON = "RobotContainer.java", "robotcontainer.py"
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_four_bindings_in_java_are_read_in_many_styles(style, tmp_path):
+    text, guard = STYLES[style]
+    path = tmp_path / JAVA
+    path.write_text(text, "utf-8")
+    facts = bindings_of(path)
+
+    assert [(t.kind, t.direction) for one in facts.bindings for t in one.tests] == FOUR
+    assert {one.hold for one in facts.bindings} == {Hold.WHILE}
+    assert len({one.trigger for one in facts.bindings} - {""}) == 4
+    assert all(one.guards == (guard,) for one in facts.bindings)
+    assert facts.unread == ()
+    assert passed(path) >= {"factories", "held", "each-once", "guard"}
+
+
+@pytest.mark.parametrize("style", PYTHON_STYLES)
+def test_four_bindings_in_python_are_read_in_many_styles(style, tmp_path):
+    body, guard = PYTHON_STYLES[style]
+    path = tmp_path / PYTHON
+    path.write_text(python(body), "utf-8")
+    facts = bindings_of(path)
+
+    assert [(t.kind, t.direction) for one in facts.bindings for t in one.tests] == FOUR
+    assert len({one.trigger for one in facts.bindings} - {""}) == 4
+    assert all(one.guards == (guard,) for one in facts.bindings)
+    assert passed(path) >= {"factories", "held", "each-once", "guard"}
+
+
+def checked(path):
+    return {one.id: one for one in EXERCISE.grade(path, student="ann").checks}
+
+
+def passed(path):
+    return {name for name, one in checked(path).items() if one.status == "passed"}
+
+
+def judged(tmp_path, text, *, name=JAVA):
+    path = tmp_path / name
+    path.write_text(text, "utf-8")
+    return checked(path)
+
+
+LESSON = """
+public class RobotContainer {
+  private final DriveSubsystem m_drive = new DriveSubsystem();
+  private final CommandXboxController m_driverController = new CommandXboxController(0);
+  private final CommandXboxController m_operatorController = new CommandXboxController(1);
+
+  public RobotContainer() {
+    m_drive.setDefaultCommand(m_drive.drive(m_driverController::getLeftY));
+    configureButtonBindings();
+  }
+
+  private void configureButtonBindings() {
+    // Quasistatic forward: ramps slowly, measures kS and kV.
+    m_operatorController.a().whileTrue(m_drive.sysIdQuasistaticForward());
+    // Quasistatic reverse: ramps slowly, measures static friction kS and kV backward.
+    m_operatorController.b().whileTrue(m_drive.sysIdQuasistaticReverse());
+    // Dynamic forward: a step, measures kA.
+    m_operatorController.x().whileTrue(m_drive.sysIdDynamicForward());
+    // Dynamic reverse: a step, measures kA backward.
+    m_operatorController.y().whileTrue(m_drive.sysIdDynamicReverse());
+  }
+}
+"""
+DRIVE = ROOT / "tests" / "robotcode" / "DriveSubsystem.java"
+
+
+def test_the_source_lesson_to_the_letter_gets_full_marks_with_its_subsystem_beside_it(tmp_path):
+    (tmp_path / DRIVE.name).write_bytes(DRIVE.read_bytes())
+    found = judged(tmp_path, LESSON)
+
+    assert {name for name, one in found.items() if one.status != "passed"} == set()
+    assert "Unplug that controller" in found["guard"].hint
+
+
+def test_without_the_subsystem_it_asks_for_it_and_never_guesses(tmp_path):
+    found = judged(tmp_path, LESSON)
+
+    assert "I cannot see the methods" in found["factories"].seen
+    assert "beside this one" in found["factories"].hint
+    assert found["factories"].points == 0
+    assert found["held"].status == found["guard"].status == "passed"
+
+
+FIRST = "m_arm.quasistatic(Direction.kForward)"
+START = "m_driver.start()"
+
+
+def test_a_robotpy_container_finds_its_subsystem_in_another_file(tmp_path):
+    body = four("self.driver.{key}().and_(DriverStation.isTest)!")
+    (tmp_path / "subsystems").mkdir()
+    (tmp_path / "subsystems" / "arm.py").write_text(ARM, "utf-8")
+    whole = python(body).replace(ARM, "from subsystems.arm import Arm\n")
+    found = judged(tmp_path, whole, name=PYTHON)
+
+    assert "class Arm" not in whole
+    assert found["factories"].status == found["held"].status == "passed"
+
+
+@pytest.mark.parametrize(
+    ("change", "check", "points", "says"),
+    [
+        ((START, "m_driver.rightBumper()"), "held", 3, ""),
+        (("whileTrue", "onTrue"), "held", 1, "even after release"),
+        ((f".and({START})", ""), "guard", 0, "Ask for something"),
+        (("m_driver.b()", "other()"), "held", 3, ""),
+        ((FIRST, "m_arm.quasistatic(pick())"), "each-once", 0, "I cannot tell the direction"),
+        ((FIRST, "tests[0]"), "held", 2.25, "I cannot tell which test"),
+        (
+            (FIRST, f"{FIRST}.andThen(m_arm.dynamic(Direction.kForward))"),
+            "each-once",
+            0,
+            "runs quasistatic forward and dynamic forward",
+        ),
+        (("public Command dynamic", "Command dynamic"), "factories", 1, "may not call dynamic"),
+        ((START, "() -> true"), "guard", 0, "Ask for something"),
+        ((START, "m_driver.start().negate()"), "guard", 0, "Ask for something"),
+        ((START, "m_driver.start().or(m_driver.back())"), "guard", 2, ""),
+        ((START, "RobotModeTriggers.disabled()"), "guard", 0, "Ask for something"),
+    ],
+)
+def test_what_is_not_right_is_told(tmp_path, change, check, points, says):
+    text = java(PLAIN)
+    assert change[0] in text
+    found = judged(tmp_path, text.replace(*change))[check]
+
+    assert (found.status == "passed") is (not says)
+    assert found.points == points
+    assert says in f"{found.seen} {found.hint}"
+
+
+def test_a_controller_that_is_used_in_a_match_is_no_guard(tmp_path):
+    bound = four("m_operator.{key}()!")
+    apart = judged(tmp_path, java(bound))["guard"]
+    shared = judged(tmp_path, java(bound + "\nm_operator.start().onTrue(m_arm.shoot());"))["guard"]
+
+    assert apart.status == "passed"
+    assert shared.status == "failed"
+    assert "start() in line 13" in shared.hint
+
+
+def test_the_only_controller_is_no_controller_of_its_own(tmp_path):
+    bound = four("m_driver.{key}()!")
+
+    assert judged(tmp_path, java(bound))["guard"].status == "failed"
+
+
+def test_a_chooser_holds_no_button(tmp_path):
+    rows = four('m_chooser.addOption("{kind} {way}", m_arm.{kind}(Direction.k{Way}));')
+    found = judged(tmp_path, java(rows))
+
+    assert "nobody holds a button" in found["held"].hint
+    assert 'addOption("quasistatic forward"' in found["held"].seen
+
+
+@pytest.mark.parametrize(
+    ("comment", "right"),
+    [
+        ("// Quasistatic forward: finds kS, kV", True),
+        ("// slow ramp, gives static friction and velocity gain", True),
+        ("/* The quasi-static test.\n * It measures friction. */", True),
+        ("// ramps up slowly; KS and KV", True),
+        ("// quasistatic test", False),
+        ("// measures kV", False),
+        ("// dynamic test: kA", False),
+        ("// quasistatic: how much it accelerates", False),
+        ("", False),
+    ],
+)
+def test_a_comment_names_the_test_and_the_property(tmp_path, comment, right):
+    line = PLAIN.splitlines()[0]
+    rows = four("// {Kind}: kS, kV and kA\nm_driver.{key}().and(m_driver.start())!")
+    rest = rows.split("\n", 2)[2]
+    above = judged(tmp_path, java(f"{comment}\n{line}\n\n{rest}"))["comments"]
+    behind = judged(tmp_path, java(f"{line} {comment}\n\n{rest}"))["comments"]
+
+    assert (above.status == "passed", behind.status == "passed") == (right, right)
+    assert above.points == behind.points == (2 if right else 1.5)
+
+
+def test_two_slashes_in_a_text_are_no_comment(tmp_path):
+    line = 'System.out.println("// quasistatic: kS and kV");\n'
+    found = judged(tmp_path, java(line + PLAIN))["comments"]
+
+    assert "no comment beside" in found.seen
+
+
+def test_robotpy_has_no_mode_triggers_and_says_so(tmp_path):
+    body = four(
+        "self.driver.{key}().and_(RobotModeTriggers.test()).whileTrue("
+        "self.arm.{kind}(Direction.k{Way}))"
+    )
+    found = judged(tmp_path, python(body), name=PYTHON)["guard"]
+
+    assert found.status == "passed"
+    assert "DriverStation.isTest" in found.hint
+
+
+@pytest.mark.parametrize("name", [JAVA, PYTHON])
+def test_no_damage_to_a_file_brings_the_reader_down(tmp_path, name):
+    """Every word of the solution taken out once, and the rest of the file cut off once."""
+    text = (SOLUTIONS / name).read_text("utf-8")
+    path = tmp_path / name
+    words = [*re.finditer(r"\w+|[^\w\s]", text)]
+    for found in words[1::7]:
+        for broken in (text[: found.start()] + text[found.end() :], text[: found.start()]):
+            path.write_text(broken + "\n", "utf-8")
+            facts = bindings_of(path)
+
+            assert facts.language == ("java" if name == JAVA else "python")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "class A { void a() { a(); b(); } void b() { a(); } }\n",
+        "class A { Command c = c; void a() { m.a().whileTrue(c); } }\n",
+        "class A { void a(Trigger t) { a(t.and(t)); t.whileTrue(m.quasistatic(kForward)); } }\n",
+        "class A { A() { " + "x()" + ".and(y())" * 90 + ".whileTrue(r.dynamic(kForward)); } }\n",
+        "class A { A() { " + "if (b) { " * 90 + "}" * 90 + " } }\n",
+    ],
+    ids=["circle", "itself", "recursion", "chain", "deep"],
+)
+def test_code_that_leads_nowhere_ends(tmp_path, text):
+    path = tmp_path / JAVA
+    path.write_text(text, "utf-8")
+
+    assert bindings_of(path).language == "java"
