@@ -1,20 +1,29 @@
-"""Exercise 4: is this SysIdRoutine wired the way SysId needs it? Read from the text, never run."""
+"""Exercise 4: is this SysIdRoutine wired the way SysId needs it? Read, and RobotPy run as well."""
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from grader import robotcode
-from grader.check import NotReached, Wrong, check
+from grader.check import NotReached, Status, Wrong, check, run_all
+from grader.robotcode import bench
+from grader.robotcode.bench import Outcome, Ran, contradiction
+from grader.robotcode.bench.contradiction import Fault, stopped
 from grader.robotcode.facts import RoutineFacts
 from grader.submission import read_text
 from grader.wiring import (
+    Advice,
     Setting,
     cannot_tell,
     check_driven,
     check_open_loop,
     check_recorded,
     check_units,
+    no_advice,
 )
 from sim.errors import UnreadableFile
+
+from .settled import Code, asks, noted, settle
 
 FILES = ("ExampleSubsystem.java", "example_subsystem.py")
 
@@ -24,11 +33,20 @@ RAMP = Setting(
 STEP = Setting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)", "stepVoltage=3.5")
 TIMEOUT = Setting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)", "timeout=10.0")
 NEEDED = ("voltage", "position", "velocity")  # of every motor
+EXACT, LOOPS = 1e-6, 0.1  # [SI] how far a number of a run may be off; a timeout is seen in loops
 LESSON_STEP = 3.0  # [V] in the source lesson's example
 
 
-def read(path: Path, *, student: str) -> RoutineFacts:  # noqa: ARG001 - one task for everyone
-    """What the file says about its routine.
+def read(path: Path, *, student: str, run: bool = True) -> Code:  # noqa: ARG001 - one task for all
+    """What the file says about its routine, and what that does.
+
+    RobotPy code is run once reading finds no mistake: half a second to see what it does, and
+    nothing for code that has to be mended first.
+
+    Args:
+        path: the file.
+        student: whose it is.
+        run: whether to run it, where it can be.
 
     Raises:
         UnreadableFile: it cannot be read, or does not parse.
@@ -42,23 +60,58 @@ def read(path: Path, *, student: str) -> RoutineFacts:  # noqa: ARG001 - one tas
             where=f"{path}, line {first.line}",
             advice="Mend that line first: code with a mistake like this does not compile.",
         )
-    return facts
+    code = Code(facts)
+    if run and facts.language == "python" and bench.installed() and not _mistaken(code):
+        return Code(facts, bench.run(path, facts.class_name))
+    return code
+
+
+def _mistaken(code: Code) -> bool:
+    """Whether reading alone finds a mistake; a question is none."""
+    checks = (routine, ramp, step, timeout, drive, log, units, assembled, open_loop)
+    results = run_all(checks, code)
+    return any(one.status is Status.FAILED and not asks(one.seen) for one in results)
 
 
 @check(points=1)
-def routine(facts: RoutineFacts) -> None:
+def routine(code: Code) -> str | None:
     """Your subsystem makes a SysIdRoutine."""
-    if not facts.routine_line:
+    if not code.facts.routine_line:
         raise Wrong(
-            f"no SysIdRoutine in {facts.class_name or 'this file'}",
+            f"no SysIdRoutine in {code.facts.class_name or 'this file'}",
             hint="Make one where the motors are made, and keep it in a field.",
         )
+    return noted(code.ran, contradiction.figures)
+
+
+def _number(code: Code, wanted: Setting, said: str, *, advice: Advice = no_advice) -> str | None:
+    """One number of the Config: as it is written, and as the run shows it."""
+    name = wanted.name.split()[0]
+    got = getattr(code.facts, name)
+
+    def running(ran: Ran) -> Fault | None:
+        return contradiction.setting(
+            getattr(ran, name),
+            wanted.value,
+            said=said,
+            unit=wanted.unit,
+            advice=f"This exercise asks for {wanted.value:g} {wanted.unit}: {wanted.python}.",
+            within=LOOPS if wanted is TIMEOUT else EXACT,
+        )
+
+    reading = partial(wanted.compare, code.facts, got, advice=advice)
+    return settle(code, reading, _when_done(running), points=1)
+
+
+def _when_done(running: Callable[[Ran], Fault | None]) -> Callable[[Ran], Fault | None]:
+    """Only a run that came to its end shows figures."""
+    return lambda ran: running(ran) if ran.outcome is Outcome.RAN else None
 
 
 @check(points=1, after=routine)
-def ramp(facts: RoutineFacts) -> str | None:
+def ramp(code: Code) -> str | None:
     """The quasistatic test raises the voltage by 0.5 V every second."""
-    return RAMP.compare(facts, facts.ramp, advice=_about_ramp)
+    return _number(code, RAMP, "the ramp rose by", advice=_about_ramp)
 
 
 def _about_ramp(value: float) -> tuple[str, str]:
@@ -68,9 +121,9 @@ def _about_ramp(value: float) -> tuple[str, str]:
 
 
 @check(points=1, after=routine)
-def step(facts: RoutineFacts) -> str | None:
+def step(code: Code) -> str | None:
     """The dynamic test applies a step of 3.5 V."""
-    return STEP.compare(facts, facts.step, advice=_about_step)
+    return _number(code, STEP, "the step was", advice=_about_step)
 
 
 def _about_step(value: float) -> tuple[str, str]:
@@ -82,14 +135,24 @@ def _about_step(value: float) -> tuple[str, str]:
 
 
 @check(points=1, after=routine)
-def timeout(facts: RoutineFacts) -> str | None:
+def timeout(code: Code) -> str | None:
     """A test ends by itself after 10 s."""
-    return TIMEOUT.compare(facts, facts.timeout)
+    return _number(code, TIMEOUT, "a test that was left alone ended after")
 
 
 @check(points=3, after=routine)
-def drive(facts: RoutineFacts) -> str | None:
+def drive(code: Code) -> str | None:
     """The drive callback sends its voltage to every motor, as a voltage."""
+    running = _either("drive", contradiction.driven)
+    return settle(code, partial(_drive, code.facts), running, points=3)
+
+
+def _either(where: str, running: Callable[[Ran], Fault | None]) -> Callable[[Ran], Fault | None]:
+    """What a run shows, or where it stopped."""
+    return lambda ran: stopped(ran, where=where) or _when_done(running)(ran)
+
+
+def _drive(facts: RoutineFacts) -> str | None:
     motors = list(dict.fromkeys([*facts.motors, *(call.motor for call in facts.drive)]))
     _followed(facts, whole={call.motor for call in facts.drive} >= {*motors} > set())
     if not facts.drive:
@@ -116,14 +179,19 @@ def _followed(facts: RoutineFacts, *, whole: bool) -> None:
     if facts.unread and not whole:
         first = facts.unread[0]
         raise Wrong(
-            f"line {first.line}: {first.message}",
+            cannot_tell("what is out of sight", f"line {first.line}: {first.message}"),
             hint="Write the callback where it can be read: in this class, or in this folder.",
         )
 
 
 @check(points=3, after=routine)
-def log(facts: RoutineFacts) -> None:
+def log(code: Code) -> str | None:
     """The log callback records the motor's name, position, velocity and applied voltage."""
+    running = _either("log", contradiction.recorded)
+    return settle(code, partial(_log, code.facts), running, points=3)
+
+
+def _log(facts: RoutineFacts) -> None:
     if facts.log_is_null:
         raise Wrong(
             "null in place of the log callback: then WPILib records nothing",
@@ -143,8 +211,13 @@ def log(facts: RoutineFacts) -> None:
 
 
 @check(points=2, after=routine)
-def units(facts: RoutineFacts) -> None:
+def units(code: Code) -> str | None:
     """Position and velocity are in units that fit each other and the mechanism."""
+    running = _when_done(contradiction.units)
+    return settle(code, partial(_units, code.facts), running, points=2)
+
+
+def _units(facts: RoutineFacts) -> None:
     signals = [one for one in facts.logged if one.signal in {"position", "velocity"}]
     if not signals:
         raise NotReached("looked at once position and velocity are recorded")
@@ -152,8 +225,12 @@ def units(facts: RoutineFacts) -> None:
 
 
 @check(points=1, after=routine)
-def assembled(facts: RoutineFacts) -> None:
+def assembled(code: Code) -> str | None:
     """The parts are in their places: Config, Mechanism, and the subsystem itself."""
+    return settle(code, partial(_assembled, code.facts), partial(stopped, where=""), points=1)
+
+
+def _assembled(facts: RoutineFacts) -> None:
     this = "this" if facts.language == "java" else "self"
     if facts.config_argument > 0 or facts.mechanism_argument == 0:
         raise Wrong(
@@ -183,8 +260,18 @@ def assembled(facts: RoutineFacts) -> None:
 
 
 @check(points=2, after=routine)
-def open_loop(facts: RoutineFacts) -> None:
+def open_loop(code: Code) -> str | None:
     """The drive callback uses no closed loop and no duty cycle."""
+    running = _when_done(_as_a_share)
+    return settle(code, partial(_open_loop, code.facts), running, points=2)
+
+
+def _as_a_share(ran: Ran) -> Fault | None:
+    fault = contradiction.driven(ran)
+    return fault if fault and fault.misconception else None
+
+
+def _open_loop(facts: RoutineFacts) -> None:
     if not facts.drive:
         raise NotReached("looked at once the drive callback moves a motor")
     for call in facts.drive:

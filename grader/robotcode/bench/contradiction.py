@@ -143,7 +143,7 @@ def _units(ran: Ran) -> Iterator[Fault | None]:
 def _rate(one: Recorded) -> Fault | None:
     if one.rate is None or abs(one.rate - 1.0) < CLOSE:
         return None
-    seen = f"{IN} the velocity of {one.name} is {one.rate:.4g} times the slope of its position"
+    seen = f"{IN} the velocity of {one.name} is {one.rate:.3g} times the slope of its position"
     if abs(one.rate + 1.0) < CLOSE:
         return Fault(seen, "One of the two has the wrong sign.")
     slip = _slip(abs(one.rate)) or "They are in different units"

@@ -20,6 +20,7 @@ from sim.log import Array, Log, Run
 from sim.units import unit
 
 STATE = "sysid-test-state-"
+NEEDED = {"voltage", "position", "velocity"}
 MOVED = 0.05  # [any unit] less motion than this tells nothing
 AWAKE = 0.5  # [V] below this the steps of a PWM signal, 20 mV, count too much
 FOLLOWS = 0.02  # relative misfit up to which a position follows an encoder
@@ -137,28 +138,30 @@ def _driven(names: list[str], trace: Seen, slow: NDArray[np.intp]) -> tuple[Driv
 
 def _with_log(path: Path, trace: Seen, facts: dict[str, Any]) -> Ran:
     try:
-        names, tests = _names(path)
-        logs = [read(path, motor=name) for name in names]
+        logs = {name: read(path, motor=name) for name in _names(path)}
     except Refusal as refusal:
         return Ran(Outcome.RAN, **facts, lacking=refusal.what)
-    recorded = tuple(_recorded(name, log, trace) for name, log in zip(names, logs, strict=True))
-    return Ran(Outcome.RAN, **facts, tests=tests, recorded=recorded)
+    if not logs:
+        lacking = "no motor in it has voltage, position and velocity"
+        return Ran(Outcome.RAN, **facts, lacking=lacking)
+    tests = dict.fromkeys(run.test for log in logs.values() for run in log.runs)
+    recorded = tuple(_recorded(name, log, trace) for name, log in logs.items())
+    return Ran(Outcome.RAN, **facts, tests=tuple(tests), recorded=recorded)
 
 
-def _names(path: Path) -> tuple[list[str], tuple[str, ...]]:
-    """The motors of the log that have a voltage, a position and a velocity; its tests."""
+def _names(path: Path) -> list[str]:
+    """The motors of the log that have a voltage, a position and a velocity."""
     entries = contents_of(load(path)).entries
-    state = next((one for one in entries if one.name.startswith(STATE)), None)
+    state = next((one.name for one in entries if one.name.startswith(STATE)), None)
     if state is None:
-        return [], ()
-    end = "-" + state.name.removeprefix(STATE)
+        return []
+    end = "-" + state.removeprefix(STATE)
     there: dict[str, set[str]] = {}
     for one in entries:
         signal, _, rest = one.name.partition("-")
-        if rest.endswith(end) and signal in {"voltage", "position", "velocity"}:
+        if rest.endswith(end) and signal in NEEDED:
             there.setdefault(rest.removesuffix(end), set()).add(signal)
-    tests = dict.fromkeys(run.test for run in read(path).runs)
-    return [name for name, signals in there.items() if len(signals) == 3], tuple(tests)  # noqa: PLR2004 - all three
+    return [name for name, signals in there.items() if signals == NEEDED]
 
 
 def _recorded(name: str, log: Log, trace: Seen) -> Recorded:

@@ -31,7 +31,7 @@ SAGGED, SAG = 10.5, (0.8, 1.2)  # [V], [s] of a dynamic test in which something 
 GAINS = {"ks": 0.2, "kv": 2.4, "ka": 0.3}  # V, V·s/m, V·s²/m: a drivetrain; further motors differ
 STEP = {"ks": 0.03, "kv": 0.12, "ka": 0.02}  # ... by this, so that their records can be told apart
 METERS_PER_PULSE = 0.000156  # of the encoders
-CHANNELS, ENCODERS = 20, 8  # of a roboRIO
+CHANNELS = 20  # for PWM on a roboRIO
 DEEP = 4  # fields of fields that are looked into
 
 
@@ -66,22 +66,6 @@ class Wheel:
         self.velocity = after
 
 
-class Eye:
-    """An encoder on a wheel: it counts pulses, and the program says how far each one is."""
-
-    def __init__(self, encoder: Any, wheel: Wheel) -> None:  # noqa: ANN401 - the same
-        self.encoder, self.wheel = encoder, wheel
-        self.per_pulse = abs(named(encoder, "getDistancePerPulse")())
-        self.distance = self.rate = 0.0
-
-    def look(self) -> None:
-        """Tell the program where the wheel is."""
-        size = self.per_pulse / METERS_PER_PULSE
-        self.distance, self.rate = self.wheel.position * size, self.wheel.velocity * size
-        named(self.encoder, "setDistance")(self.distance)
-        named(self.encoder, "setRate")(self.rate)
-
-
 class Bench:
     """A subsystem with its routine, and all that its motors move."""
 
@@ -100,21 +84,17 @@ class Bench:
         if not self.motors:
             raise CannotRun("WPILib simulates none of its motors")
         self.wheels = [Wheel(number) for number in range(len(self.motors))]
-        own = [simulation.EncoderSim(one) for _, one in fields if isinstance(one, wpilib.Encoder)]
-        self.eyes = [
-            Eye(encoder, self.wheels[number * len(self.wheels) // len(own)])
-            for number, encoder in enumerate(own)
+        self.encoders = [
+            simulation.EncoderSim(one) for _, one in fields if isinstance(one, wpilib.Encoder)
         ]
+        self.per_pulse = [abs(named(one, "getDistancePerPulse")()) for one in self.encoders]
+        self.distances = [0.0] * len(self.encoders)  # in the program's own unit
         self.voltages = [0.0] * len(self.motors)  # [V] at the motors
-        self.rows: list[tuple[str, float, float, list[float], list[float], list[float]]] = []
+        self.rows: list[tuple[str, float, float, list[float], list[float]]] = []
         self.test, self.began, self.asked = "", 0.0, 0.0
         self.battery(BATTERY)
 
-    def _motors(
-        self,
-        fields: list[tuple[str, Any]],
-        wpilib: ModuleType,
-    ) -> Iterator[tuple[str, Callable[[], float]]]:
+    def _motors(self, fields: list[tuple[str, Any]], wpilib: ModuleType) -> Iterator[Any]:
         """Name -> the share of the battery each motor gets, as its own program counts."""
         seen = set()
         for name, one in fields:
@@ -145,10 +125,8 @@ class Bench:
             self._measure()
 
         def log_callback(record: Any) -> None:  # noqa: ANN401 - the same
-            positions = [eye.distance for eye in self.eyes]
-            rates = [eye.rate for eye in self.eyes]
-            row = (self.test, now(), self.asked, list(self.voltages), positions, rates)
-            self.rows.append(row)
+            seen = list(self.voltages), list(self.distances)
+            self.rows.append((self.test, now(), self.asked, *seen))
             log(record)
 
         self.routine.mechanism.drive = drive_callback
@@ -167,16 +145,16 @@ class Bench:
         self._measure()
         for wheel, voltage in zip(self.wheels, self.voltages, strict=True):
             wheel.move(voltage)
-        for eye in self.eyes:
-            eye.look()
+        for number, encoder in enumerate(self.encoders):
+            wheel = self.wheels[number * len(self.wheels) // len(self.encoders)]
+            size = self.per_pulse[number] / METERS_PER_PULSE  # the same pulses, whatever they mean
+            self.distances[number] = wheel.position * size
+            named(encoder, "setDistance")(self.distances[number])
+            named(encoder, "setRate")(wheel.velocity * size)
         named(self.simulation, "stepTiming")(PERIOD)
 
     def run(self) -> dict[str, float]:
-        """Run the four tests.
-
-        Returns:
-            How long each took [s] until it ended by itself, or was ended.
-        """
+        """Run the four tests: how long each took [s] until it ended by itself, or was ended."""
         import commands2  # noqa: PLC0415 - whoever only reads needs none
         from wpilib import Timer  # noqa: PLC0415 - the same
 
@@ -187,17 +165,18 @@ class Bench:
         lasted = {}
         for kind in ("quasistatic", "dynamic"):
             for way in ("forward", "reverse"):
-                self.test = ""
-                for _ in range(round(REST / PERIOD)):
-                    self.loop(scheduler.run)
+                self._rest(scheduler)
                 self.test, self.began = f"{kind}-{way}", now()
                 name = f"k{way.capitalize()}"
                 direction = getattr(ways, name if hasattr(ways, name) else way.upper())
                 lasted[self.test] = self._hold(getattr(self.routine, kind)(direction), scheduler)
+        self._rest(scheduler)
+        return lasted
+
+    def _rest(self, scheduler: Any) -> None:  # noqa: ANN401 - the same
         self.test = ""
         for _ in range(round(REST / PERIOD)):
             self.loop(scheduler.run)
-        return lasted
 
     def _hold(self, command: Any, scheduler: Any) -> float:  # noqa: ANN401 - the same
         """Hold down the button of a test, until it ends or has shown enough."""
@@ -278,7 +257,7 @@ def crash(error: BaseException, file: Path) -> dict[str, object]:
     return {
         "file": Path(own[-1].filename).name if own else file.name,
         "line": own[-1].lineno if own else 0,
-        "error": " ".join(f"{type(error).__name__}: {error}".split()),
+        "error": f"{type(error).__name__}: {error}".strip().splitlines()[0].rstrip(" :"),
         "where": where[-1].removesuffix("_callback") if where else "",
     }
 
@@ -298,20 +277,18 @@ def enable(folder: Path) -> None:
 
 def main(file: Path, name: str, folder: Path) -> dict[str, object]:
     """Run one file; everything that happens to it is an answer."""
+    ready = False
     try:
         enable(folder)
         bench = Bench(make(load(file), name))
-        lasted = bench.run()
+        ready = True
+        told = {"lasted": bench.run(), "motors": list(bench.motors), "rows": bench.rows}
     except CannotRun as lacking:
         return {"cannot": str(lacking)}
     except BaseException as error:  # noqa: BLE001 - a learner's code may raise whatever it likes
-        return {"crash": crash(error, file)}
-    return {
-        "lasted": lasted,
-        "motors": list(bench.motors),
-        "per_pulse": [eye.per_pulse for eye in bench.eyes],
-        "rows": bench.rows,
-    }
+        what = crash(error, file)
+        return {"crash": what} if ready or what["line"] else {"cannot": what["error"]}
+    return {**told, "per_pulse": bench.per_pulse}
 
 
 if __name__ == "__main__":

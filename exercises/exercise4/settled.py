@@ -1,0 +1,103 @@
+"""Two ways to look at one file: reading it, and running it in WPILib's simulation.
+
+What reading decides stands, unless the run shows otherwise; what it has to ask about, the run
+settles. Where nothing can be run (Java, no RobotPy, vendors' devices), reading is all there is.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from grader.check import NotReached, Wrong
+from grader.robotcode.bench import Outcome, Ran
+from grader.robotcode.bench.contradiction import IN, Fault
+from grader.robotcode.facts import RoutineFacts
+from grader.wiring import cannot_tell
+
+QUESTION = cannot_tell("", "").split(" by ")[0].strip()  # how everything begins that is asked
+STOPPED = {Outcome.CRASHED, Outcome.ENDLESS}
+
+
+@dataclass(frozen=True)
+class Code:
+    """What the checks look at.
+
+    Args:
+        facts: what the file says.
+        ran: what it did; None if it was not run.
+    """
+
+    facts: RoutineFacts
+    ran: Ran | None = None
+
+
+def asks(seen: str) -> bool:
+    """Whether what a check saw is a question, not a mistake."""
+    return seen.startswith(QUESTION)
+
+
+def settle(
+    code: Code,
+    reading: Callable[[], str | None],
+    running: Callable[[Ran], Fault | None],
+    *,
+    points: float,
+) -> str | None:
+    """Look both ways.
+
+    Args:
+        code: the file, read and perhaps run.
+        reading: the check by reading; returns a note, or raises Wrong or NotReached.
+        running: what a run that came to its end shows to be wrong, or one that did not.
+        points: the check's.
+
+    Returns:
+        The reading's note, or how its question was settled.
+
+    Raises:
+        Wrong: it is wrong, or cannot be told either way.
+        NotReached: there is nothing to look at yet.
+    """
+    ran = code.ran
+    try:
+        note = reading()
+    except (Wrong, NotReached) as open_still:
+        if isinstance(open_still, Wrong) and not asks(open_still.seen):
+            raise
+        if ran is not None and ran.outcome in STOPPED and isinstance(open_still, Wrong):
+            _stopped(open_still, ran)
+        if ran is None or ran.outcome is not Outcome.RAN:
+            raise
+        _fail(running(ran), points)
+        return f"Reading cannot tell, so it was run {IN}: there this is right."
+    if ran is not None:
+        _fail(running(ran), points)
+    return note
+
+
+def _stopped(question: Wrong, ran: Ran) -> None:
+    """Say that running did not answer the question, either."""
+    raise Wrong(
+        question.seen,
+        hint=f"{question.hint} Running it {IN} did not help: {ran.said}",
+        misconception=question.misconception,
+        earned=question.earned,
+    ) from None
+
+
+def _fail(fault: Fault | None, points: float) -> None:
+    if fault is not None:
+        raise Wrong(
+            fault.seen,
+            hint=fault.hint,
+            misconception=fault.misconception,
+            earned=round(points * (1.0 - fault.share), 1),
+        )
+
+
+def noted(ran: Ran | None, figures: Callable[[Ran], str]) -> str | None:
+    """Which way the file was looked at, where that is not reading alone."""
+    if ran is None or ran.outcome in STOPPED:
+        return None
+    if ran.outcome is Outcome.CANNOT:
+        return f"Only read, not run {IN}: {ran.said}."
+    return f"Also run {IN}: {figures(ran)}."

@@ -1,0 +1,118 @@
+"""Exercise 4 read and run: what the run settles, what it contradicts, and when it is left out."""
+
+import pytest
+from robot_mistakes import RIGHT, ROOT, changed, needs_robot
+
+from grader.exercise import Exercise
+from grader.robotcode import bench
+from grader.robotcode.bench import Outcome, Ran
+
+EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
+
+
+def graded(tmp_path, text):
+    path = tmp_path / "mine.py"
+    path.write_text(text, "utf-8")
+    return {one.id: one for one in EXERCISE.grade(path, student="ann").checks}
+
+
+@needs_robot
+def test_what_reading_cannot_tell_is_settled_by_the_run(tmp_path):
+    step = ("stepVoltage=3.5", "stepVoltage=float(open(__file__).read()[3:3] or 3.5)")
+    checks = graded(tmp_path, changed(step))
+
+    assert {one.status for one in checks.values()} == {"passed"}
+    assert "Reading cannot tell, so it was run" in checks["step"].hint
+    assert "Also run in WPILib's simulation: 0.5 V/s, 3.5 V, 10 s" in checks["routine"].hint
+
+
+@needs_robot
+@pytest.mark.parametrize(
+    ("changes", "check", "said"),
+    [
+        pytest.param(
+            [("stepVoltage=3.5", "stepVoltage=float(open(__file__).read()[3:3] or 2.5)")],
+            "step",
+            "in WPILib's simulation the step was 2.5 V",
+            id="a step nobody can read",
+        ),
+        pytest.param(
+            [("self.left = PWMSparkMax(0)", "self.left = PWMSparkMax(0); self.left.disable()")],
+            "",
+            "",
+            id="nothing wrong",
+        ),
+        pytest.param(
+            [("self.left_encoder.getRate()", "60 * self.left_encoder.getRate()")],
+            "units",
+            "60 times the slope of its position",
+            id="per minute",
+        ),
+        pytest.param(
+            [("self.right_encoder.getRate()", "self.right_encoder.getRates()")],
+            "log",
+            "AttributeError",
+            id="a crash in the log callback",
+        ),
+        pytest.param(
+            [("self.right_encoder = Encoder(2, 3)", "self.right_encoder = Encoder(2, 1)")],
+            "assembled",
+            "mine.py, line 23: RuntimeError: PWM or DIO 1 previously allocated",
+            id="one channel twice",
+        ),
+    ],
+)
+def test_what_reading_lets_pass_the_run_may_not(tmp_path, changes, check, said):
+    checks = graded(tmp_path, changed(*changes))
+    wrong = {name: one for name, one in checks.items() if one.status != "passed"}
+
+    assert [*wrong] == ([check] if check else [])
+    for one in wrong.values():
+        assert said in one.seen
+
+
+@needs_robot
+def test_a_question_that_the_run_cannot_settle_stays_one(tmp_path):
+    text = changed(("self.right.setVoltage(voltage)", "team.send(self.right, voltage)"))
+    checks = graded(tmp_path, text)
+
+    assert checks["drive"].seen.startswith("I cannot tell")
+    assert "NameError: name 'team' is not defined" in checks["drive"].hint
+
+
+@needs_robot
+def test_code_that_reading_finds_wrong_is_not_run(tmp_path, monkeypatch):
+    monkeypatch.setattr(bench, "run", lambda *_: pytest.fail("it was run"))
+    checks = graded(tmp_path, changed(("rampRate=0.5", "rampRate=0.25")))
+
+    assert [name for name, one in checks.items() if one.status != "passed"] == ["ramp"]
+
+
+@needs_robot
+def test_whoever_grades_can_leave_running_out(tmp_path, monkeypatch):
+    monkeypatch.setattr(bench, "run", lambda *_: pytest.fail("it was run"))
+    path = tmp_path / "mine.py"
+    path.write_text(RIGHT, "utf-8")
+
+    assert EXERCISE.module.read(path, student="ann", run=False).ran is None
+
+
+def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
+    monkeypatch.setattr(bench, "installed", lambda: False)
+    checks = graded(tmp_path, RIGHT)
+
+    assert {one.status for one in checks.values()} == {"passed"}
+    assert checks["routine"].hint == ""
+    assert bench.run(tmp_path / "mine.py", "ExampleSubsystem") == Ran(
+        Outcome.CANNOT, "RobotPy is not installed here"
+    )
+
+
+def test_a_vendors_file_is_graded_by_reading_and_says_so(tmp_path, monkeypatch):
+    monkeypatch.setattr(bench, "installed", lambda: True)
+    unable = Ran(Outcome.CANNOT, "it imports phoenix6, which is not here")
+    monkeypatch.setattr(bench, "run", lambda *_: unable)
+    checks = graded(tmp_path, RIGHT)
+
+    assert {one.status for one in checks.values()} == {"passed"}
+    assert "Only read, not run in WPILib's simulation: it imports" in checks["routine"].hint

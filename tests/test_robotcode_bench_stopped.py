@@ -1,0 +1,153 @@
+"""RobotPy code that does not run to its end: crashes, endless loops, other seasons."""
+
+import sys
+
+import pytest
+from robot_mistakes import changed, needs_robot, ran
+
+from grader.robotcode import bench
+from grader.robotcode.bench import Outcome, apart
+from grader.robotcode.bench.logged import told
+from grader.robotcode.bench.season import of_another
+from grader.robotcode.vocabulary import renamed
+
+
+@needs_robot
+@pytest.mark.parametrize(
+    ("changes", "outcome", "said", "where"),
+    [
+        pytest.param(
+            [("self.right_encoder.getRate()", "self.right_encoder.getSpeed()")],
+            Outcome.CRASHED,
+            "mine.py, line 50: AttributeError: 'wpilib._wpilib.Encoder' object has no",
+            "log",
+            id="a crash",
+        ),
+        pytest.param(
+            [("METERS_PER_PULSE = 0.000156", "METERS_PER_PULSE = 1 / 0")],
+            Outcome.CRASHED,
+            "mine.py, line 12: ZeroDivisionError: division by zero",
+            "",
+            id="a crash on import",
+        ),
+        pytest.param(
+            [("Config(rampRate", "Mechanism(rampRate")],
+            Outcome.CRASHED,
+            "TypeError: SysIdRoutine.Mechanism.__init__() got an unexpected keyword",
+            "",
+            id="arguments of another",
+        ),
+        pytest.param(
+            [
+                ("SysIdRoutine.Config(rampRate=0.5, stepVoltage=3.5, timeout=10.0),", "A,"),
+                ("SysIdRoutine.Mechanism(self.drive, self.record, self)", "B"),
+                ("A,", "SysIdRoutine.Mechanism(self.drive, self.record, self),"),
+                ("            B,", "            SysIdRoutine.Config(0.5, 3.5, 10.0),"),
+            ],
+            Outcome.CRASHED,
+            "AttributeError: 'Config' object has no attribute 'name'",
+            "",
+            id="arguments swapped",
+        ),
+        pytest.param(
+            [("super().__init__()", "super().__init__(); raise SystemExit")],
+            Outcome.CRASHED,
+            "mine.py, line 19: SystemExit",
+            "",
+            id="an exit",
+        ),
+        pytest.param(
+            [("self.left.setVoltage(voltage)", "import os; os._exit(0)")],
+            Outcome.CRASHED,
+            "your code ended the robot program in the middle of a test",
+            "",
+            id="a sudden end",
+        ),
+        pytest.param(
+            [("from commands2 import", "import phoenix_7\nfrom commands2 import")],
+            Outcome.CANNOT,
+            "it imports phoenix_7, which is not here",
+            "",
+            id="a vendor's library",
+        ),
+        pytest.param(
+            [("def __init__(self)", "def __init__(self, port)")],
+            Outcome.CANNOT,
+            "ExampleSubsystem() has to be given port",
+            "",
+            id="an argument",
+        ),
+        pytest.param(
+            [("self.left.setVoltage", "self.left.set_voltage")],
+            Outcome.CANNOT,
+            "set_voltage is a name of 2027, and the RobotPy installed here is 2026",
+            "",
+            id="another season",
+        ),
+    ],
+)
+def test_what_does_not_run_says_so_in_one_line(tmp_path, changes, outcome, said, where):
+    run = ran(tmp_path, changed(*changes))
+
+    assert run.outcome is outcome, run.said
+    assert said in run.said
+    assert run.where == where
+    assert "\n" not in run.said
+
+
+@needs_robot
+def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
+    endless = (
+        "        self.right.setVoltage(voltage)",
+        "        while True:\n            pass",
+    )
+    run = ran(tmp_path, changed(endless), seconds=2)
+
+    assert run.outcome is Outcome.ENDLESS
+    assert (run.where, run.line) in {("drive", 38), ("drive", 39)}
+    assert "did not come to an end within 2 s" in run.said
+
+
+@pytest.mark.parametrize(
+    "left",
+    ["", "{", "[]", '{"rows": 3}', '{"rows": [[1]], "lasted": {}}', '{"crash": 1}'],
+)
+def test_whatever_a_child_leaves_behind_is_an_answer(tmp_path, left):
+    (tmp_path / "seen.json").write_text(left, "utf-8")
+
+    assert told(tmp_path, tmp_path / "a.py", ended=True, seconds=1).outcome is Outcome.CANNOT
+
+
+def test_a_child_that_does_not_end_is_ended(tmp_path):
+    program = [sys.executable, "-c", "while True: pass"]
+
+    assert apart.alone(program, tmp_path, 0.5) is False
+    assert told(tmp_path, tmp_path / "a.py", ended=False, seconds=0.5).outcome is Outcome.ENDLESS
+
+
+@pytest.mark.parametrize(
+    ("name", "season"),
+    [
+        ("set_voltage", "2027"),  # RobotPy's snake case, and its constants in capitals
+        ("ramp_rate", "2027"),
+        ("FORWARD", "2027"),
+        ("set_throttle", "2027"),  # what WPILib called set until then
+        ("setThrottle", "2027"),
+        ("setVoltage", "2026"),
+        ("rampRate", "2026"),
+        ("kForward", "2026"),
+        ("set", ""),
+        ("forward", ""),
+        ("my_own", ""),
+    ],
+)
+def test_a_name_tells_its_season(name, season):
+    assert renamed(name) == season
+
+
+def test_an_import_of_another_season_is_known_by_the_names_beside_it():
+    error = "ImportError: cannot import name 'PIDController' from 'wpimath'"
+    season = "2027" if bench.installed() else ""
+
+    assert season in of_another(error, "self.motor.set_voltage(3)")
+    assert of_another(error, "self.motor.go(3)") == ""
