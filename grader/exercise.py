@@ -115,6 +115,17 @@ class Exercise:
         heading = re.search(r"^#\s+(?:Exercise \d+\s*[:.]?\s*)?(.+?)\s*$", text, re.MULTILINE)
         return heading[1] if heading else self.name
 
+    @property
+    def personal(self) -> bool:
+        """Whether each learner works on numbers or data of their own."""
+        return hasattr(self.module, "prepare")
+
+    @property
+    def solution(self) -> Path | None:
+        """The folder with its solution, where there is one: a class's package has none."""
+        folder = self.folder.parents[1] / "solutions" / self.name
+        return folder if folder.is_dir() else None
+
     def prepare(self, student: str, *, say: Callable[[str], None]) -> None:
         """Make what the learner works on, where it is not there yet.
 

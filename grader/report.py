@@ -8,6 +8,7 @@ from grader.check import Result, Status
 from grader.course import Progress
 from grader.exercise import HINTS, Exercise, Grade
 from grader.misconception import MISCONCEPTIONS
+from grader.submission import find_files, read_answers, read_text
 from grader.terminal import Line, Span, line, width, wrapped
 
 MARKS = {
@@ -16,6 +17,7 @@ MARKS = {
     Status.NOT_REACHED: ("–", "dim"),
     Status.ERROR: ("!", "magenta"),
 }
+SPOKEN = {"✓": "right", "✗": "not right yet", "–": "not looked at yet", "!": "our mistake"}
 INDENT = "    "
 ONCE = {"", "why  "}  # leads of what is said once, however many checks it stands under
 
@@ -27,14 +29,54 @@ def to_json(grade: Grade) -> str:
     return json.dumps({**told, "checks": [asdict(result) for result in grade.checks]})
 
 
-def to_lines(grade: Grade, *, hints_shown: int = 0) -> list[Line]:
-    """The grade for a terminal."""
+def to_lines(
+    grade: Grade, *, hints_shown: int = 0, solution: Path | None = None, plain: bool = False
+) -> list[Line]:
+    """The grade for a terminal.
+
+    Args:
+        grade: what became of the answer.
+        hints_shown: how many hints the learner has seen.
+        solution: the folder with the solution, to be compared with once all is right.
+        plain: words for signs and nothing in columns, as a screen reader reads it best.
+    """
     lines = [_verdict(grade), line()]
     said: set[str] = set()  # what has been said once is not said again
     for result in grade.checks:
-        lines += _result(result, said)
+        lines += _result(result, said, plain=plain)
     if grade.status != "passed":
         lines += [line(), line(_next_hint(grade.exercise, hints_shown), "cyan")]
+    elif solution is not None:
+        place = f"{solution.parent.name}/{solution.name}"
+        lines += [line(), line(f"A solution, for comparison: {place}", "cyan")]
+    return _spoken(lines) if plain else lines
+
+
+def _spoken(lines: list[Line]) -> list[Line]:
+    """The same with a word for each sign that leads a line."""
+    return [
+        (Span(f"{SPOKEN[row[0].text[0]]}:{row[0].text[1:]}", row[0].style), *row[1:])
+        if row and row[0].text[:2].rstrip() in SPOKEN
+        else row
+        for row in lines
+    ]
+
+
+def received(exercise: Exercise, file: Path | None) -> list[Line]:
+    """What can be read of an answer that somebody else will grade.
+
+    Raises:
+        UnreadableFile: nothing can.
+    """
+    lines = []
+    for path in find_files(file, folder=exercise.folder, names=exercise.files):
+        if path.suffix != ".toml":
+            lines.append(line(f"{path.name}: {len(read_text(path).splitlines())} lines"))
+            continue
+        answers = read_answers(path)
+        there = [name for name, value in answers.items() if value not in {"", None}]
+        lines.append(line(f"{path.name}: {len(there)} of {len(answers)} answered"))
+        lines += [line(f"  {name} = {answers[name]}") for name in there]
     return lines
 
 
@@ -47,18 +89,26 @@ def _verdict(grade: Grade) -> Line:
     return (Span(f"{mark} {score}, {said}", f"bold {style}"), Span(file, "dim"))
 
 
-def _result(result: Result, said: set[str]) -> list[Line]:
+def _result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
     mark, style = MARKS[result.status]
     points = f"{result.points:g} of {result.max_points:g}"
-    rows = wrapped(result.description, lead="  ", spare=len(points) + 1)
-    _, first = rows[0]
-    room = width() - len(points) - 2
-    rows[0] = (Span(f"{mark} ", style), Span(first.text.ljust(room)), Span(points, style))
+    if plain:
+        rows = [line(f"{mark} {result.description}, {points} points", style)]
+    else:
+        rows = _row(result.description, points, mark, style)
     for word, text in _told(result):
         if text and text not in said:
             rows += wrapped(text, lead=f"{INDENT}{word}")
         if word in ONCE:
             said.add(text)
+    return rows
+
+
+def _row(description: str, points: str, mark: str, style: str) -> list[Line]:
+    rows = wrapped(description, lead="  ", spare=len(points) + 1)
+    _, first = rows[0]
+    room = width() - len(points) - 2
+    rows[0] = (Span(f"{mark} ", style), Span(first.text.ljust(room)), Span(points, style))
     return rows
 
 
@@ -94,7 +144,12 @@ def hint_lines(exercise: Exercise, *, shown: int) -> list[Line]:
 
 
 def overview(
-    course: Path, found: tuple[Exercise, ...], progress: Progress, *, student: str
+    course: Path,
+    found: tuple[Exercise, ...],
+    progress: Progress,
+    *,
+    student: str,
+    plain: bool = False,
 ) -> list[Line]:
     """Where a learner stands: lessons, exercises, and the next step."""
     standings = [progress.of(student, one.name) for one in found]
@@ -111,6 +166,9 @@ def overview(
         score = f"{standing.score:g} of {standing.max_score:g}" if tried else "not tried yet"
         room = width() - len(score) - 1
         said = f"{one.name}  {one.title}"[: room - 3]
+        if plain:
+            lines.append(line(f"{one.name}, {one.title}: {score}"))
+            continue
         lines.append((Span(f"{mark} ", style), Span(said.ljust(room - 1)), Span(score, style)))
     open_ones = [one for one, how in zip(found, standings, strict=True) if not how.done]
     return [*lines, line(), *_next_step(open_ones)]

@@ -1,7 +1,5 @@
 """``sysid dataset``."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -89,6 +87,7 @@ def _make(
     """Make what is not there yet."""
     from sim.dataset.making import make  # noqa: PLC0415 - --help must not wait
     from sim.dataset.run import finish, look, rehearse  # noqa: PLC0415 - the same
+    from sim.work.bar import bar  # noqa: PLC0415 - the same
     from sim.work.cluster import done_on_cluster  # noqa: PLC0415 - the same
     from sim.work.here import cores, done_here  # noqa: PLC0415 - the same
     from sim.work.interrupt import noted  # noqa: PLC0415 - the same
@@ -98,7 +97,7 @@ def _make(
     if secret.new:
         secret.keep()
         click.echo(f"{secret.new}: a new secret. Keep it, and keep it to yourself.", err=True)
-    with _bar(len(jobs), len(found.kept)) as (step, done), noted() as stop_if_noted:
+    with bar("logs", len(jobs), done=len(found.kept)) as (step, done), noted() as stop_if_noted:
 
         def say() -> None:
             step()
@@ -158,24 +157,3 @@ def _write_example(path: Path) -> int:
         ) from None
     click.echo(f"{path}: an example. Edit it, then: sysid dataset {path} -o {path.stem}")
     return DONE
-
-
-@contextmanager
-def _bar(total: int, kept: int) -> Iterator[tuple[Callable[[], None], Callable[[], int]]]:
-    """A progress bar where there is a terminal; gives what moves it and what reads it."""
-    from rich.console import Console  # noqa: PLC0415 - --help must not wait for it
-    from rich.progress import (  # noqa: PLC0415 - the same
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeRemainingColumn,
-    )
-
-    console = Console(stderr=True)
-    columns = (TextColumn("logs"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(
-        *columns, console=console, transient=True, disable=not console.is_terminal
-    ) as progress:
-        task = progress.add_task("logs", total=total, completed=kept)
-        yield lambda: progress.advance(task), lambda: int(progress.tasks[0].completed)

@@ -1,17 +1,15 @@
 """The students of a dataset: a list in the spec, or a column of a CSV file beside it."""
 
-import csv
-import io
 from collections.abc import Iterable
 from pathlib import Path
 
 from sim.dataset.table import Table
 from sim.errors import BadRequest, Refusal
+from sim.roster import read_roster
 from sim.student import same, student_name
 
 COLUMN = "student"  # [header of a CSV file] unless the spec names another
 EXAMPLE = "roster.csv"
-NO_STUDENT = "points possible"  # what Canvas writes in the second row of its gradebook
 
 
 def students_of(table: Table, *, folder: Path) -> tuple[str, ...]:
@@ -29,54 +27,40 @@ def students_of(table: Table, *, folder: Path) -> tuple[str, ...]:
         return ()
     if isinstance(given, list):
         texts = table.texts("students", example="ann")
-        return _distinct((f"{table.where}, students", text) for text in texts)
+        return distinct((f"{table.where}, students", text) for text in texts)
     if isinstance(given, dict):
         found = Table(given, where=f"{table.where}, students", known=("file", "column"))
         file = found.text("file", example=EXAMPLE)
         column = found.text("column", example=COLUMN) if "column" in found else COLUMN
     else:
         file, column = table.text("students", example=EXAMPLE), COLUMN
-    return _distinct(_cells(folder / file, column=column))
+    return distinct(_cells(folder / file, column=column))
 
 
 def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
     """Place and text of every cell of a column."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        raise BadRequest(
-            f"the roster cannot be read ({why})",
-            where=str(path),
-            advice="Give the path of a CSV file in UTF-8, seen from the spec's folder.",
-        ) from None
-    rows = csv.reader(io.StringIO(text, newline=""), delimiter=_delimiter(text))
-    header = [name.strip().casefold() for name in next(rows, [])]
-    if column.casefold() not in header:
+    advice = "Give the path of a CSV file in UTF-8, seen from the spec's folder."
+    roster = read_roster(path, advice=advice)
+    place = roster.place([column])
+    if place is None:
         raise BadRequest(
             f"no column {column!r} in its first line",
             where=str(path),
             advice=f'Name one that is there: students = {{ file = "{path.name}", column = "…" }}',
         )
-    place = header.index(column.casefold())
-    for row in rows:
-        if any(cell.strip() for cell in row) and not _of_canvas(row):
-            cell = row[place] if place < len(row) else ""
-            yield f"{path}, line {rows.line_num}", cell
+    for number, row in roster.rows:
+        yield f"{path}, line {number}", row[place] if place < len(row) else ""
 
 
-def _of_canvas(row: list[str]) -> bool:
-    return any(cell.strip().casefold() == NO_STUDENT for cell in row)
+def distinct(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+    """Names as they are shown, each of another person.
 
+    Args:
+        found: place and text of each name.
 
-def _delimiter(text: str) -> str:
-    """What stands between the cells; a spreadsheet of half of Europe writes a semicolon."""
-    first = text.partition("\n")[0]
-    return max(",;\t", key=first.count)
-
-
-def _distinct(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
-    """Names as they are shown, each of another person."""
+    Raises:
+        BadRequest: a name that is none, or one that occurs twice.
+    """
     names: dict[str, str] = {}
     for where, text in found:
         try:

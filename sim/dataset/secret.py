@@ -102,7 +102,7 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
     if spec.seed is not None:
         return Secret(f"sysid dataset of seed {spec.seed}".encode(), hidden=False)
     set_ = os.environ.get(VARIABLE, "").strip().encode()
-    kept = _kept(spec.secret) if spec.secret else b""
+    kept = kept_in(spec.secret) if spec.secret else b""
     if set_ and kept and set_ != kept:
         raise BadRequest(
             f"the file of the secret and {VARIABLE} differ",
@@ -134,8 +134,12 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
     return Secret(secrets.token_hex(SIZE).encode(), hidden=True, new=spec.secret)
 
 
-def _kept(path: Path) -> bytes:
-    """The secret in a file; empty if there is no such file."""
+def kept_in(path: Path) -> bytes:
+    """The secret in a file; empty if there is no such file.
+
+    Raises:
+        BadRequest: the file cannot be read, or is empty.
+    """
     try:
         kept = path.read_bytes().strip()
     except FileNotFoundError:

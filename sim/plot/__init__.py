@@ -13,6 +13,7 @@ from sim.plot.charts import choices, curves, misses
 from sim.plot.clock import timesteps
 from sim.plot.live import live
 from sim.plot.logs import time_series
+from sim.plot.marks import heat, spread
 from sim.plot.picture import Picture
 from sim.plot.ramp import Line, voltage_velocity
 from sim.plot.table import Table
@@ -24,8 +25,10 @@ __all__ = [
     "acceleration_velocity",
     "choices",
     "curves",
+    "heat",
     "live",
     "misses",
+    "spread",
     "time_series",
     "timesteps",
     "velocity_time",

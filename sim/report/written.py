@@ -15,10 +15,14 @@ FOLDER = Path(__file__).parent
 
 
 @cache
-def templates() -> Environment:
-    """The templates of this folder; what they are filled with is escaped."""
+def templates(folder: Path | None = None) -> Environment:
+    """The templates of this folder; what they are filled with is escaped.
+
+    Args:
+        folder: another one with more of them.
+    """
     return Environment(
-        loader=FileSystemLoader(FOLDER, encoding="utf-8"),
+        loader=FileSystemLoader([folder or FOLDER, FOLDER], encoding="utf-8"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

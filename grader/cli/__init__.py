@@ -5,8 +5,9 @@ Exit codes: 0 full marks, 1 not all right yet, 2 could not do it (one line says 
 
 import sys
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import click
 
@@ -20,12 +21,25 @@ if TYPE_CHECKING:
     from grader.exercise import Exercise
 
 
+MODULES = {"class": "classroom", "doctor": "doctor", "release": "release", "watch": "watch"}
+
+
 class ExerciseOrCommand(click.Group):
-    """A group whose first word may be the name of an exercise."""
+    """A group whose first word may be the name of an exercise; commands are imported when asked."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Those of this file, and those in modules of their own."""
+        return sorted([*super().list_commands(ctx), *MODULES])
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of this name, or None."""
+        if cmd_name not in MODULES:
+            return super().get_command(ctx, cmd_name)
+        return cast("click.Command", import_module(f"{__name__}.{MODULES[cmd_name]}").COMMAND)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take everything that does not begin with a command as a request to grade."""
-        if not {*args[:1]} & {"-h", "--help", *self.commands}:
+        if not {*args[:1]} & {"-h", "--help", *self.list_commands(ctx)}:
             args = ["exercise", *args]
         return super().parse_args(ctx, args)
 
@@ -33,6 +47,7 @@ class ExerciseOrCommand(click.Group):
         """Show grading, what the command is mostly for, and then the rest."""
         formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
         formatter.write_usage("grade", "start [--no-lab] [--student NAME]")
+        formatter.write_usage("grade", "watch | doctor | class FOLDER | release  [--help]")
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)
         self.format_commands(ctx, formatter)
@@ -58,24 +73,31 @@ def grade() -> None:
 @click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
 @click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 @click.option("--hint", is_flag=True, help="Show the next of three hints; it costs nothing.")
+@click.option("--plain", is_flag=True, help="Words for signs, nothing in columns: for listening.")
 def exercise(
-    exercise: str | None, file: Path | None, student: str | None, *, as_json: bool, hint: bool
+    exercise: str | None,
+    file: Path | None,
+    student: str | None,
+    *,
+    as_json: bool,
+    hint: bool,
+    plain: bool,
 ) -> int:
     """Grade an exercise, or say how far you are."""
     from grader.exercise import exercises, find  # noqa: PLC0415 - --help has to start at once
 
-    folder, progress, who = _here(student)
+    folder, progress, who = here(student)
     if exercise is not None:
         one = find(exercise, folder)
         if hint:
             return _hint(one, folder, progress, who)
-        return _grade(one, file, folder, progress, who, as_json=as_json)
+        return grade_file(one, file, folder, progress, who, as_json=as_json, plain=plain)
     if as_json or hint:
         advice = f"Say which: grade exercise4 --{'json' if as_json else 'hint'}"
         raise BadRequest("no exercise was named", advice=advice)
     from grader.report import overview  # noqa: PLC0415 - the same
 
-    show(overview(folder, exercises(folder), progress, student=who))
+    show(overview(folder, exercises(folder), progress, student=who, plain=plain))
     return 0
 
 
@@ -87,15 +109,19 @@ def start(student: str | None, *, no_lab: bool) -> int:
     from grader.course import save  # noqa: PLC0415 - --help has to start at once
     from grader.start import start as begin  # noqa: PLC0415 - the same
 
-    folder, progress, who = _here(student)
+    folder, progress, who = here(student)
     if who != progress.student:
         progress = replace(progress, student=who)
         _tell(save(progress, folder))
     return begin(folder, progress, student=who, lab=not no_lab)
 
 
-def _here(student: str | None) -> "tuple[Path, Progress, str]":
-    """The course folder, the progress kept there, and who is learning."""
+def here(student: str | None) -> "tuple[Path, Progress, str]":
+    """The course folder, the progress kept there, and who is learning.
+
+    Raises:
+        BadRequest: there is no course here, or the name is none.
+    """
     from grader.course import find_course, load  # noqa: PLC0415 - --help has to start at once
     from grader.variant import student_name  # noqa: PLC0415 - the same
 
@@ -105,18 +131,25 @@ def _here(student: str | None) -> "tuple[Path, Progress, str]":
     return folder, progress, progress.student if student is None else student_name(student)
 
 
-def _grade(
+def grade_file(
     one: "Exercise",
     file: Path | None,
     folder: Path,
     progress: "Progress",
     who: str,
     *,
-    as_json: bool,
+    as_json: bool = False,
+    plain: bool = False,
 ) -> int:
+    """Grade an answer, note the score, and show the result; the exit code."""
     from grader.course import save  # noqa: PLC0415 - --help has to start at once
-    from grader.report import to_json, to_lines  # noqa: PLC0415 - the same
+    from grader.issued import issued, only_there  # noqa: PLC0415 - the same
+    from grader.report import received, to_json, to_lines  # noqa: PLC0415 - the same
 
+    of_class = issued(folder)
+    if of_class and one.personal and of_class.is_for(who):
+        show(received(one, file))
+        raise only_there(one.name, of_class)
     one.prepare(who, say=complain)
     result = one.grade(file, student=who)
     gradable = result.status != "ungradable"
@@ -126,7 +159,8 @@ def _grade(
     if as_json:
         click.echo(to_json(result))
     elif result.reached:
-        show(to_lines(result, hints_shown=progress.of(who, one.name).hints))
+        shown = progress.of(who, one.name).hints
+        show(to_lines(result, hints_shown=shown, solution=one.solution, plain=plain))
     _tell(result.reason)
     return (DONE if result.status == "passed" else NOT_RIGHT) if gradable else COULD_NOT
 

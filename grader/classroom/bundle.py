@@ -1,0 +1,76 @@
+"""All of a course that grading needs, as one piece that can travel to another machine."""
+
+import hashlib
+import io
+import tempfile
+import zipfile
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+KINDS = (".py", ".toml", ".md", ".java")  # of an exercise's files; its data are drawn, not sent
+CODE = ("grader", "sim")
+
+
+@dataclass(frozen=True)
+class Bundle:
+    """A course's exercises.
+
+    Args:
+        digest: of the content.
+        content: a zip file.
+    """
+
+    digest: str
+    content: bytes
+
+    def __repr__(self) -> str:
+        """Without the content."""
+        return f"Bundle({self.digest[:8]})"
+
+
+def bundle(course: Path) -> Bundle:
+    """The exercises of a course, packed; the same files give the same bytes."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path in _files(course / "exercises"):
+            info = zipfile.ZipInfo(path.relative_to(course).as_posix())  # its time is always 1980
+            archive.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
+    content = stream.getvalue()
+    return Bundle(hashlib.sha256(content).hexdigest(), content)
+
+
+def course_of(given: Path | Bundle) -> Path:
+    """The folder of a course: as it is, or unpacked once in each process."""
+    return given if isinstance(given, Path) else _unpacked(given)
+
+
+@cache
+def _unpacked(given: Bundle) -> Path:
+    folder = tempfile.TemporaryDirectory(prefix="course-", ignore_cleanup_errors=True)
+    _KEPT.append(folder)  # removed when this process ends
+    with zipfile.ZipFile(io.BytesIO(given.content)) as archive:
+        archive.extractall(folder.name)
+    return Path(folder.name)
+
+
+_KEPT: list[tempfile.TemporaryDirectory[str]] = []
+
+
+def fingerprint(course: Path) -> str:
+    """A text that changes with whatever decides a result: exercises, examiner and bench."""
+    found = hashlib.sha256()
+    packages = [Path(__file__).resolve().parents[2] / name for name in CODE]
+    for top in (course / "exercises", *packages):
+        for path in _files(top):
+            found.update(f"{top.name}/{path.relative_to(top).as_posix()}\0".encode())
+            found.update(hashlib.sha256(path.read_bytes()).digest())
+    return found.hexdigest()
+
+
+def _files(top: Path) -> list[Path]:
+    return sorted(
+        path
+        for path in top.rglob("*")
+        if path.suffix in KINDS and not {"data", "__pycache__"} & {*path.relative_to(top).parts}
+    )

@@ -1,0 +1,70 @@
+"""GitHub Classroom's result of a step, one for each student: JSON in base64.
+
+Its reporter reads it from ``result=…`` in ``$GITHUB_OUTPUT``. One test for each exercise: its table
+counts tests and not points, so the parts of an exercise are told in the message.
+"""
+
+import base64
+import json
+from pathlib import Path
+from typing import Any
+
+from grader.classroom.grading import Graded
+from grader.classroom.results import Results
+from grader.classroom.words import feedback
+from grader.classroom.written import written
+from grader.variant import folder_name
+
+SUMMARY = "github/STUDENT.txt: result=…, a line for $GITHUB_OUTPUT"
+LONGEST = 500  # [characters] of an output, says the reporter
+STATUS = {"passed": "pass", "failed": "fail", "missing": "fail", "ungradable": "error"}
+
+
+def write(results: Results, folder: Path) -> tuple[Path, ...]:
+    """Write a folder ``github`` with a file for each student.
+
+    Raises:
+        BadRequest: they cannot be written.
+    """
+    return tuple(
+        written(folder / "github" / f"{folder_name(one.student)}.txt", _line(one))
+        for one in results.students
+    )
+
+
+def _line(one: Graded) -> str:
+    text = json.dumps(_result(one)).encode("ascii")
+    return f"result={base64.b64encode(text).decode('ascii')}\n"
+
+
+def _result(one: Graded) -> dict[str, Any]:
+    tests = [_test(number, record) for number, record in enumerate(one.records)]
+    told = {test["status"] for test in tests}
+    return {
+        "version": 1,
+        "status": next((status for status in ("error", "fail") if status in told), "pass"),
+        "message": None,
+        "max_score": sum(_number(record["max_score"]) for record in one.records),
+        "tests": tests,
+    }
+
+
+def _test(number: int, record: dict[str, Any]) -> dict[str, Any]:
+    wrong = [check for check in record["checks"] if check["status"] != "passed"]
+    output = "\n".join(f"{check['description']}: {feedback(check)}" for check in wrong)
+    return {
+        "name": str(record["exercise"]),
+        "status": STATUS[str(record["status"])],
+        "message": str(record["reason"]),
+        "test_code": "",
+        "task_id": number,
+        "filename": str(record["file"]),
+        "line_no": 0,
+        "duration": 0.0,
+        "score": _number(record["score"]),
+        "output": output if len(output) <= LONGEST else output[: LONGEST - 1] + "…",
+    }
+
+
+def _number(value: object) -> float:
+    return float(str(value))

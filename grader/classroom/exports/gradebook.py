@@ -1,0 +1,30 @@
+"""A table for a spreadsheet: a row for each student, a column for each exercise."""
+
+import csv
+import io
+from pathlib import Path
+
+from grader.classroom.cells import safe
+from grader.classroom.results import Results, scores, status_of
+from grader.classroom.written import written
+
+SUMMARY = "gradebook.csv: a row for each student, for a spreadsheet"
+
+
+def write(results: Results, folder: Path) -> tuple[Path, ...]:
+    """Write ``gradebook.csv``.
+
+    Raises:
+        BadRequest: it cannot be written.
+    """
+    stream = io.StringIO(newline="")
+    table = csv.writer(stream)
+    most = results.max_scores
+    table.writerow(["student", *results.exercises, "total", "of", "not graded"])
+    for one in results.students:
+        points = scores(one)
+        unread = [name for name, how in status_of(one).items() if how == "ungradable"]
+        row = [points.get(name, 0.0) for name in results.exercises]
+        totals = (f"{sum(points.values()):g}", f"{sum(most.values()):g}", " ".join(unread))
+        table.writerow([safe(one.student), *(f"{value:g}" for value in row), *totals])
+    return (written(folder / "gradebook.csv", "\ufeff" + stream.getvalue()),)

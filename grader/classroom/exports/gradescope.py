@@ -1,0 +1,59 @@
+"""Gradescope's results.json, one for each student.
+
+Its format: https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from grader.classroom.grading import Graded
+from grader.classroom.results import Results
+from grader.classroom.words import feedback
+from grader.classroom.written import written
+from grader.variant import folder_name
+
+SUMMARY = "gradescope/STUDENT/results.json: as Gradescope reads it"
+
+
+def write(results: Results, folder: Path) -> tuple[Path, ...]:
+    """Write a folder ``gradescope`` with a ``results.json`` for each student.
+
+    Raises:
+        BadRequest: they cannot be written.
+    """
+    return tuple(
+        written(
+            folder / "gradescope" / folder_name(one.student) / "results.json",
+            json.dumps(_result(one), ensure_ascii=False, indent=1) + "\n",
+        )
+        for one in results.students
+    )
+
+
+def _result(one: Graded) -> dict[str, Any]:
+    return {
+        "output_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": [
+            {
+                "name": f"{record['exercise']}: {check['description']}",
+                "number": f"{place}.{number}",
+                "score": check["points"],
+                "max_score": check["max_points"],
+                "status": "passed" if check["status"] == "passed" else "failed",
+                "output": feedback(check),
+                "output_format": "text",
+                "tags": [tag for tag in (check["misconception"],) if tag],
+                "visibility": "visible",
+            }
+            for place, record in enumerate(one.records, start=1)
+            for number, check in enumerate(_checks(record), start=1)
+        ],
+    }
+
+
+def _checks(record: dict[str, Any]) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = record["checks"]
+    return found

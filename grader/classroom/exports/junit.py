@@ -1,0 +1,78 @@
+"""JUnit's XML, which build servers show: a suite for each student, a case for each check.
+
+What it may hold: the schema of Jenkins, junit-10.xsd. Points stand in properties.
+"""
+
+import re
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree as ET
+
+from grader.classroom.grading import Graded
+from grader.classroom.results import Results
+from grader.classroom.words import feedback
+from grader.classroom.written import written
+
+SUMMARY = "junit.xml: a suite for each student, as build servers read it"
+NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def write(results: Results, folder: Path) -> tuple[Path, ...]:
+    """Write ``junit.xml``.
+
+    Raises:
+        BadRequest: it cannot be written.
+    """
+    top = ET.Element("testsuites", name=_plain(results.name))
+    for one in results.students:
+        top.append(_suite(one))
+    ET.indent(top)
+    text = ET.tostring(top, encoding="unicode")
+    head = '<?xml version="1.0" encoding="utf-8"?>\n'
+    return (written(folder / "junit.xml", f"{head}{text}\n"),)
+
+
+def _suite(one: Graded) -> ET.Element:
+    cases = [_case(record, check) for record in one.records for check in _checks(record)]
+    count = {tag: sum(case.find(tag) is not None for case in cases) for tag in _KINDS}
+    suite = ET.Element(
+        "testsuite",
+        name=_plain(one.student),
+        tests=str(len(cases)),
+        failures=str(count["failure"]),
+        errors=str(count["error"]),
+        skipped=str(count["skipped"]),
+    )
+    suite.extend(cases)
+    return suite
+
+
+_KINDS = ("failure", "error", "skipped")
+
+
+def _case(record: dict[str, Any], check: dict[str, Any]) -> ET.Element:
+    case = ET.Element(
+        "testcase", classname=_plain(record["exercise"]), name=_plain(check["description"])
+    )
+    points = ET.SubElement(case, "properties")
+    for name in ("points", "max_points", "misconception"):
+        ET.SubElement(points, "property", name=name, value=_plain(check[name]))
+    said = _plain(feedback(check))
+    if check["status"] == "failed":
+        ET.SubElement(case, "failure", message=said)
+    elif record["status"] == "ungradable" or check["status"] == "error":
+        ET.SubElement(case, "error", message=said)
+    elif check["status"] != "passed":
+        ET.SubElement(case, "skipped", message=said)
+    return case
+
+
+def _checks(record: dict[str, Any]) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = record["checks"]
+    return found
+
+
+def _plain(value: object) -> str:
+    """Without what XML cannot hold."""
+    text = f"{value:g}" if isinstance(value, float) else str(value)
+    return NOT_XML.sub("", text)

@@ -1,0 +1,145 @@
+"""One student's files, graded: plain data in, plain data out, so that any process can do it."""
+
+import tempfile
+from collections.abc import Collection, Mapping, Sequence
+from contextlib import nullcontext
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from grader.check import Status
+from grader.classroom.bundle import course_of
+from grader.classroom.handed_in import Files
+from grader.exercise import Exercise, Grade, exercises
+from grader.variant import of_class
+
+if TYPE_CHECKING:
+    from grader.classroom.bundle import Bundle
+
+MISSING = "missing"  # the status of an exercise that was not handed in
+NOTHING = "nothing was handed in"
+
+Record = dict[str, object]
+
+
+@dataclass(frozen=True)
+class Job:
+    """One student to grade.
+
+    Args:
+        student: who.
+        digest: of everything the results depend on.
+        files: exercise -> file name -> content.
+        names: the exercises to grade.
+        course: the course folder, or all of it that grading needs, for another machine.
+        secret: of the class; None where everybody's numbers are those of self-study.
+    """
+
+    student: str
+    digest: str
+    files: Mapping[str, Files]
+    names: tuple[str, ...]
+    course: "Path | Bundle"
+    secret: bytes | None
+
+    def __repr__(self) -> str:
+        """Without the secret: a message may hold this."""
+        return f"Job({self.student!r})"
+
+
+@dataclass(frozen=True)
+class Graded:
+    """One student's results, as they are kept.
+
+    Args:
+        student: who.
+        digest: of everything they depend on.
+        records: one for each exercise, as ``grade --json`` writes it, with ``file`` and ``reason``.
+    """
+
+    student: str
+    digest: str
+    records: tuple[Record, ...]
+
+
+def grade_one(job: Job) -> Graded:
+    """Grade everything one student handed in; whatever happens is a result."""
+    there = {one.name: one for one in exercises(course_of(job.course))}
+    with (
+        tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder,
+        of_class(job.secret) if job.secret is not None else nullcontext(),
+    ):
+        records = tuple(
+            _grade(there[name], job.files.get(name, {}), job.student, Path(folder) / name)
+            for name in job.names
+        )
+    return Graded(job.student, job.digest, records)
+
+
+def _grade(exercise: Exercise, files: Files, student: str, folder: Path) -> Record:
+    if not files:
+        return nothing(exercise, student, status=MISSING, reason=NOTHING)
+    try:
+        folder.mkdir()
+        for name, content in files.items():
+            (folder / name).write_bytes(content)
+        return record(exercise.grade(folder, student=student))
+    except Exception as error:  # noqa: BLE001 - one student's file must not stop the class
+        broken = f"our mistake ({type(error).__name__}: {error}); please report it, with the file"
+        return nothing(exercise, student, status="ungradable", reason=broken)
+
+
+def nothing(exercise: Exercise, student: str, *, status: str, reason: str) -> Record:
+    """The record of an exercise of which nothing was graded."""
+    checks = [
+        {
+            "id": one.id,
+            "description": one.description,
+            "status": str(Status.NOT_REACHED),
+            "points": 0.0,
+            "max_points": one.points,
+            "seen": reason,
+            "hint": "",
+            "misconception": "",
+        }
+        for one in exercise.checks
+    ]
+    most = sum(one.points for one in exercise.checks)
+    head = {"exercise": exercise.name, "student": student, "score": 0.0, "max_score": most}
+    return {**head, "status": status, "file": "", "reason": reason, "checks": checks}
+
+
+def record(grade: Grade) -> Record:
+    """A grade as plain data; of paths only the file's name, so that it is the same anywhere."""
+    names = ("exercise", "student", "score", "max_score", "status")
+    reason = grade.reason
+    if grade.file is not None:
+        reason = reason.replace(str(grade.file), grade.file.name)
+    return {
+        **{name: getattr(grade, name) for name in names},
+        "file": grade.file.name if grade.file else "",
+        "reason": reason,
+        "checks": [{**asdict(one), "status": str(one.status)} for one in grade.checks],
+    }
+
+
+def ungraded(
+    student: str, asked: Sequence[Exercise], *, handed_in: Collection[str], reason: str,
+    digest: str = "",
+) -> Graded:  # fmt: skip
+    """The results of a student of whom nothing could be graded.
+
+    Args:
+        student: who.
+        asked: the exercises.
+        handed_in: of which exercises there was something.
+        reason: why it could not be graded, one line.
+        digest: as in ``Graded``; empty keeps the results from being taken for final.
+    """
+    records = tuple(
+        nothing(one, student, status="ungradable", reason=reason)
+        if one.name in handed_in
+        else nothing(one, student, status=MISSING, reason=NOTHING)
+        for one in asked
+    )
+    return Graded(student, digest, records)

@@ -1,0 +1,158 @@
+"""The overview of a class, and a page for each student: HTML that asks the network for nothing."""
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from grader.classroom.grading import MISSING, Graded
+from grader.classroom.items import FEWEST, columns, items, misconceptions
+from grader.classroom.results import Results, scores, status_of
+from grader.classroom.words import feedback
+from grader.classroom.written import written
+from grader.misconception import MISCONCEPTIONS
+from grader.variant import folder_name
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+FOLDER = Path(__file__).parent
+PEOPLE = "students"
+MARKS = {"passed": "✓ right:", "failed": "✗ not right yet:", "error": "! our mistake:"}
+SIGNS = {MISSING: "–", "ungradable": "!"}
+
+
+def write_pages(results: Results, folder: Path) -> Path:
+    """Write ``index.html``, and ``students/NAME.html`` for each of them.
+
+    Returns:
+        The overview's path.
+
+    Raises:
+        BadRequest: they cannot be written.
+    """
+    templates = _templates()
+    for one in results.students:
+        text = templates.get_template("student.html.jinja").render(_of_student(one, results))
+        written(folder / _page(one), text)
+    text = templates.get_template("class.html.jinja").render(_of_class(results))
+    return written(folder / "index.html", text)
+
+
+def _templates() -> "Environment":
+    from sim.report.written import templates  # noqa: PLC0415 - only who writes pages needs them
+
+    found = templates(FOLDER)
+    found.filters |= {"percent": _percent, "signed": _signed}
+    return found
+
+
+def _page(one: Graded) -> str:
+    return f"{PEOPLE}/{folder_name(one.student)}.html"
+
+
+def summary(results: Results) -> str:
+    """The class in two sentences."""
+    there = [one for one in results.students if set(status_of(one).values()) != {MISSING}]
+    shares = [_share(one, results) for one in there]
+    handed = f"{len(there)} of {len(results.students)} students handed something in"
+    if not there:
+        return f"{handed}."
+    mean = f"on average they have {100 * sum(shares) / len(shares):.0f} % of all points"
+    full = sum(share == 1 for share in shares)
+    return f"{handed}; {mean}, and {full or 'nobody'} {'have' if full > 1 else 'has'} full marks."
+
+
+def _share(one: Graded, results: Results) -> float:
+    most = sum(results.max_scores.values())
+    return sum(scores(one).values()) / most if most else 0.0
+
+
+def _of_class(results: Results) -> dict[str, Any]:
+    from sim.plot import heat, spread  # noqa: PLC0415 - matplotlib only where it draws
+
+    names = [one.student for one in results.students]
+    table = [[_cell_share(record) for record in one.records] for one in results.students]
+    found = sorted(items(results.students), key=lambda one: (one.share, one.exercise, one.check))
+    return {
+        "name": results.name,
+        "verdict": summary(results),
+        "open": _open(results),
+        "count": len(results.students),
+        "columns": columns(results.students),
+        "heat": heat(names, results.exercises, table).html,
+        "spread": spread([_share(one, results) for one in results.students]).html,
+        "misconceptions": [
+            {"code": code, "count": count, "says": MISCONCEPTIONS.get(code, "")}
+            for code, count in misconceptions(results.students)
+        ],
+        "fewest": FEWEST,
+        "items": found,
+        "exercises": [name.removeprefix("exercise") for name in results.exercises],
+        "students": [_row(one, results) for one in results.students],
+    }
+
+
+def _open(results: Results) -> list[dict[str, str]]:
+    """What a person has to look at: whatever could not be graded, with the reason; once each."""
+    found = []
+    for one in results.students:
+        told: set[str] = set()
+        for record in one.records:
+            reason = str(record["reason"])
+            if record["status"] == "ungradable" and reason not in told:
+                told.add(reason)
+                every = sum(str(other["reason"]) == reason for other in one.records) > 1
+                exercise = "" if every else str(record["exercise"])
+                found.append({"student": one.student, "exercise": exercise, "why": reason})
+    return found
+
+
+def _row(one: Graded, results: Results) -> dict[str, Any]:
+    points, how = scores(one), status_of(one)
+    cells = [SIGNS.get(how.get(name, MISSING), f"{points.get(name, 0):g}") for name in
+             results.exercises]  # fmt: skip
+    total = f"{sum(points.values()):g} of {sum(results.max_scores.values()):g}"
+    return {"student": one.student, "page": _page(one), "cells": cells, "total": total}
+
+
+def _cell_share(record: Mapping[str, Any]) -> float:
+    graded = record["status"] in {"passed", "failed"}
+    return float(record["score"]) / float(record["max_score"]) if graded else math.nan
+
+
+def _of_student(one: Graded, results: Results) -> dict[str, Any]:
+    total, most = sum(scores(one).values()), sum(results.max_scores.values())
+    return {
+        "student": one.student,
+        "name": results.name,
+        "verdict": f"{total:g} of {most:g} points.",
+        "records": [_told(record) for record in one.records],
+    }
+
+
+def _told(record: Mapping[str, Any]) -> dict[str, Any]:
+    graded = record["status"] in {"passed", "failed"}
+    checks = record["checks"] if graded else []
+    return {
+        "exercise": record["exercise"],
+        "points": f"{record['score']:g} of {record['max_score']:g} points",
+        "reason": "" if graded else str(record["reason"]).rstrip("."),
+        "told": [
+            {
+                "mark": MARKS.get(check["status"], "– not looked at:"),
+                "description": check["description"],
+                "points": f"{check['points']:g} of {check['max_points']:g}",
+                "lines": feedback(check).splitlines(),
+            }
+            for check in checks
+        ],
+    }
+
+
+def _percent(value: float) -> str:
+    return "" if math.isnan(value) else f"{100 * value:.0f}"
+
+
+def _signed(value: float | None) -> str:
+    return "" if value is None else f"{value:+.2f}".replace("-", "−")

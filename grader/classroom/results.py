@@ -1,0 +1,50 @@
+"""The results of a class: what the overview and every export are made of."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from grader.classroom.grading import Graded
+
+
+@dataclass(frozen=True)
+class Results:
+    """A class, graded.
+
+    Args:
+        name: of the class.
+        students: their results, in order of their names.
+        exercises: the exercises' names, in order.
+        roster: student -> the row of the roster, by its header; empty without one.
+        header: the roster's header.
+    """
+
+    name: str
+    students: tuple[Graded, ...]
+    exercises: tuple[str, ...]
+    roster: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    header: tuple[str, ...] = ()
+
+    @property
+    def max_scores(self) -> dict[str, float]:
+        """Exercise -> points there are."""
+        found = dict.fromkeys(self.exercises, 0.0)
+        for one in self.students:
+            for record in one.records:
+                most: Any = record["max_score"]
+                found[str(record["exercise"])] = float(most)
+        return found
+
+
+def scores(one: Graded) -> dict[str, float]:
+    """Exercise -> points of one student."""
+    found = {}
+    for record in one.records:
+        points: Any = record["score"]
+        found[str(record["exercise"])] = float(points)
+    return found
+
+
+def status_of(one: Graded) -> dict[str, str]:
+    """Exercise -> passed, failed, missing or ungradable."""
+    return {str(record["exercise"]): str(record["status"]) for record in one.records}

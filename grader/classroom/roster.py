@@ -1,0 +1,54 @@
+"""Who is in a class: a column of a CSV file, or Canvas's own export."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from sim.dataset.roster import distinct
+from sim.errors import BadRequest
+from sim.roster import read_roster
+
+COLUMNS = ("student", "sis login id", "login", "email", "sis user id", "id", "name")
+
+
+@dataclass(frozen=True)
+class Members:
+    """The students of a class.
+
+    Args:
+        header: of the roster.
+        rows: student -> their row, by the header.
+    """
+
+    header: tuple[str, ...]
+    rows: Mapping[str, Mapping[str, str]]
+
+
+def members(path: Path) -> Members:
+    """Read a roster.
+
+    Canvas's export has a column ``Student`` with the full name and a better one, ``SIS Login ID``,
+    which is what a submission is called: there, that one counts.
+
+    Raises:
+        BadRequest: it cannot be read, has no such column, or somebody twice.
+    """
+    roster = read_roster(path, advice="Give the path of a CSV file in UTF-8.")
+    columns = COLUMNS[1:] if roster.place(["sis login id"]) is not None else COLUMNS
+    place = roster.place(columns)
+    if place is None:
+        raise BadRequest(
+            "no column with the students in its first line",
+            where=str(path),
+            advice="Call the column with their names: student",
+        )
+    cells = [
+        (f"{path}, line {number}", row[place].strip() if place < len(row) else "")
+        for number, row in roster.rows
+    ]
+    names = distinct(cells)
+    rows = {
+        name: dict(zip(roster.header, row, strict=False))
+        for name, (_, row) in zip(names, roster.rows, strict=True)
+    }
+    return Members(roster.header, rows)

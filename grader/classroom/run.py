@@ -1,0 +1,154 @@
+"""A class graded: what is known is kept, the rest is done, and one never stops the others."""
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.classroom.bundle import bundle, fingerprint
+from grader.classroom.grading import Graded, Job, grade_one, ungraded
+from grader.classroom.handed_in import HandedIn
+from grader.classroom.store import Store, digest
+from grader.exercise import Exercise
+from sim.work.cluster import done_on_cluster
+from sim.work.here import WorkerLost, done_here, started
+
+WORTH = 4  # [students] that a further process has to save, to be worth its start
+ENDED = "the process that graded this came to an end while it did"
+
+
+@dataclass(frozen=True)
+class Class:
+    """What is graded, and by what.
+
+    Args:
+        handed_in: by whom, and what.
+        exercises: those to grade.
+        course: the course folder.
+        secret: of the class; None where everybody's numbers are those of self-study.
+    """
+
+    handed_in: tuple[HandedIn, ...]
+    exercises: tuple[Exercise, ...]
+    course: Path
+    secret: bytes | None = None
+
+    def jobs(self, *, travel: bool) -> tuple[Job, ...]:
+        """One for each student whose files could be read.
+
+        Args:
+            travel: whether another machine does them.
+        """
+        made_by = fingerprint(self.course)
+        names = tuple(one.name for one in self.exercises)
+        course = bundle(self.course) if travel else self.course
+        return tuple(
+            Job(
+                one.student,
+                digest(one.student, one.files, names=names, made_by=made_by, secret=self.secret),
+                one.files,
+                names,
+                course,
+                self.secret,
+            )
+            for one in self.handed_in
+            if not one.problem
+        )
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is left to do.
+
+    Args:
+        kept: results from before that still hold.
+        todo: the rest.
+    """
+
+    kept: tuple[Graded, ...]
+    todo: tuple[Job, ...]
+
+
+def plan(asked: Class, store: Store, *, travel: bool, again: bool) -> Plan:
+    """Look what is known already.
+
+    Args:
+        asked: the class.
+        store: its results.
+        travel: whether another machine grades.
+        again: grade everything again.
+    """
+    kept, todo = [], []
+    for job in asked.jobs(travel=travel):
+        known = None if again else store.get(job.student, job.digest)
+        if known is None:
+            todo.append(job)
+        else:
+            kept.append(known)
+    return Plan(tuple(kept), tuple(todo))
+
+
+def grade_all(
+    asked: Class,
+    plan: Plan,
+    store: Store,
+    *,
+    processes: int,
+    cluster: str | None,
+    say: Callable[[], None],
+) -> tuple[Graded, ...]:
+    """Grade what is left, keep it, and give back all results in order of the students' names.
+
+    Args:
+        asked: the class.
+        plan: what is known, and what is left.
+        store: where results are kept.
+        processes: at most so many on this machine.
+        cluster: address of a Dask scheduler; None grades on this machine.
+        say: called after each student; what it raises stops the run, with all results whole.
+
+    Raises:
+        BadRequest: a result cannot be written, or the cluster does not answer.
+    """
+    found = list(plan.kept)
+    store.open()
+    grading = (
+        done_on_cluster(grade_one, plan.todo, address=cluster)
+        if cluster
+        else _here(plan.todo, asked.exercises, processes=processes)
+    )
+    for one in grading:
+        store.put(one)
+        found.append(one)
+        say()
+    everything = {one.name for one in asked.exercises}
+    unread = (
+        ungraded(one.student, asked.exercises, handed_in=everything, reason=one.problem)
+        for one in asked.handed_in
+        if one.problem
+    )
+    return tuple(sorted([*found, *unread], key=lambda one: one.student.casefold()))
+
+
+def _here(
+    todo: Sequence[Job], exercises: Sequence[Exercise], *, processes: int
+) -> Iterator[Graded]:
+    """Grade on this machine; who brings a process down is found out, and alone bears it."""
+    left = {job.student: job for job in todo}
+    try:
+        for one in done_here(grade_one, todo, processes=max(processes, 1), worth=WORTH):
+            del left[one.student]
+            yield one
+    except WorkerLost:
+        for job in left.values():
+            yield _alone(job, exercises)
+
+
+def _alone(job: Job, exercises: Sequence[Exercise]) -> Graded:
+    with started(1) as executor:
+        try:
+            return executor.submit(grade_one, job).result()
+        except BrokenProcessPool:
+            return ungraded(
+                job.student, exercises, handed_in=job.files, reason=ENDED, digest=job.digest
+            )

@@ -1,0 +1,49 @@
+"""What a class's numbers are drawn from, and its data sealed with: only its instructor holds it."""
+
+import hashlib
+import hmac
+import os
+import secrets
+from pathlib import Path
+
+from sim.dataset.secret import FEWEST, SIZE, VARIABLE, Secret, kept_in
+from sim.errors import BadRequest
+
+
+def find_secret(path: Path | None, *, make: bool) -> Secret | None:
+    """The secret of a class.
+
+    Args:
+        path: of its file; None takes the environment's.
+        make: whether to make a new one where the file is not there yet; it is not written here.
+
+    Returns:
+        The secret; None where neither says one: everybody's numbers are then those of self-study.
+
+    Raises:
+        BadRequest: the file is not there, cannot be read, or holds too short a secret.
+    """
+    value = kept_in(path) if path else os.environ.get(VARIABLE, "").strip().encode()
+    if value and len(value) < FEWEST:
+        raise BadRequest(
+            f"the secret has fewer than {FEWEST} characters",
+            where=str(path or VARIABLE),
+            advice="Take a longer one: a short secret can be found by trying.",
+        )
+    if value:
+        return Secret(value, hidden=True)
+    if path is None:
+        return None
+    if not make:
+        raise BadRequest(
+            "the secret is not there",
+            where=str(path),
+            advice="Name the file that grade release made.",
+        )
+    return Secret(secrets.token_hex(SIZE).encode(), hidden=True, new=path)
+
+
+def seal(secret: bytes, *, student: str, content: bytes) -> str:
+    """A text that only the holder of the secret can find for this student's file."""
+    message = student.casefold().encode() + b"\0" + hashlib.sha256(content).digest()
+    return hmac.digest(secret, b"seal\0" + message, hashlib.sha256).hex()

@@ -1,0 +1,95 @@
+"""Results of a class on disk: a file for each student, written as soon as it is graded."""
+
+import hashlib
+import hmac
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+
+from grader.classroom.grading import Graded
+from grader.classroom.handed_in import Files
+from grader.variant import folder_name
+from sim.errors import BadRequest
+
+RESULTS = "results"
+
+
+def digest(
+    student: str, files: Mapping[str, Files], *, names: tuple[str, ...], made_by: str,
+    secret: bytes | None,
+) -> str:  # fmt: skip
+    """A text that changes with whatever a student's results depend on.
+
+    Args:
+        student: who.
+        files: exercise -> file name -> content.
+        names: the exercises that are graded.
+        made_by: the fingerprint of the course.
+        secret: of the class.
+    """
+    found = hmac.new(secret or b"alone", digestmod=hashlib.sha256)
+    found.update(json.dumps([student, names, made_by]).encode())
+    for exercise, those in sorted(files.items()):
+        for name, content in sorted(those.items()):
+            found.update(json.dumps([exercise, name, len(content)]).encode())
+            found.update(content)
+    return found.hexdigest()
+
+
+class Store:
+    """A class's results in a folder.
+
+    Args:
+        folder: where they are kept.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def open(self) -> None:
+        """Make the folder.
+
+        Raises:
+            BadRequest: it cannot be made.
+        """
+        try:
+            (self.folder / RESULTS).mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise BadRequest(
+                f"the results cannot be written: {error.strerror}",
+                where=str(self.folder),
+                advice="Name another folder with -o.",
+            ) from None
+
+    def get(self, student: str, expected: str) -> Graded | None:
+        """A student's results, if they are there whole and nothing they depend on has changed."""
+        try:
+            kept = json.loads(self._path(student).read_text(encoding="utf-8"))
+            found = Graded(kept["student"], kept["digest"], tuple(kept["records"]))
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
+        return found if (found.student, found.digest) == (student, expected) else None
+
+    def put(self, graded: Graded) -> None:
+        """Keep a student's results.
+
+        Raises:
+            BadRequest: they cannot be written.
+        """
+        path = self._path(graded.student)
+        part = path.with_suffix(f".{os.getpid()}.part")
+        try:
+            text = json.dumps(asdict(graded), ensure_ascii=False, indent=1, allow_nan=False)
+            part.write_text(text + "\n", encoding="utf-8", newline="\n")
+            part.replace(path)
+        except OSError as error:
+            raise BadRequest(
+                f"the results cannot be written: {error.strerror}",
+                where=str(path),
+                advice="Make room there, then run the same command again: what is graded is kept.",
+            ) from None
+
+    def _path(self, student: str) -> Path:
+        return self.folder / RESULTS / f"{folder_name(student)}.json"

@@ -1,0 +1,17 @@
+"""What a learner is told about one check, as one text."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from grader.misconception import MISCONCEPTIONS
+
+
+def feedback(check: Mapping[str, Any]) -> str:
+    """What was given, the likely cause and the next step, and why; empty where all is said."""
+    if check["status"] == "passed":
+        return str(check["hint"])
+    if check["status"] != "failed":
+        return str(check["seen"])
+    why = MISCONCEPTIONS.get(str(check["misconception"]), "")
+    lines = (f"got {check['seen']}", str(check["hint"]), why)
+    return "\n".join(line for line in lines if line)

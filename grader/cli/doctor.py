@@ -1,0 +1,32 @@
+"""``grade doctor``."""
+
+from pathlib import Path
+
+import click
+
+from grader.terminal import Span, show, wrapped
+from sim.command import DONE, NOT_RIGHT
+
+
+@click.command()
+def doctor() -> int:
+    """Say what this machine has, and what is missing for which part of the course.
+
+    Exit codes: 0 everything needed is there, 1 something needed is missing.
+    """
+    from grader.course import find_course  # noqa: PLC0415 - --help has to start at once
+    from grader.doctor import examine  # noqa: PLC0415 - the same
+
+    bad = False
+    for one in examine(find_course(Path.cwd())):
+        mark, style = ("✓", "green") if one.right else ("✗", "red") if one.needed else ("–", "dim")
+        rows = wrapped(one.found, lead=f"  {one.what:<16}")
+        rows[0] = (Span(f"{mark} ", style), Span(f"{one.what:<16}"), *rows[0][1:])
+        show(rows)
+        if not one.right:
+            show(wrapped(one.advice, lead="    ", style="cyan"))
+        bad = bad or (one.needed and not one.right)
+    return NOT_RIGHT if bad else DONE
+
+
+COMMAND = doctor

@@ -1,0 +1,131 @@
+"""``grade release``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from grader.terminal import complain, line, show
+from sim.command import DONE, NOT_RIGHT
+from sim.errors import BadRequest
+
+if TYPE_CHECKING:
+    from sim.dataset.secret import Secret
+
+PATH = click.Path(path_type=Path)
+WORTH = 3  # [students] that a further process has to save, to be worth its start
+
+
+@click.command()
+@click.option("-o", "--output", type=PATH, help="Folder for the packages.")
+@click.option("--roster", type=PATH, help="CSV file with a column student: each gets numbers.")
+@click.option("--secret", type=PATH, help="File of the class's secret; made if it is not there.")
+@click.option("--name", default="our class", show_default=True, help="Of the class.")
+@click.option(
+    "--processes", type=click.IntRange(min=1), help="How many draw.  [default: every core]"
+)
+@click.option("--check", type=PATH, help="Only say whether a student's COURSE is as it was issued.")
+def release(  # noqa: PLR0917 - click passes options by name
+    output: Path | None,
+    roster: Path | None,
+    secret: Path | None,
+    name: str,
+    processes: int | None,
+    check: Path | None,
+) -> int:
+    """Make the students' package: the course without solutions, keys and secret.
+
+    With a roster, each student also gets numbers and logs of their own, which only the holder of
+    the secret can draw again, and grade: grade class FOLDER --secret FILE.
+    """
+    from grader.classroom.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
+
+    if check is not None:
+        kept = find_secret(secret, make=False)
+        if kept is None:
+            raise BadRequest("no secret was named", advice="Name its file with --secret.")
+        return _check(check, kept.value)
+    if output is None:
+        raise BadRequest("no folder was named", advice="Say where: grade release -o FOLDER")
+    if roster and not secret:
+        raise BadRequest(
+            "numbers for a class need a secret",
+            advice="Name a file for it outside the packages: --secret class.secret",
+        )
+    if secret and secret.resolve().is_relative_to(output.resolve()):
+        raise BadRequest(
+            "the secret lies in the folder of the packages, and would be given away with them",
+            where=str(secret),
+            advice="Name another place with --secret.",
+        )
+    kept = find_secret(secret, make=True) if roster else None
+    return _release(output, roster, kept, name=name, processes=processes)
+
+
+COMMAND = release
+
+
+def _release(
+    output: Path, roster: Path | None, secret: "Secret | None", *, name: str, processes: int | None
+) -> int:
+    from grader.classroom.bundle import bundle  # noqa: PLC0415 - --help must not wait for it
+    from grader.classroom.roster import members  # noqa: PLC0415 - the same
+    from grader.course import find_course  # noqa: PLC0415 - the same
+    from grader.release import Package, common, own  # noqa: PLC0415 - the same
+    from grader.variant import folder_name  # noqa: PLC0415 - the same
+    from sim.work.bar import bar  # noqa: PLC0415 - the same
+    from sim.work.here import cores, done_here  # noqa: PLC0415 - the same
+
+    course = find_course(Path.cwd())
+    students = tuple(members(roster).rows) if roster else ()
+    everybody = common(course)
+    if secret and secret.new:
+        secret.keep()
+        complain(f"{secret.new}: a new secret. Keep it, and keep it to yourself.")
+    packed = bundle(course)
+    value = secret.value if secret else b""
+    packages = [Package(student, value, name, packed) for student in students]
+    _put(output / "course.zip", everybody)
+    with bar("students", len(packages)) as (step, _):
+        made = done_here(own, packages, processes=processes or cores(), worth=WORTH)
+        for student, content in made:
+            _put(output / "students" / f"{folder_name(student)}.zip", content)
+            step()
+    show([line(f"{output / 'course.zip'}: for everybody, {len(everybody) / 1e6:.1f} MB")])
+    if students:
+        place = output / "students"
+        show([line(f"{place}: a zip file for each of {len(students)} students, to unpack over it")])
+    return DONE
+
+
+def _put(path: Path, content: bytes) -> None:
+    part = path.with_name(f"{path.name}.part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part.write_bytes(content)
+        part.replace(path)
+    except OSError as error:
+        raise BadRequest(
+            f"cannot be written: {error.strerror}",
+            where=str(path),
+            advice="Make room there, or name another folder with -o.",
+        ) from None
+
+
+def _check(place: Path, secret: bytes) -> int:
+    """Say what is not as the class issued it."""
+    from grader.issued import issued  # noqa: PLC0415 - --help must not wait for it
+    from grader.release import broken_seals  # noqa: PLC0415 - the same
+
+    found = issued(place)
+    if found is None:
+        raise BadRequest(
+            "no class issued this",
+            where=str(place),
+            advice="Name the folder that holds .course and exercises.",
+        )
+    wrong = broken_seals(place, found, secret=secret)
+    show([line(f"{name}: not as it was issued") for name in wrong])
+    if not wrong:
+        show([line(f"{place}: issued to {found.student}; all {len(found.sealed)} files whole.")])
+    return NOT_RIGHT if wrong else DONE

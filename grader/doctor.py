@@ -1,0 +1,118 @@
+"""``grade doctor``: what this machine has, and what is missing for which part of the course."""
+
+import importlib.util
+import os
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from grader.isolation import level
+
+OLDEST = (3, 11)
+NEEDED = ("numpy", "scipy", "matplotlib", "numba", "jupyterlab", "ipywidgets", "tree-sitter")
+ROBOT = ("wpilib", "robotpy-commands-v2")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that was looked at.
+
+    Args:
+        what: it is.
+        found: how it is.
+        needed: whether the course cannot do without; False for what only some of it needs.
+        right: whether it is as it should be.
+        advice: what to do where it is not.
+    """
+
+    what: str
+    found: str
+    right: bool
+    needed: bool = True
+    advice: str = ""
+
+
+def examine(course: Path) -> Iterator[Finding]:
+    """Look at this machine, one thing after another.
+
+    Args:
+        course: the course folder.
+    """
+    yield _python()
+    yield _packages()
+    yield _engine()
+    yield _writing(course)
+    yield _terminal()
+    yield _isolation()
+    yield _robot()
+    yield _dask()
+
+
+def _python() -> Finding:
+    said = ".".join(map(str, sys.version_info[:3]))
+    least = ".".join(map(str, OLDEST))
+    right = sys.version_info[:2] >= OLDEST
+    return Finding("Python", said, right, advice=f"Install Python {least} or newer.")
+
+
+def _packages() -> Finding:
+    lacking = [name for name in NEEDED if _version(name) is None]
+    found = f"{', '.join(lacking)} missing" if lacking else "all there"
+    advice = "In the course folder: python -m pip install -e ."
+    return Finding("packages", found, not lacking, advice=advice)
+
+
+def _version(name: str) -> str | None:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
+
+
+def _engine() -> Finding:
+    from sim.engine import compiled  # noqa: PLC0415 - it needs what may be missing
+
+    ready = compiled()
+    found = "compiled" if ready else "not compiled yet; the first simulation takes ten seconds"
+    return Finding("simulation", found, ready, needed=False, advice="grade start compiles it.")
+
+
+def _writing(course: Path) -> Finding:
+    right = all(os.access(place, os.W_OK) for place in (course, course / "exercises"))
+    found = f"{course}, {'which may be written' if right else 'which may not be written'}"
+    return Finding("course", found, right, advice="Copy the course to a folder of your own.")
+
+
+def _terminal() -> Finding:
+    encoding = (sys.stdout.encoding or "ascii").lower()
+    right = encoding.replace("-", "") == "utf8"
+    advice = "Signs such as ✓ are shown as letters; set PYTHONUTF8=1 to see them."
+    return Finding("terminal", encoding, right, needed=False, advice=advice)
+
+
+def _isolation() -> Finding:
+    found = level()
+    right = found.startswith("isolated")
+    advice = (
+        "Fine for your own answers. Grade a class's code on Linux, where it can be shut in, or "
+        "on a machine that holds nothing else."
+    )
+    return Finding("learners' code", found, right, needed=False, advice=advice)
+
+
+def _robot() -> Finding:
+    there = [f"{name} {_version(name)}" for name in ROBOT if _version(name)]
+    right = len(there) == len(ROBOT)
+    advice = 'To run RobotPy answers in simulation, too: python -m pip install -e ".[robot]"'
+    return Finding(
+        "RobotPy", ", ".join(there) or "not installed", right, needed=False, advice=advice
+    )
+
+
+def _dask() -> Finding:
+    right = importlib.util.find_spec("distributed") is not None
+    found = f"distributed {_version('distributed')}" if right else "not installed"
+    advice = 'To grade on more than one machine: python -m pip install -e ".[cluster]"'
+    return Finding("cluster", found, right, needed=False, advice=advice)

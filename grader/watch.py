@@ -1,0 +1,61 @@
+"""``grade watch``: the answer is graded each time its file is saved."""
+
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from grader.exercise import Exercise
+
+PAUSE = 0.4  # [s] between looks; asking the disk works on every file system, being told does not
+CLEAR = "\x1b[2J\x1b[H"  # an empty screen, from its top
+
+
+def watch(
+    exercise: Exercise,
+    *,
+    grade: Callable[[], int],
+    wait: Callable[[float], None] = time.sleep,
+) -> int:
+    """Grade an exercise now and after each change of its files, until all is right.
+
+    Args:
+        exercise: which.
+        grade: grades and shows it; the exit code.
+        wait: lets some seconds pass; may end it by KeyboardInterrupt.
+
+    Returns:
+        The exit code of the last grading.
+    """
+    while True:
+        seen = state(exercise)
+        if sys.stdout.isatty():
+            sys.stdout.write(CLEAR)
+        code = grade()
+        sys.stdout.flush()
+        if code == 0:
+            return code
+        while state(exercise) == seen:
+            wait(PAUSE)
+
+
+def state(exercise: Exercise) -> tuple[tuple[str, int, int], ...]:
+    """What changes when a file of the exercise is saved: names, times and sizes."""
+    found = []
+    for name in exercise.files:
+        try:
+            told = (exercise.folder / name).stat()
+        except OSError:  # some editors remove a file before they write it anew
+            continue
+        found.append((name, told.st_mtime_ns, told.st_size))
+    return tuple(found)
+
+
+def first_open(exercises: tuple[Exercise, ...], done: Callable[[str], bool]) -> Exercise | None:
+    """The first exercise that is not done yet."""
+    return next((one for one in exercises if not done(one.name)), None)
+
+
+def place(exercise: Exercise, course: Path) -> str:
+    """Where its files are, seen from the course folder."""
+    return (exercise.folder / exercise.files[0]).relative_to(course).as_posix()
