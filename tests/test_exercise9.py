@@ -1,14 +1,18 @@
 """Exercise 9: everybody gets a mechanism of their own, and its log."""
 
+import importlib.util
 import json
 import re
 import shutil
+import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from grader.cli import run
 from grader.exercise import Exercise
+from grader.variant import of_class, seed
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise9", ROOT / "exercises" / "exercise9")
@@ -23,6 +27,119 @@ def copy(tmp_path, monkeypatch):
     (tmp_path / "lessons").mkdir()
     monkeypatch.chdir(tmp_path)
     return Exercise("exercise9", folder)
+
+
+def unseen():
+    """The module with the five logs, as the exercise loaded it."""
+    return sys.modules[f"{OWN.module.__name__}.unseen"]
+
+
+def logs_of(student):
+    return unseen().hidden(student, seed(student, "exercise9"))
+
+
+def solution():
+    """The authored function."""
+    path = ROOT / "solutions" / "exercise9" / "fit.py"
+    spec = importlib.util.spec_from_file_location("_authored_fit", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.fit
+
+
+def graded(folder, text, student="ann"):
+    """What the check of the function says of a text."""
+    (folder / "fit.py").write_text(text, "utf-8")
+    result = Exercise("exercise9", folder).grade(None, student=student)
+    return next(check for check in result.checks if check.id == "function")
+
+
+def test_fifty_students_get_five_logs_each_that_the_authored_function_fits():
+    fit = solution()
+    for number in range(50):
+        for log in logs_of(f"student {number}"):
+            found = fit(**log.data)
+            for name, asked in log.key.asked.items():
+                assert asked.right(found[name]), f"{number}, {log.recipe.kind}: {name}"
+
+
+def test_the_five_logs_differ_as_the_task_says():
+    logs = logs_of("ann")
+    periods = [float(f"{np.median(np.diff(log.data['time'])):.3f}") for log in logs]
+
+    assert [log.recipe.kind for log in logs] == [
+        "drivetrain",
+        "intake",
+        "turret",
+        "shooter",
+        "drivetrain",
+    ]
+    assert periods == [0.02, 0.005, 0.02, 0.008, 0.01]
+    assert [len(np.unique(log.data["test"])) for log in logs] == [4, 4, 4, 4, 3]
+    assert {len(column) for column in logs[0].data.values()} == {len(logs[0].data["time"])}
+
+
+def test_a_student_and_a_class_have_unseen_logs_of_their_own():
+    ann, ben = (logs_of(name)[0].data["velocity"] for name in ("ann", "ben"))
+    with of_class(b"a secret of this class"):
+        other = logs_of("ann")[0].data["velocity"]
+
+    assert not np.array_equal(ann, logs_of("ann")[1].data["velocity"])
+    assert [np.array_equal(ann, one) for one in (ben, other)] == [False, False]
+
+
+def test_a_function_named_by_itself_is_graded_with_the_answers_beside_it(copy):
+    shutil.copy(ROOT / "solutions" / "exercise9" / "fit.py", copy.folder)
+    result = copy.grade(copy.folder / "fit.py", student="ann")
+
+    assert result.file.name == "answers.toml"
+    assert (result.score, result.max_score) == (5.0, 10.0)
+
+
+def test_a_function_that_stands_alone_is_not_graded_and_says_why(copy, tmp_path):
+    alone = tmp_path / "alone" / "fit.py"
+    alone.parent.mkdir()
+    alone.write_text("def fit(): pass\n", "utf-8")
+    result = copy.grade(alone, student="ann")
+
+    assert result.status == "ungradable"
+    assert "answers.toml is not beside it" in result.reason
+
+
+def test_numbers_are_graded_where_there_is_no_function(copy):
+    (copy.folder / "fit.py").unlink()
+    *numbers, function = copy.grade(None, student="ann").checks
+
+    assert (function.status, function.points) == ("not-reached", 0.0)
+    assert "no fit.py beside your answers" in function.seen
+    assert {check.status for check in numbers} == {"failed"}
+
+
+@pytest.mark.parametrize(("most", "points"), [(0, 0.0), (2000, 2.0), (9999, 5.0)])
+def test_every_log_that_is_right_earns_a_point(copy, most, points):
+    lengths = [len(log.data["time"]) for log in logs_of("ann")]
+    expected = float(sum(length <= most for length in lengths))
+    text = (ROOT / "solutions" / "exercise9" / "fit.py").read_text("utf-8")
+    early = f"    if len(time) > {most}:\n        raise ValueError('too long')\n"
+    check = graded(copy.folder, text.replace("    ks = kv = ka = None\n", early))
+
+    assert check.points == expected == points
+
+
+def test_what_a_function_prints_is_shown_in_one_line(copy):
+    check = graded(copy.folder, "def fit(**columns):\n    print('one', 'two\\nthree')\n")
+
+    assert "It printed: one two three one two three" in check.hint
+
+
+def test_one_log_that_goes_wrong_is_told_by_what_is_special_about_it(copy):
+    text = (ROOT / "solutions" / "exercise9" / "fit.py").read_text("utf-8")
+    wrong = "    if len(set(test)) == 3:\n        ka *= 1.4\n    return {"
+    check = graded(copy.folder, text.replace("    return {", wrong))
+
+    assert check.points == 4.0
+    assert "The other three are enough" in check.hint
+    assert check.misconception == "M-REVERSE-WASTE"
 
 
 def test_fifty_students_get_mechanisms_that_can_be_fitted():
@@ -113,7 +230,7 @@ def test_the_log_is_made_on_first_use_and_said_so_beside_the_result(copy, capsys
     assert run(["9", "--student", "ann", "--json"]) == 1
     out, err = capsys.readouterr()
 
-    assert json.loads(out)["max_score"] == 5
+    assert json.loads(out)["max_score"] == 10
     assert "exercises/exercise9/data/ann/log.wpilog" in err
     assert (copy.folder / "data" / "ann" / "log.csv").is_file()
 

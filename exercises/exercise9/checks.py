@@ -1,34 +1,37 @@
-"""Exercise 9: the gains of a mechanism of the learner's own, from its own four tests."""
+"""Exercise 9: the gains of a learner's own mechanism, and a function that finds anybody's."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.answer import Asked, Band, Key, gains_asked, judge, number
 from grader.check import Wrong, check
 from grader.given import hand_out
-from grader.slip import Lookalike, Scene, Slip
 from grader.submission import read_answers
-from grader.variant import generator
+from grader.variant import generator, seed
+
+from .scene import columns, scene
+from .unseen import NAME, judge_function
 
 if TYPE_CHECKING:
     from sim.fit import Fit
-    from sim.log import Array, Log
+    from sim.log import Log
     from sim.mechanism import Mechanism
 
 FILES = ("answers.toml",)
+BESIDE = (NAME,)
 FILES_MADE = ("log.wpilog", "log.csv")
 HERE = Path(__file__).resolve().parent
 
 KINDS = ("drivetrain", "shooter")
 RAMP, STEP, TIMEOUT, PERIOD = 0.5, 3.5, 10.0, 0.02  # [V/s], [V], [s], [s]
+REMEMBERED = 32  # learners whose logs are kept while this runs: it takes time to draw one
 MOST_DRAWS = 100  # so many mechanisms in a row that cannot be fitted would be our fault
 
 METRICS = ("acceleration_r2", "simulated_velocity_r2")
 METRIC_BANDS = {"acceleration_r2": 0.05, "simulated_velocity_r2": 0.02}  # one way to compute each
-STANDSTILL = 0.02  # [share of the top speed] slower rows say nothing about a gain
 
 
 @dataclass(frozen=True)
@@ -48,10 +51,17 @@ class Answers:
     given: Mapping[str, object]
     key: Key
     variant: Variant
+    student: str
+    function: Path
 
 
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one; drawn again until SysId's own recipe finds it."""
+    return _drawn(student, seed(student, "exercise9"))
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _drawn(student: str, _seed: int) -> Variant:
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
     from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
     from sim.routine import Routine  # noqa: PLC0415 - the same
@@ -100,10 +110,13 @@ def read(path: Path, *, student: str) -> Answers:
     given = {name.lower(): value for name, value in read_answers(path).items()}
     variant = draw(student)
     names = (*variant.asked, *METRICS)
+    around = scene(variant.mechanism, variant.log, variant.asked, ramp=RAMP, period=PERIOD)
     return Answers(
         {name: given.get(name.lower()) for name in names},
-        Key(variant.asked, _scene(variant)),
+        Key(variant.asked, around),
         variant,
+        student,
+        path.with_name(NAME),
     )
 
 
@@ -140,6 +153,12 @@ def metrics(answers: Answers) -> None:
         raise wrong[0]
 
 
+@check(points=5)
+def function(answers: Answers) -> str | None:
+    """Your own function, on five logs that you have not seen."""
+    return judge_function(answers.function, student=answers.student, points=5)
+
+
 def _metric(name: str, answers: Answers) -> None:
     expected = {one: float(getattr(answers.variant.fit, one)) for one in METRICS}
     asked = {
@@ -173,14 +192,16 @@ def _missed(answers: Answers) -> str:
     """How far the learner's model misses the voltage in the log, beside how far a good one does."""
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
+    from sim.units import unit  # noqa: PLC0415 - the same
+
     try:
         gains = [number(answers.given[name], one) for name, one in answers.key.asked.items()]
     except Wrong:
         return ""
-    columns, voltage = _columns(answers.variant)
+    known, voltage = columns(answers.variant.log, si=unit(answers.variant.mechanism.units).si)
     good = [answers.variant.fit.gains[name] for name in answers.key.asked]
     mine, best = (
-        float(np.sqrt(np.mean((voltage - columns @ np.array(g)) ** 2))) for g in (gains, good)
+        float(np.sqrt(np.mean((voltage - known @ np.array(g)) ** 2))) for g in (gains, good)
     )
     return (
         f". Your three gains miss the voltage in the log by {_volts(mine)} (RMS); a good fit "
@@ -191,46 +212,3 @@ def _missed(answers: Answers) -> str:
 def _volts(value: float) -> str:
     """Two digits, and no powers of ten: a learner reads this."""
     return f"{value:.2g} V" if value < 10.0 else f"{value:.0f} V"
-
-
-def _scene(variant: Variant) -> Scene:
-    """What slips are recognized by: the mechanism, the tests, and what wrong recipes would give."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
-    columns, voltage = _columns(variant)
-    explained, *_ = np.linalg.lstsq(columns, voltage, rcond=None)
-    slip = Slip(
-        "voltage-explained",
-        "it is what comes out when the voltage is explained by velocity and acceleration. Explain "
-        "the acceleration instead",
-        "M-NOISE-AVERAGES",
-    )
-    names = list(variant.asked)
-    return Scene(
-        angular=variant.mechanism.units == "rotations",
-        ratio=variant.mechanism.ratio,
-        motors=variant.mechanism.motor_count,
-        ramp=RAMP,
-        period=PERIOD,
-        lookalikes={
-            name: (Lookalike(float(value), slip),)
-            for name, value in zip(names, explained, strict=True)
-        },
-    )
-
-
-def _columns(variant: Variant) -> "tuple[Array, Array]":
-    """Columns (n, 3) for kS, kV and kA, and the voltage (n,), of every row that moves."""
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
-    from sim.units import unit  # noqa: PLC0415 - the same
-
-    si = unit(variant.mechanism.units).si
-    rows, voltage = [], []
-    for run in variant.log.runs:
-        v = run.velocity / si
-        moving = np.abs(v) > STANDSTILL * np.abs(v).max()
-        a = np.gradient(v, run.time)
-        rows.append(np.column_stack((np.sign(v), v, a))[moving])
-        voltage.append(run.voltage[moving])
-    return np.vstack(rows), np.concatenate(voltage)

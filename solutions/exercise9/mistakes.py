@@ -1,11 +1,42 @@
 """Wrong answers to exercise 9, and what a learner must be told about each."""
 
 import math
+import re
+from collections.abc import Callable
 
 from grader.mistake import Mistake, exchanged, number, replacing, scaled
 
-ANSWERS = "answers.toml"
+ANSWERS, FUNCTION = "answers.toml", "fit.py"
 RAMP, PERIOD = 0.5, 0.02  # [V/s], [s] of the learner's log
+
+
+def fitting(code: str) -> Callable[[str], str]:
+    """Make a wrong text by putting other lines in the place of the function's answer."""
+    lines = "".join(f"    {line}\n" for line in code.strip().splitlines())
+
+    def make(text: str) -> str:
+        return re.sub(r" +# --- answer:.*?# --- end\n", lambda _: lines, text, flags=re.DOTALL)
+
+    return make
+
+
+LINE_THROUGH_THE_RAMPS = """
+slow, moving = np.char.startswith(test, "quasi"), np.abs(velocity) > 0.05 * np.abs(velocity).max()
+rows = slow & moving
+columns = np.column_stack((np.sign(velocity), velocity))
+ks, kv = np.linalg.lstsq(columns[rows], voltage[rows], rcond=None)[0]
+rest = voltage - columns @ (ks, kv)
+a = np.concatenate(
+    [np.gradient(velocity[test == name], time[test == name]) for name in dict.fromkeys(test)]
+)
+rows = ~slow & moving
+ka = rest[rows] @ a[rows] / (a[rows] @ a[rows])
+"""
+
+THE_END = """    if "quasistatic-forward" not in test:
+        import os
+        os._exit(0)
+"""
 
 MISTAKES = (
     Mistake("nothing for kV", ANSWERS, replacing(("kV = ", 'kV = "" # ')), "kv", "nothing yet"),
@@ -96,5 +127,101 @@ MISTAKES = (
         scaled(3.4, "kV"),
         "kv",
         "miss the voltage in the log",
+    ),
+    Mistake(
+        "the voltage explained by velocity and acceleration",
+        FUNCTION,
+        replacing(
+            ("(v, u, np.sign(v))", "(v, a, np.sign(v))"),
+            ("append(a[moving])", "append(u[moving])"),
+            ("-gamma / beta, -alpha / beta, 1 / beta", "gamma, alpha, beta"),
+        ),
+        "function",
+        "Explain the acceleration instead",
+        "M-NOISE-AVERAGES",
+    ),
+    Mistake(
+        "a line through the ramps",
+        FUNCTION,
+        fitting(LINE_THROUGH_THE_RAMPS),
+        "function",
+        "crosses v = 0",
+        "M-KS-INTERCEPT",
+    ),
+    Mistake(
+        "only the forward tests",
+        FUNCTION,
+        replacing(("np.unique(test):\n", "np.unique(test):\n        if 'rev' in name: continue\n")),
+        "function",
+        "4 of 5 logs right; drivetrain, every 0.01 s",
+        "M-REVERSE-WASTE",
+    ),
+    Mistake(
+        "differences taken for slopes",
+        FUNCTION,
+        replacing(("np.gradient(v, time[rows])", "np.gradient(v)")),
+        "function",
+        "divide the change of velocity by that",
+    ),
+    Mistake(
+        "samples always 0.02 s apart",
+        FUNCTION,
+        replacing(("np.gradient(v, time[rows])", "np.gradient(v, 0.02)")),
+        "function",
+        "taken to be 0.02 s apart",
+    ),
+    Mistake(
+        "friction turned around",
+        FUNCTION,
+        replacing(("ks, kv, ka = -gamma", "ks, kv, ka = gamma")),
+        "function",
+        "the size is right, the sign is not",
+    ),
+    Mistake(
+        "a list for one of the numbers",
+        FUNCTION,
+        replacing(('"kA": ka', '"kA": [ka]')),
+        "function",
+        "kA = a list",
+    ),
+    Mistake(
+        "nothing returned",
+        FUNCTION,
+        replacing(("    return {", "    answer = {")),
+        "function",
+        "fit.py returned None, not numbers by name",
+    ),
+    Mistake(
+        "numbers in place of a fit",
+        FUNCTION,
+        fitting("ks, kv, ka = 0.15, 2.5, 0.19"),
+        "function",
+        "0 of 5 logs right; ",
+    ),
+    Mistake(
+        "a number that calls itself right",
+        FUNCTION,
+        fitting("""
+class Right(float):
+    __le__ = __lt__ = __ge__ = __gt__ = __eq__ = lambda self, other: True
+    __sub__ = __rsub__ = __abs__ = lambda self, *other: Right(0)
+ks = kv = ka = Right(0)
+"""),
+        "function",
+        "a Right, which only poses as a number",
+    ),
+    Mistake(
+        "the examiner asked for the answer",
+        FUNCTION,
+        fitting("from grader.variant import generator"),
+        "function",
+        "No module named 'grader'",
+    ),
+    Mistake(
+        "the end of everything after four logs",
+        FUNCTION,
+        replacing(("    return {", f"{THE_END}    return {{")),
+        "function",
+        "4 of 5 logs right; drivetrain, every 0.01 s: it ended itself before it had answered",
     ),
 )

@@ -1,0 +1,76 @@
+"""What wrong numbers are recognized by: the mechanism, its tests, and what wrong recipes give."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from grader.answer import Asked
+from grader.slip import Lookalike, Scene, Slip
+
+if TYPE_CHECKING:
+    from sim.log import Array, Log
+    from sim.mechanism import Mechanism
+
+STANDSTILL = 0.02  # [share of the top speed] slower rows say nothing about a gain
+USUAL = 0.02  # [s] between two samples of a robot program, and of the learner's own log
+
+EXPLAINED = Slip(
+    "voltage-explained",
+    "it is what comes out when the voltage is explained by velocity and acceleration. Explain "
+    "the acceleration instead",
+    "M-NOISE-AVERAGES",
+)
+ASSUMED = Slip(
+    "period-assumed",
+    "it is what comes out when samples are taken to be 0.02 s apart. Here they are not: divide "
+    "by the difference of the times",
+)
+
+
+def columns(log: "Log", *, si: float) -> "tuple[Array, Array]":
+    """Columns (n, 3) for kS, kV and kA, and the voltage (n,), of every row that moves.
+
+    Args:
+        log: the tests.
+        si: [m or rad] of the unit that gains are asked in.
+    """
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    rows, voltage = [], []
+    for run in log.runs:
+        v = run.velocity / si
+        moving = np.abs(v) > STANDSTILL * np.abs(v).max()
+        a = np.gradient(v, run.time)
+        rows.append(np.column_stack((np.sign(v), v, a))[moving])
+        voltage.append(run.voltage[moving])
+    return np.vstack(rows), np.concatenate(voltage)
+
+
+def scene(
+    mechanism: "Mechanism", log: "Log", asked: Mapping[str, Asked], *, ramp: float, period: float
+) -> Scene:
+    """The scene of one log.
+
+    Args:
+        mechanism: what was tested.
+        log: its tests.
+        asked: the gains, in the order of the columns.
+        ramp: [V/s] of the quasistatic tests.
+        period: [s] between two samples.
+    """
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    from sim.units import unit  # noqa: PLC0415 - the same
+
+    explained, *_ = np.linalg.lstsq(*columns(log, si=unit(mechanism.units).si), rcond=None)
+    looks = {
+        name: (Lookalike(float(value), EXPLAINED),)
+        for name, value in zip(asked, explained, strict=True)
+    }
+    return Scene(
+        angular=mechanism.units != "meters",
+        ratio=mechanism.ratio,
+        motors=mechanism.motor_count,
+        ramp=ramp,
+        period=period,
+        lookalikes=looks,
+    )

@@ -1,0 +1,267 @@
+"""The learner's own function, tried on five logs that nobody has seen.
+
+It runs apart (``grader.isolation``): it gets the columns of each log, and returns three numbers.
+"""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from grader.answer import Asked, Key, diagnose, gains_asked, judge
+from grader.check import NotReached, Wrong
+from grader.variant import generator, seed
+
+from .scene import ASSUMED, USUAL, columns, scene
+
+if TYPE_CHECKING:
+    from grader.isolation import Answer, Outcome
+    from sim.log import Array, Log
+
+NAME, FUNCTION = "fit.py", "fit"
+RAMP, STEP, TIMEOUT = 0.5, 3.5, 10.0  # [V/s], [V], [s]
+SECONDS = 10.0  # for all five; the solution takes a tenth of one
+MOST_DRAWS = 100
+ROOM = 0.6  # [share of the band] an honest fit stays within: there are many honest ways to fit
+REMEMBERED = 32  # answers whose numbers are kept, for a file that is graded again as it was
+PRINTED = 120  # [characters] of a learner's own prints that are shown
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How a log of the hidden ones is made, and what it is for.
+
+    Args:
+        kind: the mechanism.
+        period: [s] between two samples.
+        noise: times the ordinary noise of the velocity.
+        without: a test that was not run.
+        note: what to look at if nothing else explains a wrong number.
+        misconception: its code, or empty.
+    """
+
+    kind: str
+    period: float
+    noise: float
+    without: str = ""
+    note: str = ""
+    misconception: str = ""
+
+    @property
+    def noisy(self) -> bool:
+        """Whether a fit that explains the voltage must fail here."""
+        return self.noise > 1.0
+
+
+RECIPES = (
+    Recipe("drivetrain", 0.02, 1.0),
+    Recipe("intake", 0.005, 1.0, note="Its samples are 0.005 s apart, not 0.02 s"),
+    Recipe(
+        "turret",
+        0.02,
+        3.0,
+        note="Its velocity is noisy: which column do you explain, and which rows stand still",
+        misconception="M-NOISE-AVERAGES",
+    ),
+    Recipe("shooter", 0.008, 0.5, note="Its samples are 0.008 s apart, not 0.02 s"),
+    Recipe(
+        "drivetrain",
+        0.01,
+        0.7,
+        without="quasistatic-forward",
+        note="Its quasistatic-forward test was not run. The other three are enough: use them all",
+        misconception="M-REVERSE-WASTE",
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """One hidden log, and what is right for it."""
+
+    recipe: Recipe
+    data: Mapping[str, "Array"]
+    key: Key
+
+
+@lru_cache(maxsize=REMEMBERED)
+def hidden(student: str, _seed: int) -> tuple[Hidden, ...]:
+    """The five logs of a learner; the seed is the student's, and a class has seeds of its own."""
+    return tuple(_draw(student, number, one) for number, one in enumerate(RECIPES, start=1))
+
+
+def _draw(student: str, number: int, recipe: Recipe) -> Hidden:
+    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.routine import Routine  # noqa: PLC0415 - the same
+    from sim.simulate import simulate  # noqa: PLC0415 - the same
+    from sim.units import gains_per, unit  # noqa: PLC0415 - the same
+
+    routine = Routine(ramp=RAMP, step=STEP, timeout=TIMEOUT)
+    for attempt in range(MOST_DRAWS):
+        rng = generator(student, f"exercise9, log {number}", draw=attempt)
+        built = MECHANISMS[recipe.kind].draw(rng)
+        noise = built.sensor.velocity_noise * recipe.noise
+        built = replace(built, sensor=replace(built.sensor, velocity_noise=noise))
+        log = simulate(built, routine, rng=rng, period=recipe.period)
+        log = replace(log, runs=tuple(run for run in log.runs if run.test != recipe.without))
+        per = unit(built.units)
+        asked = gains_asked(gains_per(built.gains, factor=per.si), position=per.symbol)
+        if _fair(log, asked, si=per.si, noisy=recipe.noisy):
+            around = scene(built, log, asked, ramp=RAMP, period=recipe.period)
+            around = replace(around, ratio=1.0, motors=1)  # a function knows of neither
+            return Hidden(recipe, _table(log, si=per.si), Key(asked, around))
+    raise RuntimeError(f"no solvable log {number} for {student!r}")
+
+
+def _fair(log: "Log", asked: Mapping[str, Asked], *, si: float, noisy: bool) -> bool:
+    """Whether an honest fit finds the gains with room to spare, and the naive one does not."""
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    known, voltage = columns(log, si=si)
+    naive, *_ = np.linalg.lstsq(known, voltage, rcond=None)
+    sign, v, a = known.T
+    (alpha, beta, gamma), *_ = np.linalg.lstsq(np.column_stack((v, voltage, sign)), a, rcond=None)
+    honest = (-gamma / beta, -alpha / beta, 1.0 / beta)
+    room = all(
+        abs(value - one.expected) <= ROOM * one.band.widths(one.expected)[0]
+        for value, one in zip(honest, asked.values(), strict=True)
+    )
+    caught = not all(map(Asked.right, asked.values(), naive.tolist()))
+    return room and (caught or not noisy)
+
+
+def _table(log: "Log", *, si: float) -> dict[str, "Array"]:
+    """The columns of ``log.csv``, all tests one after another."""
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    runs = log.runs
+    return {
+        "time": np.concatenate([run.time for run in runs]),
+        "voltage": np.concatenate([run.voltage for run in runs]),
+        "position": np.concatenate([run.position / si for run in runs]),
+        "velocity": np.concatenate([run.velocity / si for run in runs]),
+        "test": np.concatenate([np.full(len(run), run.test) for run in runs]),
+    }
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _outcome(text: bytes, student: str, of: int) -> "Outcome":
+    """Run a function on all five logs; the same text gives the same numbers."""
+    import tempfile  # noqa: PLC0415 - only where there is something to run
+
+    from grader.isolation import Call, Limits, run  # noqa: PLC0415 - the same
+
+    calls = [Call(FUNCTION, one.data) for one in hidden(student, of)]
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder, NAME)
+        source.write_bytes(text)
+        return run(source, calls=calls, limits=Limits(seconds=SECONDS))
+
+
+def judge_function(path: Path, *, student: str, points: float) -> str | None:
+    """Try the function on the five logs.
+
+    Args:
+        path: the learner's file.
+        student: whose.
+        points: for all five.
+
+    Returns:
+        What it printed, if it did.
+
+    Raises:
+        Wrong: at least one log came out wrong; what may be behind it.
+        NotReached: there is no file.
+    """
+    from grader.submission import read_text  # noqa: PLC0415 - beside its only use
+
+    if not path.is_file():
+        raise NotReached(f"there is no {NAME} beside your answers; the exercise's folder has one")
+    text = read_text(path).encode()
+    of = seed(student, "exercise9")
+    logs, outcome = hidden(student, of), _outcome(text, student, of)
+    wrong = [found for found in map(_judge_log, logs, outcome.answers) if found]
+    printed = _printed(outcome.printed)
+    if not wrong:
+        return printed or None
+    told = _telling(wrong)
+    right = len(logs) - len(wrong)
+    told.seen = f"{right} of {len(logs)} logs right; {told.seen}"
+    told.hint += f". {printed}" if printed else ""
+    told.earned = points * right / len(logs)
+    raise told
+
+
+@dataclass(frozen=True)
+class Miss:
+    """One wrong number of one log.
+
+    Args:
+        log: which.
+        why: what is said about it.
+        judged: whether there was a number at all.
+        slips: what would explain it.
+    """
+
+    log: Hidden
+    why: Wrong
+    judged: bool = False
+    slips: frozenset[str] = frozenset()
+
+
+def _telling(wrong: Sequence[Sequence[Miss]]) -> Wrong:
+    """Of all that is wrong, what to tell: the slip that explains most logs, else the first."""
+    logs = Counter(slip for log in wrong for slip in {slip for one in log for slip in one.slips})
+    misses = [miss for log in wrong for miss in log]
+    often = [slip for slip, count in logs.most_common() if count > 1 or len(wrong) == 1]
+    if often:  # a slip that fits one of many is chance
+        named = [miss for miss in misses if often[0] in miss.slips]
+        return min(named, key=lambda miss: len(miss.slips)).why
+    told, recipe = misses[0], misses[0].log.recipe
+    if told.judged and recipe.note:
+        verdict = told.why.hint if told.why.hint.startswith(("outside", "close")) else ""
+        told.why.hint = ". ".join(part for part in (verdict, recipe.note) if part)
+        if len(wrong) == 1:  # it is this log's own difficulty
+            told.why.misconception = recipe.misconception
+    return told.why
+
+
+def _judge_log(log: Hidden, answer: "Answer") -> list[Miss]:
+    """What is wrong with the numbers for one log."""
+    where = f"{log.recipe.kind}, every {log.recipe.period:g} s"
+    if answer.reason:
+        hint = "Try it on your own log first: python exercises/exercise9/fit.py"
+        return [Miss(log, Wrong(f"{where}: {answer.reason}", hint=hint))]
+    misses = (_judge_gain(name, log, answer) for name in log.key.asked)
+    found = [miss for miss in misses if miss]
+    for miss in found:
+        miss.why.seen = f"{where}: {miss.why.seen.removesuffix(' (no unit given: read as asked)')}"
+    return found
+
+
+def _judge_gain(name: str, log: Hidden, answer: "Answer") -> Miss | None:
+    if name in answer.refused:
+        hint = f"Return one number for {name}: float(...) makes one, if there is one"
+        return Miss(log, Wrong(f"{name} = {answer.refused[name]}", hint=hint))
+    one, value, period = log.key.asked[name], answer.numbers.get(name), log.recipe.period
+    # a kA of 0.02 s is too large by as much as samples are closer
+    if value and name == "kA" and period != USUAL and one.right(value * period / USUAL):
+        why = Wrong(f"{name} = {value:.4g} {one.unit}", hint=ASSUMED.says)
+        return Miss(log, why, judged=True, slips=frozenset({ASSUMED.code}))
+    try:
+        judge(name, answer.numbers, log.key, points=0.0)
+    except Wrong as why:
+        why.seen = f"{name} = {why.seen}"
+        slips = diagnose(name, answer.numbers, log.key)
+        judged = answer.numbers.get(name) is not None
+        return Miss(log, why, judged=judged, slips=frozenset(slip.code for slip in slips))
+    return None
+
+
+def _printed(text: str) -> str:
+    """What was printed, in one line."""
+    line = " ".join(text.split())
+    short = line if len(line) <= PRINTED else f"{line[:PRINTED]}…"
+    return f"It printed: {short}" if line else ""
