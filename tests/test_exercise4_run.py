@@ -81,6 +81,18 @@ def test_a_question_that_the_run_cannot_settle_stays_one(tmp_path):
 
 
 @needs_robot
+def test_a_question_about_a_log_that_names_no_tests_stays_one(tmp_path):
+    text = changed(
+        ("timeout=10.0", "timeout=10.0, recordState=lambda state: None"),
+        ("self.left.getVoltage()", "eval('self.left.getVoltage()')"),
+    )
+    checks = graded(tmp_path, text)
+
+    assert checks["log"].status == "failed"
+    assert checks["log"].seen.startswith("I cannot tell where the voltage of left comes from")
+
+
+@needs_robot
 def test_code_that_reading_finds_wrong_is_not_run(tmp_path, monkeypatch):
     monkeypatch.setattr(bench, "run", lambda *_: pytest.fail("it was run"))
     checks = graded(tmp_path, changed(("rampRate=0.5", "rampRate=0.25")))

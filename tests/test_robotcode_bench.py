@@ -3,8 +3,9 @@
 import math
 
 import pytest
-from robot_mistakes import RIGHT, changed, needs_robot, ran
+from robot_mistakes import RIGHT, ROOT, changed, needs_robot, ran
 
+from grader.robotcode import bench
 from grader.robotcode.bench import Outcome, contradiction
 
 FOUR = {f"{kind}-{way}" for kind in ("quasistatic", "dynamic") for way in ("forward", "reverse")}
@@ -167,3 +168,41 @@ def test_mirrored_motors_are_as_right_as_others(tmp_path):
     assert [round(one.share, 2) for one in run.motors] == [1, -1]
     assert [one.forward for one in run.recorded] == [True, True]
     assert contradiction.driven(run) is contradiction.recorded(run) is None
+
+
+@needs_robot
+def test_the_same_code_shows_the_same_to_the_last_digit(tmp_path):
+    assert ran(tmp_path, RIGHT) == ran(tmp_path, RIGHT)
+
+
+@needs_robot
+def test_a_follower_in_no_field_is_seen_and_mirrored_leaders_are_no_fault():
+    path = ROOT / "tests" / "robotcode" / "pwm_drive.py"  # right inverted, one follower is local
+    run = bench.run(path, "Drive")
+
+    assert [(one.name, one.own) for one in run.motors] == [
+        ("left", True),
+        ("right", True),
+        ("right_back", True),
+        ("PWM 2", False),
+    ]
+    assert [one.forward for one in run.recorded] == [True, True]
+    assert contradiction.driven(run) is contradiction.recorded(run) is None
+
+
+@needs_robot
+def test_a_program_that_names_its_tests_elsewhere_is_not_blamed_for_its_log(tmp_path):
+    states = ("timeout=10.0", "timeout=10.0, recordState=lambda state: None")
+    run = ran(tmp_path, changed(states))
+
+    assert (run.outcome, run.tests, run.recorded, run.lacking) == (Outcome.RAN, (), (), "")
+    assert (run.ramp, run.step) == pytest.approx((0.5, 3.5))
+
+
+@needs_robot
+def test_tests_that_do_not_require_their_subsystem_are_seen(tmp_path):
+    other = ("self.record, self)", "self.record, Subsystem(), 'mine')")
+    fault = contradiction.assembled(ran(tmp_path, changed(other)))
+
+    assert fault is not None
+    assert "do not require the subsystem" in fault.seen

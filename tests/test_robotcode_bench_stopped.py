@@ -5,11 +5,8 @@ import sys
 import pytest
 from robot_mistakes import changed, needs_robot, ran
 
-from grader.robotcode import bench
 from grader.robotcode.bench import Outcome, apart
 from grader.robotcode.bench.logged import told
-from grader.robotcode.bench.season import of_another
-from grader.robotcode.vocabulary import renamed
 
 
 @needs_robot
@@ -123,31 +120,3 @@ def test_a_child_that_does_not_end_is_ended(tmp_path):
 
     assert apart.alone(program, tmp_path, 0.5) is False
     assert told(tmp_path, tmp_path / "a.py", ended=False, seconds=0.5).outcome is Outcome.ENDLESS
-
-
-@pytest.mark.parametrize(
-    ("name", "season"),
-    [
-        ("set_voltage", "2027"),  # RobotPy's snake case, and its constants in capitals
-        ("ramp_rate", "2027"),
-        ("FORWARD", "2027"),
-        ("set_throttle", "2027"),  # what WPILib called set until then
-        ("setThrottle", "2027"),
-        ("setVoltage", "2026"),
-        ("rampRate", "2026"),
-        ("kForward", "2026"),
-        ("set", ""),
-        ("forward", ""),
-        ("my_own", ""),
-    ],
-)
-def test_a_name_tells_its_season(name, season):
-    assert renamed(name) == season
-
-
-def test_an_import_of_another_season_is_known_by_the_names_beside_it():
-    error = "ImportError: cannot import name 'PIDController' from 'wpimath'"
-    season = "2027" if bench.installed() else ""
-
-    assert season in of_another(error, "self.motor.set_voltage(3)")
-    assert of_another(error, "self.motor.go(3)") == ""

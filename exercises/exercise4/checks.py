@@ -188,7 +188,12 @@ def _followed(facts: RoutineFacts, *, whole: bool) -> None:
 def log(code: Code) -> str | None:
     """The log callback records the motor's name, position, velocity and applied voltage."""
     running = _either("log", contradiction.recorded)
-    return settle(code, partial(_log, code.facts), running, points=3)
+    return settle(code, partial(_log, code.facts), running, points=3, answered=_held)
+
+
+def _held(ran: Ran) -> bool:
+    """Whether every motor in the log could be held against a motor of the bench."""
+    return bool(ran.recorded) and all(one.voltage and one.lowered for one in ran.recorded)
 
 
 def _log(facts: RoutineFacts) -> None:
@@ -214,7 +219,11 @@ def _log(facts: RoutineFacts) -> None:
 def units(code: Code) -> str | None:
     """Position and velocity are in units that fit each other and the mechanism."""
     running = _when_done(contradiction.units)
-    return settle(code, partial(_units, code.facts), running, points=2)
+    return settle(code, partial(_units, code.facts), running, points=2, answered=_moved)
+
+
+def _moved(ran: Ran) -> bool:
+    return bool(ran.recorded) and all(one.rate for one in ran.recorded)
 
 
 def _units(facts: RoutineFacts) -> None:
@@ -227,7 +236,8 @@ def _units(facts: RoutineFacts) -> None:
 @check(points=1, after=routine)
 def assembled(code: Code) -> str | None:
     """The parts are in their places: Config, Mechanism, and the subsystem itself."""
-    return settle(code, partial(_assembled, code.facts), partial(stopped, where=""), points=1)
+    running = _either("", contradiction.assembled)
+    return settle(code, partial(_assembled, code.facts), running, points=1)
 
 
 def _assembled(facts: RoutineFacts) -> None:
@@ -263,7 +273,11 @@ def _assembled(facts: RoutineFacts) -> None:
 def open_loop(code: Code) -> str | None:
     """The drive callback uses no closed loop and no duty cycle."""
     running = _when_done(_as_a_share)
-    return settle(code, partial(_open_loop, code.facts), running, points=2)
+    return settle(code, partial(_open_loop, code.facts), running, points=2, answered=_undivided)
+
+
+def _undivided(ran: Ran) -> bool:
+    return contradiction.driven(ran) is None
 
 
 def _as_a_share(ran: Ran) -> Fault | None:

@@ -41,6 +41,7 @@ def settle(
     running: Callable[[Ran], Fault | None],
     *,
     points: float,
+    answered: Callable[[Ran], bool] = lambda _: True,
 ) -> str | None:
     """Look both ways.
 
@@ -49,6 +50,7 @@ def settle(
         reading: the check by reading; returns a note, or raises Wrong or NotReached.
         running: what a run that came to its end shows to be wrong, or one that did not.
         points: the check's.
+        answered: whether a run that shows no fault shows that all is right.
 
     Returns:
         The reading's note, or how its question was settled.
@@ -68,6 +70,8 @@ def settle(
         if ran is None or ran.outcome is not Outcome.RAN:
             raise
         _fail(running(ran), points)
+        if not answered(ran):
+            raise
         return f"Reading cannot tell, so it was run {IN}: there this is right."
     if ran is not None:
         _fail(running(ran), points)

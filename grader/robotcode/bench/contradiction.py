@@ -81,7 +81,7 @@ def driven(ran: Ran) -> Fault | None:
 
 
 def _driven(motor: Driven) -> tuple[str, str, str] | None:
-    if abs(abs(motor.share) - 1.0) < CLOSE:
+    if abs(abs(motor.share) - 1.0) < CLOSE or (motor.share and not motor.own):
         return None
     if not motor.share:
         hint = "Drive every motor: one that is left out is dragged along, and counts as friction."
@@ -98,8 +98,9 @@ def recorded(ran: Ran) -> Fault | None:
     """What the log says of the motors' voltages, and of which motor it says it."""
     if ran.lacking:
         return Fault(f"{IN} the log cannot be read: {ran.lacking}", "Record all three signals.")
+    mirrored = any(motor.share < 0 for motor in ran.motors)  # whose sign is whose, who knows
     for one in ran.recorded:
-        fault = _recorded(one)
+        fault = _voltage(one) or (None if mirrored else _sign(one))
         if fault:
             return fault
     names = [one.name for one in ran.recorded]
@@ -111,7 +112,7 @@ def recorded(ran: Ran) -> Fault | None:
     return None
 
 
-def _recorded(one: Recorded) -> Fault | None:
+def _voltage(one: Recorded) -> Fault | None:
     advice = "Log what the motor put out: in Python, getVoltage() of the motor."
     off = abs(one.kept - one.lowered) > CLOSE * abs(one.lowered)
     if one.as_asked or (one.voltage and off and abs(one.voltage - 1.0) < CLOSE):
@@ -121,6 +122,10 @@ def _recorded(one: Recorded) -> Fault | None:
     if one.voltage is not None and abs(one.voltage - 1.0) > CLOSE:
         seen = f"{IN} the voltage in the log is {one.voltage:.3g} times that of {one.name}"
         return Fault(seen, advice, "", 1 / 2)
+    return None
+
+
+def _sign(one: Recorded) -> Fault | None:
     if one.forward is False:
         hint = "Invert the encoder, or what is logged, so that both signs agree."
         seen = f"{IN} a positive voltage of {one.name} goes with a negative velocity"
@@ -161,6 +166,14 @@ def _scale(one: Recorded) -> Fault | None:
 
 def _slip(factor: float) -> str:
     return next((said for slip, said in SLIPS.items() if abs(factor / slip - 1) < NEAR), "")
+
+
+def assembled(ran: Ran) -> Fault | None:
+    """Whether the tests require the subsystem they drive."""
+    if ran.required:
+        return None
+    hint = "Pass self after the two callbacks. Then no other command can move the motors meanwhile."
+    return Fault(f"{IN} the tests do not require the subsystem they drive", hint)
 
 
 def figures(ran: Ran) -> str:

@@ -110,6 +110,7 @@ def _facts(seen: dict[str, Any], folder: Path, file: Path) -> Ran:
         "step": float(np.median(trace.asked[fast])),
         "timeout": math.inf if lasted >= LONGEST else round(lasted, 1),
         "motors": _driven(seen["motors"], trace, slow),
+        "required": bool(seen["required"]),
         "per_pulse": tuple(float(size) for size in seen["per_pulse"]),
     }
     return _with_log(folder / "robot.wpilog", trace, facts)
@@ -132,16 +133,19 @@ def _driven(names: list[str], trace: Seen, slow: NDArray[np.intp]) -> tuple[Driv
         share = _share(got[awake], trace.asked[slow][awake]) or 0.0
         late = slow[-max(1, slow.size // 5)]  # well before the end, where nothing limits it yet
         at = float(trace.applied[late, number]), float(trace.asked[late])
-        driven.append(Driven(str(name), round(share, 4), *at))
+        driven.append(Driven(str(name), not str(name).startswith("PWM "), round(share, 4), *at))
     return tuple(driven)
 
 
 def _with_log(path: Path, trace: Seen, facts: dict[str, Any]) -> Ran:
     try:
-        logs = {name: read(path, motor=name) for name in _names(path)}
+        names = _names(path)
+        logs = {name: read(path, motor=name) for name in names or ()}
     except Refusal as refusal:
         return Ran(Outcome.RAN, **facts, lacking=refusal.what)
-    if not logs:
+    if names is None:
+        return Ran(Outcome.RAN, **facts)
+    if not names:
         lacking = "no motor in it has voltage, position and velocity"
         return Ran(Outcome.RAN, **facts, lacking=lacking)
     tests = dict.fromkeys(run.test for log in logs.values() for run in log.runs)
@@ -149,12 +153,12 @@ def _with_log(path: Path, trace: Seen, facts: dict[str, Any]) -> Ran:
     return Ran(Outcome.RAN, **facts, tests=tuple(tests), recorded=recorded)
 
 
-def _names(path: Path) -> list[str]:
-    """The motors of the log that have a voltage, a position and a velocity."""
+def _names(path: Path) -> list[str] | None:
+    """The motors of the log that have all three signals; None if it does not name the tests."""
     entries = contents_of(load(path)).entries
     state = next((one.name for one in entries if one.name.startswith(STATE)), None)
     if state is None:
-        return []
+        return None
     end = "-" + state.removeprefix(STATE)
     there: dict[str, set[str]] = {}
     for one in entries:

@@ -5,9 +5,8 @@
 The real scheduler runs the four tests of the routine that CLASS in FILE makes; what its motor
 controllers put out moves a motor model each, whose motion its encoders see. FOLDER gets
 ``robot.wpilog``, what the robot itself wrote down, and ``seen.json``, what the bench saw. This
-file imports nothing of the course: it runs beside a stranger's code.
-
-The log is written in the background and whole only after the interpreter has ended by itself.
+file imports nothing of the course: it runs beside a stranger's code. The log
+is whole only after the interpreter has ended by itself.
 """
 
 import faulthandler
@@ -31,8 +30,7 @@ SAGGED, SAG = 10.5, (0.8, 1.2)  # [V], [s] of a dynamic test in which something 
 GAINS = {"ks": 0.2, "kv": 2.4, "ka": 0.3}  # V, V·s/m, V·s²/m: a drivetrain; further motors differ
 STEP = {"ks": 0.03, "kv": 0.12, "ka": 0.02}  # ... by this, so that their records can be told apart
 METERS_PER_PULSE = 0.000156  # of the encoders
-CHANNELS = 20  # for PWM on a roboRIO
-DEEP = 4  # fields of fields that are looked into
+CHANNELS, DEEP = 20, 4  # for PWM on a roboRIO; fields of fields that are looked into
 
 
 class CannotRun(Exception):  # noqa: N818 - says what is lacking; no fault of the learner's
@@ -43,8 +41,7 @@ def named(thing: Any, name: str) -> Any:  # noqa: ANN401 - RobotPy's own classes
     """An attribute under its name of 2026, ``setVInVoltage``, or that of 2027."""
     if hasattr(thing, name):
         return getattr(thing, name)
-    snake = "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name)
-    return getattr(thing, snake)
+    return getattr(thing, "".join(f"_{a.lower()}" if a.isupper() else a for a in name))
 
 
 class Wheel:
@@ -74,7 +71,7 @@ class Bench:
         from commands2.sysid import SysIdRoutine  # noqa: PLC0415 - the same
         from wpilib import simulation  # noqa: PLC0415 - the same
 
-        self.simulation, self.routine_type = simulation, SysIdRoutine
+        self.simulation, self.routine_type, self.subsystem = simulation, SysIdRoutine, subsystem
         fields = list(walk(subsystem))
         routines = [one for _, one in fields if isinstance(one, SysIdRoutine)]
         if not routines:
@@ -84,9 +81,9 @@ class Bench:
         if not self.motors:
             raise CannotRun("WPILib simulates none of its motors")
         self.wheels = [Wheel(number) for number in range(len(self.motors))]
-        self.encoders = [
-            simulation.EncoderSim(one) for _, one in fields if isinstance(one, wpilib.Encoder)
-        ]
+        own = {name: one for name, one in fields if isinstance(one, wpilib.Encoder)}
+        self.encoders = [simulation.EncoderSim(one) for one in own.values()]
+        self.turned_by = [self._partner(name, at / len(own)) for at, name in enumerate(own)]
         self.per_pulse = [abs(named(one, "getDistancePerPulse")()) for one in self.encoders]
         self.distances = [0.0] * len(self.encoders)  # in the program's own unit
         self.voltages = [0.0] * len(self.motors)  # [V] at the motors
@@ -105,6 +102,11 @@ class Bench:
             pwm = self.simulation.PWMSim(channel)
             if channel not in seen and named(pwm, "getInitialized")():
                 yield f"PWM {channel}", named(pwm, "getSpeed")
+
+    def _partner(self, encoder: str, share: float) -> int:
+        """The motor that turns an encoder: ``left`` for ``left_encoder``, else by their order."""
+        near = (number for number, name in enumerate(self.motors) if name in encoder)
+        return next(near, int(share * len(self.motors)))
 
     def battery(self, voltage: float) -> None:
         """Set the battery's voltage [V]."""
@@ -146,7 +148,7 @@ class Bench:
         for wheel, voltage in zip(self.wheels, self.voltages, strict=True):
             wheel.move(voltage)
         for number, encoder in enumerate(self.encoders):
-            wheel = self.wheels[number * len(self.wheels) // len(self.encoders)]
+            wheel = self.wheels[self.turned_by[number]]
             size = self.per_pulse[number] / METERS_PER_PULSE  # the same pulses, whatever they mean
             self.distances[number] = wheel.position * size
             named(encoder, "setDistance")(self.distances[number])
@@ -181,6 +183,7 @@ class Bench:
     def _hold(self, command: Any, scheduler: Any) -> float:  # noqa: ANN401 - the same
         """Hold down the button of a test, until it ends or has shown enough."""
         loops = round(SHORT.get(self.test, LONGEST) / PERIOD)
+        self.required = self.subsystem in named(command, "getRequirements")()
         scheduler.schedule(command)
         for passed in range(loops):
             self.loop(scheduler.run)
@@ -199,10 +202,9 @@ def walk(thing: object) -> Iterator[tuple[str, Any]]:
             return
         seen.add(id(one))
         yield name, one
-        if isinstance(one, dict):
-            below = [(f"{name}[{key!r}]", value) for key, value in one.items()]
-        elif isinstance(one, (list, tuple, set, frozenset)):
-            below = [(f"{name}[{number}]", value) for number, value in enumerate(one)]
+        if isinstance(one, (dict, list, tuple, set, frozenset)):
+            pairs = one.items() if isinstance(one, dict) else enumerate(one)
+            below = [(f"{name}[{key!r}]", value) for key, value in pairs]
         else:
             own = {**vars(type(one)), **getattr(one, "__dict__", {})}
             below = [
@@ -277,24 +279,22 @@ def enable(folder: Path) -> None:
 
 def main(file: Path, name: str, folder: Path) -> dict[str, object]:
     """Run one file; everything that happens to it is an answer."""
-    ready = False
+    bench = None
     try:
         enable(folder)
         bench = Bench(make(load(file), name))
-        ready = True
         told = {"lasted": bench.run(), "motors": list(bench.motors), "rows": bench.rows}
     except CannotRun as lacking:
         return {"cannot": str(lacking)}
     except BaseException as error:  # noqa: BLE001 - a learner's code may raise whatever it likes
         what = crash(error, file)
-        return {"crash": what} if ready or what["line"] else {"cannot": what["error"]}
-    return {**told, "per_pulse": bench.per_pulse}
+        return {"crash": what} if bench or what["line"] else {"cannot": what["error"]}
+    return {**told, "per_pulse": bench.per_pulse, "required": bench.required}
 
 
 if __name__ == "__main__":
     place = Path(sys.argv[3])
-    with (place / "endless.txt").open("w", encoding="utf-8") as stuck:
-        faulthandler.dump_traceback_later(float(sys.argv[4]), exit=True, file=stuck)
-        told = main(Path(sys.argv[1]), sys.argv[2], place)
-        (place / "seen.json").write_text(json.dumps(told), encoding="utf-8")
-        faulthandler.cancel_dump_traceback_later()
+    stuck = (place / "endless.txt").open("w", encoding="utf-8")
+    faulthandler.dump_traceback_later(float(sys.argv[4]), exit=True, file=stuck)
+    told = main(Path(sys.argv[1]), sys.argv[2], place)
+    (place / "seen.json").write_text(json.dumps(told), encoding="utf-8")

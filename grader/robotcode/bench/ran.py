@@ -19,12 +19,14 @@ class Driven:
 
     Args:
         name: the field that holds it, ``left``, or ``PWM 2`` where none does.
+        own: whether a field holds it; else what it got is known within some percent only.
         share: what it got, as a share of what the tests asked for; 1 is right, minus one is right
             for a motor that is mounted the other way round; 0 for a motor that never got anything.
         got, asked: [V] an example of it, late in the quasistatic test.
     """
 
     name: str
+    own: bool
     share: float
     got: float
     asked: float
@@ -74,9 +76,10 @@ class Ran:
         ramp: [V/s] of the quasistatic test.
         step: [V] of the dynamic test.
         timeout: [s] after which a test that is left alone ends; infinite if it goes on and on.
-        tests: those that the log names.
+        tests: those that the log names; none where the program keeps their names elsewhere.
         motors: what every motor did.
         recorded: what is in the log of every motor that has voltage, position and velocity there.
+        required: whether the tests require the subsystem.
         per_pulse: what the encoders count per pulse, in the program's own unit.
         lacking: why the log cannot be read; empty if it can.
     """
@@ -91,5 +94,6 @@ class Ran:
     tests: tuple[str, ...] = ()
     motors: tuple[Driven, ...] = ()
     recorded: tuple[Recorded, ...] = ()
+    required: bool = True
     per_pulse: tuple[float, ...] = ()
     lacking: str = ""

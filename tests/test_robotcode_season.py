@@ -1,0 +1,89 @@
+"""Names of two seasons: both are read, and a program tells which of them it is written for."""
+
+import pytest
+
+from grader.robotcode import bench, read
+from grader.robotcode.bench.season import of_another
+from grader.robotcode.facts import Output, Source
+from grader.robotcode.vocabulary import renamed
+
+JAVA = """
+package first.robot;
+
+import org.wpilib.command2.SubsystemBase;
+import org.wpilib.command2.sysid.SysIdRoutine;
+import org.wpilib.hardware.motor.PWMSparkMax;
+import static org.wpilib.units.Units.*;
+
+public class Wheel extends SubsystemBase {
+  private final PWMSparkMax m_motor = new PWMSparkMax(0);
+  private final SysIdRoutine m_routine = new SysIdRoutine(
+      new SysIdRoutine.Config(Volts.of(0.5).per(Second), Volts.of(3.5), Seconds.of(10)),
+      new SysIdRoutine.Mechanism(
+          volts -> m_motor.setThrottle(volts.in(Volts) / 12),
+          log -> log.motor("wheel").voltage(
+              Volts.of(m_motor.getThrottle() * RobotController.getBatteryVoltage())),
+          this));
+}
+"""
+PYTHON = """
+from commands2 import Subsystem
+from commands2.sysid import SysIdRoutine
+from wpilib import PWMSparkMax, RobotController
+
+
+class Wheel(Subsystem):
+    def __init__(self):
+        super().__init__()
+        self.motor = PWMSparkMax(0)
+        self.routine = SysIdRoutine(
+            SysIdRoutine.Config(ramp_rate=0.5, step_voltage=3.5, timeout=10),
+            SysIdRoutine.Mechanism(self.drive, self.record, self),
+        )
+
+    def drive(self, voltage):
+        self.motor.set_throttle(voltage / 12)
+
+    def record(self, log):
+        volts = self.motor.get_throttle() * RobotController.get_battery_voltage()
+        log.motor("wheel").voltage(volts)
+"""
+
+
+@pytest.mark.parametrize(("name", "text"), [("Wheel.java", JAVA), ("wheel.py", PYTHON)])
+def test_the_names_of_2027_are_read_like_those_before(tmp_path, name, text):
+    path = tmp_path / name
+    path.write_text(text, "utf-8")
+    facts = read(path)
+
+    assert [one.value for one in (facts.ramp, facts.step, facts.timeout)] == [0.5, 3.5, 10]
+    assert [(one.output, one.scaled) for one in facts.drive] == [(Output.DUTY, True)]
+    assert [(one.signal, one.source) for one in facts.logged] == [("voltage", Source.APPLIED)]
+
+
+@pytest.mark.parametrize(
+    ("name", "season"),
+    [
+        ("set_voltage", "2027"),  # RobotPy's snake case, and its constants in capitals
+        ("ramp_rate", "2027"),
+        ("FORWARD", "2027"),
+        ("set_throttle", "2027"),  # what WPILib called set until then
+        ("setThrottle", "2027"),
+        ("setVoltage", "2026"),
+        ("rampRate", "2026"),
+        ("kForward", "2026"),
+        ("set", ""),
+        ("forward", ""),
+        ("my_own", ""),
+    ],
+)
+def test_a_name_tells_its_season(name, season):
+    assert renamed(name) == season
+
+
+def test_an_import_of_another_season_is_known_by_the_names_beside_it():
+    error = "ImportError: cannot import name 'PIDController' from 'wpimath'"
+    season = "2027" if bench.installed() else ""
+
+    assert season in of_another(error, "self.motor.set_voltage(3)")
+    assert of_another(error, "self.motor.go(3)") == ""
