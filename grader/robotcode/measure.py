@@ -7,6 +7,7 @@ the program to run has no value.
 import math
 from dataclasses import dataclass, replace
 
+from grader.robotcode.conversions import FACTORS, NUMBERS
 from grader.robotcode.meaning import called, last_name, only_return, simple
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope
@@ -107,6 +108,9 @@ class Measures:
             found = self.of(valued[0].value, valued[0].scope, depth=depth)
             declared = next((d.type for d in definitions if d.type), "")
             return _typed(found, declared)
+        number = None if definitions else _library_number(node, scope)
+        if number is not None:
+            return Measure(number)
         unit = UNITS.get(node.name)
         if definitions or unit is None or scope.module.language != "java":
             return None
@@ -124,6 +128,8 @@ class Measures:
         name, target = last_name(call.target), call.target
         args = [self.of(arg, scope, depth=depth) for arg in call.args]
         first = args[0] if len(args) == 1 else None
+        if first is not None and first.dimension == "number" and name in FACTORS:
+            return Measure(first.value * FACTORS[name])
         if scope.module.language == "python":
             factor = PYTHON_UNITS.get(name)
             return None if first is None or factor is None else first.times(Measure(factor))
@@ -133,6 +139,19 @@ class Measures:
             return first
         owner = self.of(target.owner, scope, depth=depth)
         return None if owner is None else _method(name, owner, first, count=len(args))
+
+
+def _library_number(node: Name | Member, scope: Scope) -> float | None:
+    """π and its like, by their full name or brought in by an import."""
+    if isinstance(node, Member):
+        return NUMBERS.get((last_name(node.owner), node.name))
+    for one in scope.module.imports:
+        owner, _, name = one.path.rpartition(".")
+        if one.name in {node.name, "*"}:
+            found = (owner if one.name != "*" else one.path).rpartition(".")[2]
+            if (found, name if one.name != "*" else node.name) in NUMBERS:
+                return NUMBERS[found, name if one.name != "*" else node.name]
+    return None
 
 
 def _method(name: str, owner: Measure, first: Measure | None, *, count: int) -> Measure | None:

@@ -152,8 +152,10 @@ class Names:
 
     def _variable(self, name: str, scope: Scope) -> Definitions:
         found = self.local(name, scope)
-        least = 0 if scope.module.language == "java" else len(scope.classes)
-        for count in range(len(scope.classes), least, -1):  # Python sees no field without self
+        least = 0
+        if scope.module.language == "python":  # a method sees no field without self, a class does
+            least = len(scope.classes) - (not scope.functions)
+        for count in range(len(scope.classes), least, -1):
             found = found or self._in_home(name, Scope(scope.module, scope.classes[:count]))
         return found or self._in_home(name, Scope(scope.module))
 

@@ -1,0 +1,272 @@
+"""Exercise 10: gains from the analyzer into robot code, in the right units and the right order."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.check import NotReached, Wrong, check
+from grader.given import hand_out
+from grader.robotcode.deployed import Constant, DeployFacts, Feedforward, gains_of
+from grader.submission import read_text
+from sim.errors import UnreadableFile
+
+from .drawn import draw
+from .handed import check_order, feedforward_of
+from .key import FULL, Variant, near
+from .said import judged
+from .slips import constant_slip, feedback_slip, handed_slip
+
+FILES = ("ExampleMechanism.java", "example_mechanism.py")
+HERE = Path(__file__).resolve().parent
+GIVEN = "given.toml"
+HOLDER = "CharacterizationConstants"
+START = re.compile(
+    r"start|tun(e|ing)|initial|first (guess|value|try)|begin|suggest|guess|adjust|preliminary",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True)
+class Code:
+    """What the checks look at."""
+
+    facts: DeployFacts
+    variant: Variant
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Write down what the analyzer showed for the learner's mechanism."""
+    made = {GIVEN: told(draw(student))}
+    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
+
+
+def told(variant: Variant) -> str:
+    """What a learner gets to know."""
+    given, used = variant.symbol(used=False), variant.symbol(used=True)
+    units = {
+        "kS": "V",
+        "kG": "V",
+        "kV": f"V for a velocity of 1 {given}/s",
+        "kA": f"V for an acceleration of 1 {given}/s every second",
+        "kP": f"suggested for a velocity loop: V for an error of 1 {given}/s",
+    }
+    rows = "".join(
+        f"{name} = {value:g}  # {units[name]}\n" for name, value in variant.shown.items()
+    )
+    output = (
+        f'"duty cycle"  # from -1 to 1, where 1 stands for {FULL:g} V'
+        if variant.duty
+        else '"volts"'
+    )
+    return f"""\
+# Exercise 10: your own mechanism. Only read here; your answer goes into the code.
+mechanism = "{variant.kind}"
+
+[analyzer]  # what SysId shows
+analysis = "{variant.analysis}"
+units = "{variant.shown_in}"
+{rows}
+[robot]  # what your code needs
+units = "{variant.used_in}"  # it measures, and asks for, velocities in {used}/s
+loop_output = {output}
+"""
+
+
+def read(path: Path, *, student: str) -> Code:
+    """What the file says about its gains.
+
+    Raises:
+        UnreadableFile: it cannot be read, or does not parse.
+    """
+    read_text(path)
+    facts = gains_of(path)
+    if facts.problems:
+        first = facts.problems[0]
+        raise UnreadableFile(
+            first.message,
+            where=f"{path}, line {first.line}",
+            advice="Mend that line first: code with a mistake like this does not compile.",
+        )
+    return Code(facts, draw(student))
+
+
+@check(points=1)
+def named(code: Code) -> None:
+    """A class CharacterizationConstants holds every gain under its own name."""
+    wanted = (*code.variant.gains, "kP")
+    there = [one for one in wanted if code.facts.constant(one)]
+    if not there:
+        raise Wrong(
+            "no gain in this file",
+            hint=f"Write them into {HOLDER}, one constant for each: {', '.join(wanted[:1])} and "
+            "so on.",
+        )
+    lacking = [one for one in wanted if one not in there]
+    if lacking:
+        raise Wrong(
+            f"no {' and no '.join(lacking)}",
+            hint="Every gain the analyzer shows gets a constant, by the name it has there.",
+            earned=0.5 * len(there) / len(wanted),
+        )
+    outside = [one for one in code.facts.constants if "haracteri" not in one.holder]
+    if outside:
+        raise Wrong(
+            f"{outside[0].name} in line {outside[0].line} is not in {HOLDER}",
+            hint="A class of their own keeps measured gains apart from all other constants.",
+            earned=0.5,
+        )
+
+
+@check(points=1)
+def volts(code: Code) -> None:
+    """KS, and kG where gravity pulls, are the analyzer's."""
+    for gain in code.variant.gains:
+        if gain in {"kS", "kG"}:
+            _valued(gain, code)
+
+
+@check(points=1)
+def kv(code: Code) -> None:
+    """KV is the analyzer's, or what it becomes in the robot's unit."""
+    _valued("kV", code)
+
+
+@check(points=1)
+def ka(code: Code) -> None:
+    """KA is the analyzer's, or what it becomes in the robot's unit."""
+    _valued("kA", code)
+
+
+def _valued(gain: str, code: Code) -> None:
+    constant = _constant(gain, code)
+    value = _known(constant.value, f"{constant.name} = {constant.text}", constant.line)
+    if near(value, code.variant.shown[gain]) or near(value, code.variant.needed(gain)):
+        return
+    slip = constant_slip(value, gain, code.variant, text=constant.text)
+    raise Wrong(_at(constant), hint=slip.says, misconception=slip.misconception)
+
+
+def _constant(gain: str, code: Code) -> Constant:
+    found = code.facts.constant(gain)
+    if found is None:
+        raise NotReached(f"looked at once there is a constant {gain}")
+    return found
+
+
+def _known(value: float | None, text: str, line: int) -> float:
+    if value is None:
+        raise Wrong(
+            f"I cannot tell the number by reading {text} in line {line}",
+            hint="Write it as a number, or as plain arithmetic of numbers and named constants.",
+        )
+    return value
+
+
+def _at(constant: Constant) -> str:
+    worked = "" if f"{constant.value:g}" in constant.text else f", which is {constant.value:.4g}"
+    return f"{constant.name} = {constant.text} in line {constant.line}{worked}"
+
+
+@check(points=1)
+def units(code: Code) -> None:
+    """A comment tells the unit of each gain of the feedforward."""
+    found = [one for one in code.facts.constants if one.gain in code.variant.gains]
+    if not found:
+        raise NotReached("looked at once there are gains")
+    for one in found:
+        used = one.value is not None and near(one.value, code.variant.needed(one.gain))
+        unit = code.variant.unit(one.gain, used=used)
+        verdict = judged(one.comment, unit, name=one.name)
+        if verdict is False and judged(code.facts.general, unit):
+            verdict = True
+        shown = f'"{one.comment[:50]}" beside {one.name}' if one.comment else f"{one.name} alone"
+        if verdict is False:
+            raise Wrong(
+                f"no unit of {one.name} in line {one.line}: {shown}",
+                hint="Write it beside the number: next year nobody knows what it means without.",
+            )
+        if verdict is None:
+            raise Wrong(
+                f"{shown}, line {one.line}",
+                hint="A unit of the right kind, but not the one of this number.",
+                misconception="M-UNITS",
+            )
+
+
+@check(points=1)
+def feedforward(code: Code) -> None:
+    """The feedforward is of the class that fits the mechanism."""
+    one = feedforward_of(code.facts, code.variant)
+    if one.kind == code.variant.made:
+        return
+    gravity = code.variant.analysis != "Simple" and one.kind == "SimpleMotorFeedforward"
+    raise Wrong(
+        f"{one.kind} in line {one.line}",
+        hint="This class has no place for kG, and gravity pulls at this mechanism all the time."
+        if gravity
+        else "What did the analyzer take this mechanism for? Each of its analyses has its class.",
+        misconception="M-NO-KG-IN-SYSID" if gravity else "",
+    )
+
+
+@check(points=2)
+def order(code: Code) -> None:
+    """Each gain stands where the feedforward expects it."""
+    one = feedforward_of(code.facts, code.variant)
+    check_order(one, code.facts, code.variant, points=2)
+
+
+@check(points=2)
+def conversion(code: Code) -> None:
+    """The feedforward gets kV and kA in the unit that the robot's code counts in."""
+    one = feedforward_of(code.facts, code.variant)
+    wrong = []
+    for gain in ("kV", "kA"):
+        try:
+            _converted(gain, one, code)
+        except Wrong as why:
+            wrong.append(why)
+    if wrong:
+        wrong[0].earned = 2.0 - len(wrong)
+        raise wrong[0]
+
+
+def _converted(gain: str, one: Feedforward, code: Code) -> None:
+    given = next(
+        (arg for arg in one.arguments.values() if arg.gain == gain), one.arguments.get(gain)
+    )
+    if given is None:
+        raise Wrong(f"the feedforward in line {one.line} gets no {gain}", hint="Hand it over, too.")
+    value = _known(given.value, given.text, one.line)
+    if near(value, code.variant.needed(gain)):
+        return
+    slip = handed_slip(value, gain, code.variant)
+    raise Wrong(
+        f"{given.text} in line {one.line}, which is {value:.4g}",
+        hint=slip.says,
+        misconception=slip.misconception,
+    )
+
+
+@check(points=1)
+def kp(code: Code) -> None:
+    """KP fits the robot's loop, and its comment says what kind of number it is."""
+    constant = _constant("kP", code)
+    handed = code.facts.feedback
+    at = f"{constant.name} = {constant.text}"
+    value = _known(handed.value if handed else constant.value, at, constant.line)
+    marked = bool(START.search(constant.comment))
+    if not near(value, code.variant.needed("kP")):
+        slip = feedback_slip(value, code.variant, text=constant.text)
+        seen = _at(constant) if constant.value is not None else at
+        raise Wrong(
+            seen, hint=slip.says, misconception=slip.misconception, earned=0.5 if marked else 0.0
+        )
+    if not marked:
+        raise Wrong(
+            f'"{constant.comment[:50]}" beside kP' if constant.comment else "no comment beside kP",
+            hint="The number fits. Say beside it how far to trust it: the analyzer has never seen "
+            "your loop run. Is this its last word?",
+            earned=0.5,
+        )

@@ -1,0 +1,67 @@
+"""A mechanism for each learner, and what the analyzer showed of it; a conversion is always due."""
+
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from grader.variant import generator
+
+from .key import UNITS, Variant
+
+if TYPE_CHECKING:
+    import numpy as np
+
+# kind -> analysis, and pairs of what the analyzer counted in and what the robot's code counts in.
+# An ArmFeedforward takes radians, whatever the rest of a program does.
+KINDS = {
+    "arm": ("Arm", (("Rotations", "Radians"), ("Degrees", "Radians"))),
+    "drivetrain": ("Simple", (("Feet", "Meters"), ("Inches", "Meters"))),
+    "elevator": ("Elevator", (("Inches", "Meters"), ("Feet", "Meters"))),
+    "shooter": ("Simple", (("Rotations", "Radians"), ("Radians", "Rotations"))),
+    "turret": ("Simple", (("Rotations", "Radians"), ("Degrees", "Radians"))),
+}
+KP = (0.4, 1.6)  # times kV: what the analyzer suggests for the mechanisms of the course
+APART = 0.15  # [share] any two numbers differ by more, so that each is known by its size
+DIGITS = 4
+MOST_DRAWS = 2000
+
+
+def draw(student: str) -> Variant:
+    """A learner's mechanism, always the same; drawn until its numbers can be told apart."""
+    rng = generator(student, "exercise10")
+    kind = tuple(KINDS)[int(rng.integers(len(KINDS)))]
+    for _ in range(MOST_DRAWS):
+        variant = _drawn(kind, rng)
+        if _clear(variant):
+            return variant
+    raise RuntimeError(f"no clear numbers for {student!r}")
+
+
+def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
+    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.units import gains_per  # noqa: PLC0415 - the same
+
+    analysis, pairs = KINDS[kind]
+    shown_in, used_in = pairs[int(rng.integers(len(pairs)))]
+    found = gains_per(MECHANISMS[kind].draw(rng).gains, factor=UNITS[shown_in][1])
+    found["kP"] = found["kV"] * rng.uniform(*KP)
+    names = ("kS", *(("kG",) if "kG" in found else ()), "kV", "kA", "kP")
+    shown = {name: float(f"{found[name]:.{DIGITS}g}") for name in names}
+    return Variant(kind, analysis, shown, shown_in, used_in, bool(rng.integers(2)))
+
+
+def _clear(variant: Variant) -> bool:
+    """Whether no number passes for another, as it is shown or as it is needed."""
+    volts = [variant.shown[name] for name in ("kS", "kG") if name in variant.shown]
+    others = [
+        {value, variant.shown[name] * variant.times}
+        for name, value in variant.shown.items()
+        if name in {"kV", "kA", "kP"}
+    ]
+    others[-1] |= {value / 12 for value in others[-1]}
+    groups = [*({value} for value in volts), *others]
+    return all(
+        abs(one - other) > APART * max(one, other)
+        for mine, theirs in combinations(groups, 2)
+        for one in mine
+        for other in theirs
+    )

@@ -1,0 +1,43 @@
+"""Units in comments and in names: ``V·s/rad``, ``volts for 1 m/s``, ``kVVoltSecondsPerMeter``."""
+
+import math
+import re
+from collections.abc import Iterator
+
+from grader.measure import Measure, NotAUnitError, read_unit
+
+MOST_WORDS = 6  # of one unit: volts times seconds squared per meter
+_PER = re.compile(r"\b(for|per|each|every)\b(\s+(an?|the|each|every|one|1)\b)*(?=\s+[a-z°])")
+_OF = re.compile(r"\b(an?\s+)?(velocity|speed|acceleration|change|error)\s+of(\s+1\b)?")
+
+
+def units_of(comment: str, name: str = "") -> Iterator[Measure]:
+    """Every unit that a comment, or a name, can be read to tell."""
+    text = _OF.sub("", comment.lower())
+    text = re.sub(r"\s+", " ", _PER.sub("per", text))
+    words = text.split()
+    for start in range(len(words)):
+        for end in range(start + 1, min(start + MOST_WORDS, len(words)) + 1):
+            yield from _read(" ".join(words[start:end]))
+    camel = re.findall(r"[A-Z][a-z]+", re.sub(r"^k_?[A-Za-z](?=[A-Z])", "", name))
+    yield from _read(" ".join(camel))
+
+
+def _read(text: str) -> Iterator[Measure]:
+    bare = text.strip(" ,;:.![]")
+    for one in dict.fromkeys((bare, bare.strip("()"))):
+        try:
+            found = read_unit(one)
+        except NotAUnitError:
+            continue
+        if any(found.powers):
+            yield found
+
+
+def judged(comment: str, unit: str, *, name: str = "") -> bool | None:
+    """Whether a comment tells a unit: yes, no, or None where it tells another one of its kind."""
+    wanted = read_unit(unit)
+    alike = [one for one in units_of(comment, name) if one.powers == wanted.powers]
+    if any(math.isclose(one.factor, wanted.factor, rel_tol=1e-6) for one in alike):
+        return True
+    return None if alike else False

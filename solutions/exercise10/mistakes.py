@@ -1,0 +1,174 @@
+"""Wrong answers to exercise 10, and what a learner must be told about each."""
+
+import re
+from collections.abc import Callable
+
+from grader.mistake import Mistake, replacing
+
+JAVA, PYTHON = "ExampleMechanism.java", "example_mechanism.py"
+CLASS = r"(SimpleMotor|Elevator|Arm)Feedforward"
+CONVERTED = " * CONVERSION"
+
+
+def changed(pattern: str, new: str | Callable[[re.Match[str]], str]) -> Callable[[str], str]:
+    """Make a wrong text by changing whatever a pattern finds."""
+
+    def make(text: str) -> str:
+        wrong = re.sub(pattern, new, text, flags=re.MULTILINE)
+        if wrong == text:
+            raise ValueError(f"the solution no longer contains {pattern!r}")
+        return wrong
+
+    return make
+
+
+def valued(gain: str, change: Callable[[str], str]) -> Callable[[str], str]:
+    """Make a wrong text by writing another value beside a gain's name."""
+    return changed(rf"(\b{gain} = )([^;#\n]*[^;#\s])", lambda one: one[1] + change(one[2]))
+
+
+def other_class(text: str) -> str:
+    """Take a class that is made for another mechanism."""
+    made = "Elevator" if "new Arm" in text else "Arm"
+    right = re.search(rf"new {CLASS}", text)
+    if right is None:
+        raise ValueError("the solution makes no feedforward")
+    return re.sub(rf"(private final |new ){CLASS}", rf"\g<1>{made}Feedforward", text)
+
+
+def by_the_alphabet(text: str) -> str:
+    """Hand the gains over by the alphabet."""
+    return re.sub(r"(Feedforward\w*)\((.*)\)", lambda one: f"{one[1]}({_sorted(one[2])})", text)
+
+
+def _sorted(arguments: str) -> str:
+    return ", ".join(sorted(arguments.split(", ")))
+
+
+def other_output(text: str) -> str:
+    """Take volts for a duty cycle, or the other way round."""
+    if "CONVERSION / 12" in text:
+        return text.replace("CONVERSION / 12", "CONVERSION")
+    return re.sub(r"(kP = \S+ \* CONVERSION)", r"\1 / 12", text)
+
+
+SWAPPED = replacing((".kV, CharacterizationConstants.kA", ".kA, CharacterizationConstants.kV"))
+
+MISTAKES = (
+    Mistake(
+        "gains as the analyzer shows them",
+        JAVA,
+        valued("kV", lambda value: value.removesuffix(CONVERTED)),
+        "conversion",
+        "as the analyzer shows it",
+        "M-UNITS",
+    ),
+    Mistake(
+        "a unit in the comment that is not the number's",
+        JAVA,
+        valued("kA", lambda value: value.removesuffix(CONVERTED)),
+        "units",
+        "not the one of this number",
+        "M-UNITS",
+    ),
+    Mistake(
+        "converted the wrong way round",
+        PYTHON,
+        valued("kV", lambda value: value.replace("*", "/")),
+        "kv",
+        "converted the wrong way round",
+        "M-UNITS",
+    ),
+    Mistake(
+        "the seconds' square on the unit of length",
+        JAVA,
+        valued("kA", lambda value: value + CONVERTED),
+        "ka",
+        "converted twice",
+        "M-UNITS",
+    ),
+    Mistake(
+        "converted in the constant and once more where it is used",
+        PYTHON,
+        changed(r"Constants\.kV", "Constants.kV * CharacterizationConstants.CONVERSION"),
+        "conversion",
+        "converted twice, in the constant",
+        "M-UNITS",
+    ),
+    Mistake(
+        "kS converted as well",
+        PYTHON,
+        valued("kS", lambda value: value + CONVERTED),
+        "volts",
+        "volts stay volts",
+        "M-UNITS",
+    ),
+    Mistake(
+        "kV as a share of the battery",
+        JAVA,
+        valued("kV", lambda value: value + " / 12"),
+        "kv",
+        "12 times off",
+        "M-DUTY",
+    ),
+    Mistake("kV and kA exchanged", JAVA, SWAPPED, "order", "kA stands where", "M-ARGORDER"),
+    Mistake("kV and kA exchanged, Python", PYTHON, SWAPPED, "order", "expects kV", "M-ARGORDER"),
+    Mistake(
+        "gains by the alphabet", JAVA, by_the_alphabet, "order", "kA stands where", "M-ARGORDER"
+    ),
+    Mistake(
+        "no kA",
+        PYTHON,
+        changed(r", CharacterizationConstants\.kA\)", ")"),
+        "order",
+        "What is left out counts as 0",
+    ),
+    Mistake("another mechanism's class", JAVA, other_class, "feedforward", "What did the analyzer"),
+    Mistake(
+        "no feedforward",
+        PYTHON,
+        changed(r"^.*wpimath\.controller\.\w+\(.*\n", "        pass\n"),
+        "feedforward",
+        "no feedforward is made",
+    ),
+    Mistake("no units", JAVA, changed(r" // V.*$", ""), "units", "no unit of kS"),
+    Mistake("no units, Python", PYTHON, changed(r"  # V·s/.*$", ""), "units", "no unit of kV"),
+    Mistake(
+        "kP as it was suggested",
+        JAVA,
+        valued("kP", lambda value: value.split(" ")[0]),
+        "kp",
+        "as the analyzer shows it",
+        "M-UNITS",
+    ),
+    Mistake("kP for another output", PYTHON, other_output, "kp", "the output is not", "M-DUTY"),
+    Mistake(
+        "kP as the last word",
+        JAVA,
+        replacing(("the analyzer's suggestion: start here, then tune", "proportional gain")),
+        "kp",
+        "Is this its last word?",
+    ),
+    Mistake(
+        "a kP that only running the code could tell",
+        PYTHON,
+        valued("kP", lambda _: "load_gain()"),
+        "kp",
+        "I cannot tell the number by reading",
+    ),
+    Mistake("no kA anywhere", PYTHON, changed(r"^    kA = .*\n", ""), "named", "no kA"),
+    Mistake(
+        "half by dividing whole numbers",
+        JAVA,
+        valued("kS", lambda _: "1 / 4"),
+        "volts",
+        "Whole numbers divide",
+    ),
+    Mistake(
+        "a class of another name",
+        PYTHON,
+        replacing(("CharacterizationConstants", "Gains")),
+        "named",
+        "is not in CharacterizationConstants",
+    ),
+)
