@@ -2,7 +2,8 @@
 
     python tests/benchmarks/bench_grade.py [times]
 
-Aims: help within 0.2 s, exercise 4 within 0.5 s.
+Aims: help within 0.2 s, exercise 4 within 0.4 s, exercise 9 within 1.5 s: with a function that fits
+five logs in a process of its own.
 """
 
 import shutil
@@ -23,6 +24,7 @@ COMMANDS = (
     ["exercise4", "solutions/exercise4/example_subsystem.py", "--json"],
     ["exercise9"],
     ["exercise9", "--json"],
+    ["exercise9", "solutions/exercise9/fit.py"],
     ["start", "--no-lab"],
 )
 
@@ -31,6 +33,7 @@ def course(folder: Path) -> None:
     """Lay out a course of its own, so that nobody's progress is touched."""
     for name in ("exercises", "solutions"):
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("data"))
+    shutil.copy(folder / "exercises/exercise9/answers.toml", folder / "solutions/exercise9")
     (folder / "lessons").mkdir()
 
 
