@@ -4,6 +4,7 @@ import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from grader.issued import Issued, issued
 from grader.variant import folder_name
 from sim.errors import BadRequest
 
@@ -21,6 +22,7 @@ def hand_out(
     """Write a learner's own files into ``data/<student>`` of an exercise.
 
     Files that are there as they were made stay untouched; others are made anew, and it is said.
+    What a class issued is never made here: only its instructor can draw it.
 
     Args:
         files: name -> its text, its bytes, or what writes it to a path.
@@ -30,9 +32,13 @@ def hand_out(
         say: shows a line.
 
     Raises:
-        BadRequest: they cannot be written.
+        BadRequest: they cannot be written, or a class issued them and they are gone.
     """
     folder = exercise / "data" / folder_name(student)
+    of_class = issued(exercise.parents[1])
+    if of_class and of_class.is_for(student):
+        _whole(files, folder, of_class)
+        return
     place = (folder / next(iter(files))).relative_to(exercise.parents[1]).as_posix()
     there = any((folder / name).is_file() for name in files)
     try:
@@ -50,6 +56,16 @@ def hand_out(
         say(f"Your {what} {was} no longer as made; written anew: {place}")
     elif any(news):
         say(f"Your own {what} for exercise {number}: {place}")
+
+
+def _whole(files: Mapping[str, Made], folder: Path, of_class: Issued) -> None:
+    for name in files:
+        if not (folder / name).is_file():
+            raise BadRequest(
+                f"{name} is missing, and only {of_class.name} can make it",
+                where=str(folder),
+                advice="Unpack your class's zip file once more.",
+            )
 
 
 def _put(made: Made, path: Path) -> bool:

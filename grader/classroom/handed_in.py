@@ -4,6 +4,7 @@ In each of them a file belongs to the exercise whose name its folder has, howeve
 that is called as in one exercise only needs no folder.
 """
 
+import hashlib
 import os
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -17,6 +18,7 @@ from sim.errors import BadRequest, Refusal
 
 MOST_SEEN = 20_000  # [entries] of one student's: a whole robot project with its build has fewer
 MOST_FILES = 40  # for one exercise
+SHOWN = 40  # [characters] of a name that is none
 OURS = {"README.md", "hints.toml", "checks.py"}  # of the exercise, whatever a student did to them
 NOT_THEIRS = {"data", "__pycache__", "__MACOSX", ".git", ".gradle", "build"}
 
@@ -94,13 +96,20 @@ def find_one(place: Path, exercises: Sequence[Exercise], *, student: str | None 
     try:
         student = student_name(name)
     except Refusal as refusal:
-        return HandedIn(name, place, problem=str(refusal))
+        return HandedIn(_stand_in(name), place, problem=str(refusal))
     try:
         reads = _of_zip(place) if place.is_file() else _of_folder(place)
         return HandedIn(student, place, _sorted_out(reads, exercises))
     except (OSError, zipfile.BadZipFile, RuntimeError, NotImplementedError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
         return HandedIn(student, place, problem=f"{place.name} cannot be read: {reason}")
+
+
+def _stand_in(name: str) -> str:
+    """A name to be shown for one that is none: what can be seen of it, and not too long."""
+    seen = "".join(sign if sign.isprintable() else "?" for sign in name)
+    mark = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:8]
+    return f"{seen[:SHOWN]}… ({mark})"
 
 
 @dataclass(frozen=True)

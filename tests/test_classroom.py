@@ -1,0 +1,292 @@
+"""A class: what is handed in is found, graded once, the same by any number of workers, and kept."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+import zipfile
+from pathlib import Path
+
+import pytest
+from small_course import HALF, RIGHT, lay_out
+
+from grader.classroom.handed_in import find_all, find_one
+from grader.classroom.roster import members
+from grader.classroom.run import Class, grade_all, plan
+from grader.classroom.store import Store
+from grader.cli import run
+from grader.exercise import exercises
+from sim.errors import BadRequest
+
+ROOT = Path(__file__).resolve().parents[1]
+BOOM = 'size = "boom"\n'  # the small course's check breaks on it
+KILLS = '''
+"""An exercise whose check brings its process down, and takes its time before."""
+import os, time
+from grader.check import check
+from grader.submission import read_answers
+FILES = ("answers.toml",)
+
+def read(path, *, student):
+    answers = read_answers(path)
+    if answers.get("kill"):
+        os._exit(3)
+    time.sleep(answers.get("wait", 0))
+    return answers
+
+@check(points=1)
+def there(answers):
+    """Something is there."""
+'''
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A small course, in whose folder the command runs."""
+    lay_out(tmp_path / "course")
+    monkeypatch.chdir(tmp_path / "course")
+    monkeypatch.delenv("SYSID_SECRET", raising=False)
+    return tmp_path / "course"
+
+
+def hand_in(folder, **answers):
+    """A folder for each student, with an answer to exercise 1."""
+    for student, text in answers.items():
+        place = folder / student / "exercise1"
+        place.mkdir(parents=True)
+        (place / "answers.toml").write_text(text, encoding="utf-8")
+    return folder
+
+
+def graded(folder, name):
+    return json.loads((folder / "results" / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def contents(folder):
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def test_every_student_gets_their_points_and_one_that_breaks_stops_nobody(course, tmp_path, capsys):
+    there = hand_in(tmp_path / "in", ann=RIGHT, ben=HALF, cat=BOOM, dan="size = [", eve=RIGHT)
+
+    assert run(["class", str(there)]) == 1  # two could not be graded
+    said = capsys.readouterr()
+    rows = (tmp_path / "in-graded" / "gradebook.csv").read_text("utf-8-sig").splitlines()
+
+    assert rows == [
+        "student,exercise1,total,of,not graded",
+        "ann,3,3,3,",
+        "ben,2.5,2.5,3,",
+        "cat,0,0,3,exercise1",
+        "dan,0,0,3,exercise1",
+        "eve,3,3,3,",
+    ]
+    assert "something of 2 students could not be graded" in said.err
+    assert "KeyError" in graded(tmp_path / "in-graded", "cat")["records"][0]["reason"]
+    assert course.is_dir()
+
+
+@pytest.mark.usefixtures("course")
+def test_the_same_class_is_graded_the_same_by_one_and_by_four_workers(tmp_path):
+    many = {f"student{number:02d}": (RIGHT, HALF, "size = 1\n")[number % 3] for number in range(20)}
+    there = hand_in(tmp_path / "in", **many)
+    exports = [word for name in ("canvas", "github", "gradescope", "junit") for word in
+               ("--export", name)]  # fmt: skip
+    found = []
+    for name, processes in (("one", "1"), ("four", "4"), ("again", "1")):
+        out = tmp_path / name
+        command = ["class", str(there), "-o", str(out), "--processes", processes, *exports]
+        assert run(command) == 0
+        found.append(contents(out))
+
+    assert len(found[0]) == 20 * 4 + 4  # results, pages, two exports; index, gradebook, …
+    assert found[0] == found[1] == found[2]
+
+
+def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_path):
+    there = hand_in(tmp_path / "in", ann=RIGHT, ben=HALF)
+    store = Store(tmp_path / "out")
+
+    def left(*, secret=None, again=False):
+        work = Class(find_all(there, exercises(course)), exercises(course), course, secret)
+        todo = plan(work, store, travel=False, again=again)
+        grade_all(work, todo, store, processes=1, cluster=None, say=lambda: None)
+        return [job.student for job in todo.todo]
+
+    assert left() == ["ann", "ben"]
+    assert left() == []
+    (there / "ben" / "exercise1" / "answers.toml").write_text(RIGHT, encoding="utf-8")
+    assert left() == ["ben"]
+    (tmp_path / "out" / "results" / "ann.json").write_text("{", encoding="utf-8")
+    assert left() == ["ann"]
+    assert left(secret=b"another class's") == ["ann", "ben"]
+    assert left(secret=b"another class's", again=True) == ["ann", "ben"]
+    checks = course / "exercises" / "exercise1" / "checks.py"
+    checks.write_text(checks.read_text("utf-8") + "\n# another course\n", encoding="utf-8")
+    assert left(secret=b"another class's") == ["ann", "ben"]
+
+
+@pytest.mark.usefixtures("course")
+def test_who_brings_the_grading_process_down_is_found_out_and_bears_it_alone(course, tmp_path):
+    (course / "exercises" / "exercise1" / "checks.py").write_text(KILLS, encoding="utf-8")
+    many = {f"student{number}": "size = 3\n" for number in range(8)}
+    there = hand_in(tmp_path / "in", **many, villain="kill = true\n")
+
+    assert run(["class", str(there), "--processes", "2"]) == 1
+    scores = {
+        name: graded(tmp_path / "in-graded", name)["records"][0]["score"]
+        for name in (*many, "villain")
+    }
+
+    assert scores == {**dict.fromkeys(many, 1.0), "villain": 0.0}
+    reason = graded(tmp_path / "in-graded", "villain")["records"][0]["reason"]
+    assert "came to an end" in reason
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a process cannot be sent SIGKILL on Windows")
+def test_a_killed_run_goes_on_where_it_was(course, tmp_path):
+    (course / "exercises" / "exercise1" / "checks.py").write_text(KILLS, encoding="utf-8")
+    many = {f"student{number}": "wait = 0.3\n" for number in range(6)}
+    there = hand_in(tmp_path / "in", **many)
+    command = [sys.executable, "-c", "from grader.cli import main; main()", "class", str(there)]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    running = subprocess.Popen([*command, "--processes", "1"], cwd=course, env=environment)
+    results = tmp_path / "in-graded" / "results"
+    while not results.is_dir() or len(list(results.glob("*.json"))) < 2:
+        time.sleep(0.02)
+    running.send_signal(signal.SIGKILL)
+    running.wait()
+    kept = {path: path.stat().st_mtime_ns for path in results.glob("*.json")}
+
+    assert 2 <= len(kept) < 6
+    assert run(["class", str(there), "--processes", "1"]) == 0
+    assert {path: path.stat().st_mtime_ns for path in kept} == kept
+    assert len(list(results.glob("*.json"))) == 6
+
+
+def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
+    place = tmp_path / "in"
+    place.mkdir()
+    deep = place / "ann" / "My Robot" / "exercises" / "Exercise1"
+    deep.mkdir(parents=True)
+    (deep / "answers.toml").write_text(RIGHT, encoding="utf-8")
+    (deep / "checks.py").write_text("raise SystemExit", encoding="utf-8")
+    (deep / "data").mkdir()
+    (deep / "data" / "answers.toml").write_text("size = 0\n", encoding="utf-8")
+    with zipfile.ZipFile(place / "ben.zip", "w") as archive:
+        archive.writestr("course\\exercises\\exercise1\\answers.toml", HALF)
+        archive.writestr("../../exercise1/answers.toml", "size = 0\n")
+    (place / "cat").mkdir()
+    (place / "cat" / "answers.toml").write_text(RIGHT, encoding="utf-8")  # only one has this name
+    (place / "dan.zip").write_bytes(b"PK\x03\x04 not quite")
+    (place / ".DS_Store").write_bytes(b"")
+    (place / "__MACOSX").mkdir()
+    found = {one.student: one for one in find_all(place, exercises(course))}
+
+    assert found["ann"].files == {"exercise1": {"answers.toml": RIGHT.encode()}}
+    assert found["ben"].files == {"exercise1": {"answers.toml": b"size = 0\n"}}
+    assert found["cat"].files == {"exercise1": {"answers.toml": RIGHT.encode()}}
+    assert "cannot be read" in found["dan"].problem
+    assert set(found) == {"ann", "ben", "cat", "dan"}
+
+
+@pytest.mark.usefixtures("course")
+def test_a_folder_whose_name_is_no_students_is_said_and_stops_nobody(tmp_path):
+    there = hand_in(tmp_path / "in", ann=RIGHT, **{"x" * 100: RIGHT})
+
+    assert run(["class", str(there)]) == 1
+    text = (tmp_path / "in-graded" / "index.html").read_text("utf-8")
+    assert "the student&#39;s name has 100 characters" in text
+    assert len(list((tmp_path / "in-graded" / "students").iterdir())) == 2
+
+
+@pytest.mark.skipif(not hasattr(os, "symlink") or os.name == "nt", reason="links need a right")
+def test_a_link_is_nobodys_answer(course, tmp_path):
+    place = tmp_path / "in" / "ann" / "exercise1"
+    place.mkdir(parents=True)
+    (tmp_path / "key.toml").write_text(RIGHT, encoding="utf-8")
+    (place / "answers.toml").symlink_to(tmp_path / "key.toml")
+
+    assert find_one(tmp_path / "in" / "ann", exercises(course)).files == {}
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda _: None, "there is no such folder"),
+        (lambda place: place.mkdir(), "nobody handed anything in"),
+        (lambda place: hand_in(place, ann=RIGHT, ANN=RIGHT), "are one student's"),
+    ],
+    ids=["no-folder", "empty", "twins"],
+)
+@pytest.mark.usefixtures("course")
+def test_a_class_that_cannot_be_graded_is_one_line(tmp_path, capsys, make, said):
+    make(tmp_path / "in")
+
+    assert run(["class", str(tmp_path / "in")]) == 2
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.usefixtures("course")
+def test_an_unknown_format_and_exercise_are_one_line(tmp_path, capsys):
+    there = hand_in(tmp_path / "in", ann=RIGHT)
+
+    assert run(["class", str(there), "--export", "moodle"]) == 2
+    assert "canvas, github, gradebook, gradescope, junit" in capsys.readouterr().err
+    assert run(["class", str(there), "--exercise", "7"]) == 2
+    assert "there is no exercise '7'" in capsys.readouterr().err
+
+
+@pytest.mark.usefixtures("course")
+def test_a_roster_lists_who_is_absent_and_who_is_a_stranger(tmp_path, capsys):
+    there = hand_in(tmp_path / "in", ann=RIGHT, stranger=RIGHT)
+    roster = tmp_path / "roster.csv"
+    roster.write_text("team;Student\n1;Ann\n1;Zoë\n", encoding="utf-8-sig")
+
+    assert run(["class", str(there), "--roster", str(roster)]) == 0
+    rows = (tmp_path / "in-graded" / "gradebook.csv").read_text("utf-8-sig").splitlines()
+    points = dict(row.split(",")[:2] for row in rows[1:])
+    assert points == {"Ann": "3", "stranger": "3", "Zoë": "0"}
+    assert "not on the roster, graded all the same: stranger" in capsys.readouterr().err
+
+
+def test_canvas_own_export_is_a_roster(tmp_path):
+    path = tmp_path / "canvas.csv"
+    path.write_text(
+        "Student,ID,SIS User ID,SIS Login ID,Section\n    Points Possible,,,,\n"
+        '"Lee, Ann",17,s17,ann,A\n',
+        encoding="utf-8",
+    )
+
+    row = members(path).rows["ann"]
+    assert (row["Student"], row["ID"], row["SIS User ID"], row["Section"]) == (
+        "Lee, Ann", "17", "s17", "A",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("who\nann\n", "no column with the students"), ("student\nann\nANN\n", "are one student")],
+)
+def test_a_roster_of_nobody_or_of_twins_is_refused(tmp_path, text, said):
+    (tmp_path / "roster.csv").write_text(text, encoding="utf-8")
+
+    with pytest.raises(BadRequest, match=said):
+        members(tmp_path / "roster.csv")
+
+
+@pytest.mark.usefixtures("course")
+def test_one_student_alone_is_graded_as_an_autograder_does_it(tmp_path):
+    there = hand_in(tmp_path / "in", submission=HALF) / "submission"
+    out = tmp_path / "out"
+    command = ["class", str(there), "--student", "ann", "-o", str(out), "--export", "gradescope"]
+
+    assert run(command) == 0
+    result = json.loads((out / "gradescope" / "ann" / "results.json").read_text("utf-8"))
+    assert sum(test["score"] for test in result["tests"]) == 2.5

@@ -1,0 +1,200 @@
+"""What students get: no solutions, no keys, nothing that lets a class's numbers be drawn again."""
+
+import io
+import tomllib
+import zipfile
+
+import pytest
+
+from grader.classroom.bundle import bundle
+from grader.cli import run
+from grader.course import find_course
+from grader.exercise import find
+from grader.issued import issued
+from grader.release import Package, broken_seals, common, own
+from grader.variant import of_class
+from sim.errors import BadRequest
+
+SECRET = b"0123456789abcdef-east"
+PRIVATE = ("solutions/", "tests/", ".git", ".ci/", ".course", "__pycache__", "/data/")
+
+
+@pytest.fixture(scope="module")
+def course(root):
+    return find_course(root)
+
+
+@pytest.fixture(scope="module")
+def packed(course):
+    return bundle(course)
+
+
+@pytest.fixture(scope="module")
+def anns(packed):
+    """What ann gets, unpacked: name -> content."""
+    student, content = own(Package("ann", SECRET, "East", packed))
+    assert student == "ann"
+    return read(content)
+
+
+def read(content):
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def lay_out(folder, *packages):
+    for files in packages:
+        for name, content in files.items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+    return folder / "course"
+
+
+def test_the_common_package_holds_the_course_and_nothing_private(course):
+    files = read(common(course))
+
+    for name in ("README.md", "pyproject.toml", "grader/__main__.py", "sim/log.py"):
+        assert f"course/{name}" in files
+    assert "course/exercises/exercise4/README.md" in files
+    assert any(name.startswith("course/lessons/") for name in files)
+    assert [name for name in files for part in PRIVATE if part in name] == []
+    assert [name for name in files if "mistakes" in name or "solve.py" in name] == []
+
+
+def test_a_students_package_holds_data_and_seals_and_no_secret(anns):
+    told = tomllib.loads(anns["course/.course/class.toml"].decode())
+
+    assert (told["class"], told["student"]) == ("East", "ann")
+    assert {f"course/{name}" for name in told["sealed"]} == anns.keys() - {
+        "course/.course/class.toml"
+    }
+    assert "exercises/exercise9/data/ann/log.csv" in told["sealed"]
+    assert not any(SECRET in content for content in anns.values())
+
+
+def test_a_class_has_numbers_of_its_own_and_the_same_again(packed, anns):
+    again = read(own(Package("ann", SECRET, "East", packed))[1])
+    west = read(own(Package("ann", SECRET + b"!", "East", packed))[1])
+    ben = read(own(Package("ben", SECRET, "East", packed))[1])
+    log = "course/exercises/exercise9/data/ann/log.csv"
+
+    assert again == anns
+    assert west[log] != anns[log]
+    assert ben[log.replace("/ann/", "/ben/")] != anns[log]
+
+
+def test_where_a_class_issued_numbers_only_its_instructor_can_grade_them(
+    course, anns, tmp_path, monkeypatch, capsys
+):
+    place = lay_out(tmp_path, read(common(course)), anns)
+    monkeypatch.chdir(place)
+    answers = place / "exercises" / "exercise9" / "answers.toml"
+    answers.write_text('kS = 0.1\nkV = ""\n', encoding="utf-8")
+    log = place / "exercises" / "exercise9" / "data" / "ann" / "log.csv"
+    before = log.read_bytes()
+    (place / ".course" / "progress.toml").write_text('student = "ann"\n', encoding="utf-8")
+
+    assert run(["9"]) == 2
+    said = capsys.readouterr()
+    assert "answers.toml: 1 of 2 answered\n  kS = 0.1" in said.out
+    assert "on numbers of East, which only your instructor can grade. Hand it in." in said.err
+    assert run(["start", "--no-lab"]) == 0
+    assert log.read_bytes() == before  # nothing is drawn over what the class issued
+    log.unlink()
+    assert run(["start", "--no-lab"]) == 2
+    assert "log.csv is missing, and only East can make it" in capsys.readouterr().err
+    log.write_bytes(before)
+    assert run(["9", "--student", "practice"]) == 1  # other numbers, with feedback
+    assert log.read_bytes() == before
+    assert run(["4"]) == 1  # the same task for everybody is graded anywhere
+
+
+def test_the_instructor_grades_what_the_class_issued(course, anns, tmp_path, monkeypatch):
+    """The truth drawn with the secret is what the student's data were made from."""
+    monkeypatch.chdir(course)
+    exercise = find("9", course)
+    with of_class(SECRET):
+        right = exercise.module.draw("ann").asked
+    text = "".join(f"{name} = {one.expected:.6g}\n" for name, one in right.items())
+    for folder in ("in", "in2"):
+        (tmp_path / folder / "ann" / "exercise9").mkdir(parents=True)
+        (tmp_path / folder / "ann" / "exercise9" / "answers.toml").write_text(text, "utf-8")
+    secret = tmp_path / "class.secret"
+    secret.write_bytes(SECRET + b"\n")
+    command = ["class", str(tmp_path / "in"), "--exercise", "9", "--secret", str(secret)]
+    alone = ["class", str(tmp_path / "in2"), "--exercise", "9"]
+
+    def points(folder):
+        rows = (tmp_path / folder / "gradebook.csv").read_text("utf-8-sig").splitlines()
+        return float(rows[1].split(",")[1])
+
+    assert run(command) == 0
+    assert run(alone) == 0
+    assert points("in-graded") >= 4  # kS, kV and kA
+    assert points("in2-graded") < 4
+    assert "course/exercises/exercise9/data/ann/log.csv" in anns
+
+
+def test_a_seal_tells_what_was_changed_or_is_somebody_elses(course, anns, tmp_path, capsys):
+    place = lay_out(tmp_path, anns)
+    secret = tmp_path / "class.secret"
+    secret.write_bytes(SECRET)
+    command = ["release", "--check", str(place), "--secret", str(secret)]
+
+    assert run(command) == 0
+    log = place / "exercises" / "exercise9" / "data" / "ann" / "log.csv"
+    log.write_bytes(log.read_bytes() + b"\n")
+    assert run(command) == 1
+    assert "exercises/exercise9/data/ann/log.csv: not as it was issued" in capsys.readouterr().out
+    assert len(broken_seals(place, issued(place), secret=SECRET + b"!")) == len(anns) - 1
+    assert course.is_dir()
+
+
+@pytest.fixture
+def empty_course(tmp_path, monkeypatch):
+    """A course with nothing in it, a roster, and a secret that is too short."""
+    monkeypatch.delenv("SYSID_SECRET", raising=False)
+    (tmp_path / "short").write_bytes(b"abc")
+    (tmp_path / "r.csv").write_text("student\nann\n", encoding="utf-8")
+    (tmp_path / "in" / "ann").mkdir(parents=True)
+    for name in ("exercises", "lessons"):
+        (tmp_path / name).mkdir()
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.usefixtures("empty_course")
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (["release"], "Say where: grade release -o FOLDER"),
+        (["release", "-o", "out", "--roster", "r.csv"], "numbers for a class need a secret"),
+        (["release", "-o", "out", "--roster", "r.csv", "--secret", "out/s"], "be given away"),
+        (["release", "--check", "."], "no secret was named"),
+        (["release", "--check", ".", "--secret", "short"], "fewer than 16 characters"),
+        (["class", "in", "--secret", "nowhere"], "the secret is not there"),
+    ],
+)
+def test_what_cannot_be_released_is_one_line(capsys, command, said):
+    assert run(command) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_half_a_course_is_not_released(tmp_path):
+    with pytest.raises(BadRequest, match="not the whole course"):
+        common(tmp_path)
+
+
+def test_a_secret_is_made_once_for_its_owner_only(course, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(course)
+    (tmp_path / "r.csv").write_text("student\nann\n", encoding="utf-8")
+    secret = tmp_path / "class.secret"
+    command = ["release", "-o", str(tmp_path / "out"), "--roster", str(tmp_path / "r.csv"),
+               "--secret", str(secret)]  # fmt: skip
+
+    assert run(command) == 0
+    assert "a new secret. Keep it" in capsys.readouterr().err
+    kept, first = secret.read_bytes(), (tmp_path / "out" / "students" / "ann.zip").read_bytes()
+    assert run(command) == 0
+    assert secret.read_bytes() == kept
+    assert (tmp_path / "out" / "students" / "ann.zip").read_bytes() == first

@@ -1,0 +1,114 @@
+"""The answer graded at each saving; a machine looked over; grades for listening."""
+
+import pytest
+from small_course import HALF, RIGHT, answer, lay_out
+
+from grader import doctor
+from grader.cli import run
+from grader.exercise import exercises
+from grader.watch import watch
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A small course, in whose folder the command runs."""
+    lay_out(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def saves(course, *texts):
+    """Somebody who saves one text after another while the watch waits."""
+    left = list(texts)
+
+    def wait(_seconds):
+        if not left:
+            raise KeyboardInterrupt
+        text = left.pop(0)
+        if text:
+            answer(course, text)
+
+    return wait
+
+
+def test_each_saving_is_graded_until_all_is_right(course, monkeypatch, capsys):
+    monkeypatch.setattr("time.sleep", saves(course, "", "", HALF, "size = [\n", RIGHT))
+    monkeypatch.setattr("grader.watch.watch.__kwdefaults__", {"wait": __import__("time").sleep})
+
+    assert run(["watch"]) == 0
+    said = capsys.readouterr()
+    assert [line for line in said.out.splitlines() if " points, " in line] == [
+        "✗ exercise1: 0 of 3 points, not all right yet  (answers.toml)",
+        "✗ exercise1: 2.5 of 3 points, not all right yet  (answers.toml)",
+        "✓ exercise1: 3 of 3 points, all right  (answers.toml)",
+    ]
+    assert "cannot be read" in said.err  # half a file, saved on the way
+    assert "Waiting for exercises/exercise1/answers.toml to be saved" in said.out
+    assert said.out.endswith("Everything here is done.\n")
+
+
+def test_the_watch_ends_at_once_when_asked(course):
+    (one,) = exercises(course)
+    grades = []
+
+    with pytest.raises(KeyboardInterrupt):
+        watch(one, grade=lambda: grades.append(1) or 1, wait=saves(course))
+    assert grades == [1]
+
+
+def test_a_file_that_is_away_for_a_moment_is_waited_for(course):
+    (one,) = exercises(course)
+    path = one.folder / "answers.toml"
+    codes = [1, 1, 0]
+    steps = [path.unlink, lambda: answer(course, RIGHT)]
+
+    assert watch(one, grade=lambda: codes.pop(0), wait=lambda _: steps.pop(0)()) == 0
+    assert codes == []
+
+
+def test_a_grade_can_be_listened_to(course, capsys):
+    answer(course, HALF)
+    run(["1", "--plain"])
+    out = capsys.readouterr().out
+
+    assert out.splitlines()[:3] == [
+        "not right yet: exercise1: 2.5 of 3 points, not all right yet  (answers.toml)",
+        "",
+        "right: The size is 3, 2 of 2 points",
+    ]
+    assert not set("✓✗–") & set(out)
+    run(["--plain"])
+    assert "exercise1, Measure: 2.5 of 3\n" in capsys.readouterr().out
+
+
+def test_a_finished_exercise_shows_where_the_solution_is(course, capsys):
+    answer(course, RIGHT)
+    run(["1"])
+    assert "for comparison" not in capsys.readouterr().out  # a class's package has none
+    (course / "solutions" / "exercise1").mkdir(parents=True)
+    run(["1"])
+    assert "A solution, for comparison: solutions/exercise1" in capsys.readouterr().out
+    answer(course, HALF)
+    run(["1"])
+    assert "for comparison" not in capsys.readouterr().out
+
+
+@pytest.mark.usefixtures("course")
+def test_the_doctor_finds_this_machine_fit(capsys):
+    assert run(["doctor"]) == 0
+    out = capsys.readouterr().out
+    for what in ("Python", "packages", "simulation", "course", "learners' code", "RobotPy"):
+        assert what in out
+    assert "isolated" in out or "limited" in out
+
+
+def test_the_doctor_says_what_is_missing_and_what_to_do(course, capsys, monkeypatch):
+    monkeypatch.setattr(doctor, "NEEDED", ("numpy", "no-such-package"))
+    monkeypatch.setattr(doctor, "ROBOT", ("no-such-robot",))
+
+    assert run(["doctor"]) == 1
+    out = capsys.readouterr().out
+    assert "no-such-package missing" in out
+    assert "python -m pip install -e ." in out
+    assert "– RobotPy         not installed" in out
+    assert course.is_dir()
