@@ -1,0 +1,198 @@
+"""Exercise 6: plan four tests for each of four mechanisms, then look before they run."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.answer import Asked, Band, number
+from grader.check import Wrong, check
+from grader.given import hand_out
+from grader.submission import read_answers
+from grader.word import plain
+
+from .drawn import Variant, draw
+from .plan import Machine, Plan, dynamic, quasistatic
+from .preflight import CHOICES, judge_all, judge_choice, judge_steps
+from .rules import broken
+
+FILES = ("answers.toml",)
+FILE_MADE = "given.toml"
+HERE = Path(__file__).resolve().parent
+POINTS = 1.5  # for a mechanism's plan
+MOST = {"ramp": ("V/s", 100.0), "step": ("V", 12.0), "timeout": ("s", 600.0)}  # as SysIdRoutine's
+GAINS = {"kS": ("ks", "V"), "kG": ("kg", "V"), "kV": ("kv", "V·s/{}"), "kA": ("ka", "V·s²/{}")}
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at."""
+
+    given: Mapping[str, object]
+    variant: Variant
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Write down the learner's numbers, where they are not there as they were made."""
+    made = {FILE_MADE: _told(draw(student))}
+    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
+
+
+def _told(variant: Variant) -> str:
+    """The learner's mechanisms, and what is seen on the morning of the tests."""
+    lines = ["# Your own numbers for exercise 6. Only read here; answers go into answers.toml."]
+    for machine in variant.machines.values():
+        lines += ["", *_described(machine)]
+    morning = variant.morning
+    lines += ["", "[morning]  # what you see on the morning of the tests"]
+    lines += [f'{item} = "{seen}"' for item, seen in morning.seen.items()]
+    stick = "a USB stick, formatted as FAT32," if morning.stick else "no USB stick"
+    lines += ["", "[robot]", f'usb = "{stick} is in the roboRIO"']
+    lines += [f'{name} = "{told}"' for name, told in morning.limits.items()]
+    return "\n".join(lines) + "\n"
+
+
+def _described(machine: Machine) -> list[str]:
+    """One mechanism: gains are estimates, from the parts."""
+    unit = machine.symbol
+    lines = [f"[{machine.kind}]  # gains are estimates, worked out from the parts"]
+    for name, (field, per) in GAINS.items():
+        if value := getattr(machine, field):
+            lines.append(f"{name} = {value:g}  # [{per.format(unit)}]")
+    lines.append(f"free_speed = {machine.free:.3g}  # [{unit}/s] at 12 V")
+    if machine.travel is not None:
+        lines += [
+            f"travel = {machine.travel:g}  # [{unit}] from the start to where it must stand",
+            f"reaction = {machine.reaction:g}  # [s] from the mark to the thumb off the button",
+        ]
+    lines += [
+        f"stall_current = {machine.stall:g}  # [A] of one motor at standstill at 12 V",
+        f"current_limit = {machine.limit:g}  # [A] of one motor, set in its controller",
+        f"noise = {machine.noise:g}  # [{unit}/s] scatter of the velocity",
+    ]
+    if machine.grip:
+        lines.append(f"grip = {machine.grip:g}  # friction of the wheels on the carpet")
+    return lines
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and what they are held against.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    return Answers(given, draw(student))
+
+
+@check(points=POINTS)
+def drivetrain(answers: Answers) -> str:
+    """A plan for the drivetrain that keeps all the rules."""
+    return _planned("drivetrain", answers)
+
+
+@check(points=POINTS)
+def elevator(answers: Answers) -> str:
+    """A plan for the elevator that keeps all the rules."""
+    return _planned("elevator", answers)
+
+
+@check(points=POINTS)
+def turret(answers: Answers) -> str:
+    """A plan for the turret that keeps all the rules."""
+    return _planned("turret", answers)
+
+
+@check(points=POINTS)
+def shooter(answers: Answers) -> str:
+    """A plan for the shooter that keeps all the rules."""
+    return _planned("shooter", answers)
+
+
+def _planned(kind: str, answers: Answers) -> str:
+    """Hold a plan against the rules; a note on what it does."""
+    machine = answers.variant.machines[kind]
+    plan = _plan(machine, answers.given)
+    found = broken(machine, plan)
+    slow, fast = quasistatic(machine, plan), dynamic(machine, plan)
+    if not found:
+        run = f"{slow.rests:.2f} {machine.symbol} and {fast.rests:.2f} {machine.symbol} of run"
+        share = 100.0 * slow.fastest / machine.free
+        return f"ramp and step take {run}; the ramp gets to {share:.0f} % of the free speed"
+    codes = {one.misconception for one in found} - {""}
+    mark = "timeout" if math.isinf(plan.release) else f"{plan.release:g} {machine.symbol}"
+    raise Wrong(
+        f"{plan.ramp:g} V/s, {plan.step:g} V, {plan.timeout:g} s, let go at {mark}",
+        hint=". Also: ".join(one.says for one in found),
+        misconception=codes.pop() if len(codes) == 1 else "",
+        earned=POINTS / 2.0 if len(found) == 1 else 0.0,
+    )
+
+
+def _plan(machine: Machine, given: Mapping[str, object]) -> Plan:
+    """Read a plan.
+
+    Raises:
+        Wrong: a part of it is missing, or no robot could do it; the message names which.
+    """
+    raw = given.get(f"{machine.kind}_release")
+    never = isinstance(raw, str) and plain(raw) == "timeout"
+    values = [_positive(machine, name, given, *most) for name, most in MOST.items()]
+    mark = math.inf if never else _positive(machine, "release", given, machine.symbol, 1e6)
+    return Plan(*values, mark)
+
+
+def _positive(
+    machine: Machine, what: str, given: Mapping[str, object], unit: str, most: float
+) -> float:
+    name = f"{machine.kind}_{what}"
+    try:
+        value = number(given.get(name), Asked(name, 1.0, unit, Band(0.0, 0.0)))
+    except Wrong as wrong:
+        wrong.seen = f"{name}: {wrong.seen}"
+        wrong.hint = wrong.hint.partition(", such as")[0] + f" for {name}, in {unit}."
+        if what == "release":
+            wrong.hint += ' Or "timeout", if nobody lets go before it.'
+        raise
+    if not 0.0 < value <= most:
+        hint = f"Choose a number above 0, at most {most:g} {unit}."
+        raise Wrong(f"{name}: {value:g} {unit}", hint=hint)
+    return value
+
+
+@check(points=1)
+def checklist(answers: Answers) -> None:
+    """Six decisions on the morning of the tests: go or no-go."""
+    decisions = answers.variant.morning.decisions
+    right = {f"check_{item}": decision for item, decision in decisions.items()}
+    judge_all(answers.given, right, points=1.0)
+
+
+@check(points=1)
+def steps(answers: Answers) -> None:
+    """The four steps of system identification, in order."""
+    judge_steps(answers.given.get("steps"))
+
+
+@check(points=0.5)
+def log_2026(answers: Answers) -> None:
+    """Where your roboRIO keeps its log, season 2026."""
+    judge_choice("log_2026", answers.given, answers.variant.morning.roborio)
+
+
+@check(points=0.5)
+def log_2027(answers: Answers) -> None:
+    """Where a Systemcore keeps its log, season 2027."""
+    judge_choice("log_2027", answers.given, CHOICES["log_2027"].always)
+
+
+@check(points=0.5)
+def limits(answers: Answers) -> None:
+    """What a test does to two limits: they act, or are bypassed."""
+    judge_all(answers.given, answers.variant.morning.effects, points=0.5)
+
+
+@check(points=0.5)
+def schedule(answers: Answers) -> None:
+    """When in the season to run the tests."""
+    judge_choice("schedule", answers.given, CHOICES["schedule"].always)

@@ -1,0 +1,134 @@
+"""Four mechanisms and one morning for each learner, drawn so that every plan can be made."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from grader.variant import generator
+
+from .morning import Morning, morning
+from .plan import Machine, Plan, dynamic, quasistatic
+from .rules import GRIP, QUARTER, SIGNAL, broken
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from sim.mechanism import Mechanism
+
+LIMITS = {"krakenX60": 80.0, "neoVortex": 80.0, "neo": 60.0, "krakenX44": 60.0}  # [A]
+MOTORS = {
+    "drivetrain": ("krakenX60", "neo", "neoVortex"),
+    "elevator": ("neo", "neoVortex"),
+    "turret": ("krakenX44",),
+    "shooter": ("krakenX60",),
+}
+SPREAD = {  # where the bench's own draws have no plan: too fast for their travel
+    "elevator": {"ratio": (6.0, 9.0), "load": (9.0, 14.0)},
+    "turret": {"ratio": (80.0, 120.0), "load": (1.6, 2.6)},
+    "shooter": {"load": (0.003, 0.006)},
+}
+UNITS = {"drivetrain": "meters", "elevator": "meters", "turret": "rotations"}
+ROOM = {"drivetrain": (2.0, 3.2), "elevator": (1.2, 1.5), "turret": (1.2, 1.6)}  # [times the need]
+NOISE = {  # [units/s]
+    "drivetrain": (0.006, 0.012),
+    "elevator": (0.004, 0.008),
+    "turret": (0.003, 0.006),
+    "shooter": (0.08, 0.15),
+}
+GRIPS = (1.0, 1.1, 1.2)
+REACTION = (0.25, 0.40)  # [s]
+WIDE = 1.3  # [times] the largest step is above the smallest: room for a choice
+LASTS = 3.4  # [s] that a sound ramp moves
+BEYOND = 1.12  # [times] the wanted speed that it reaches
+MOST_DRAWS = 500  # a few are enough; so many would be our fault
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One learner's mechanisms, and the morning on which they are tested."""
+
+    machines: Mapping[str, Machine]
+    built: "Mapping[str, Mechanism]"
+    morning: Morning
+
+
+@lru_cache(maxsize=8)  # it is asked for when the numbers are made, and when they are graded
+def draw(student: str) -> Variant:
+    """A learner's mechanisms, always the same; each drawn again until a plan can be made for it."""
+    machines, built = {}, {}
+    for kind in MOTORS:
+        machines[kind], built[kind] = _feasible(student, kind)
+    return Variant(machines, built, morning(generator(student, "exercise6 morning")))
+
+
+def _feasible(student: str, kind: str) -> "tuple[Machine, Mechanism]":
+    for attempt in range(MOST_DRAWS):
+        rng = generator(student, f"exercise6 {kind}", draw=attempt)
+        built = _built(kind, rng)
+        machine = _machine(kind, built, rng)
+        low, high = steps(machine)
+        if high > WIDE * low and not broken(machine, sound(machine)):
+            return machine, built
+    raise RuntimeError(f"no plan for {kind} of {student!r}")
+
+
+def _built(kind: str, rng: "np.random.Generator") -> "Mechanism":
+    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.motors import motor  # noqa: PLC0415 - the same
+
+    plain = MECHANISMS[kind]
+    names = MOTORS[kind]
+    plain = replace(
+        plain,
+        spread={**plain.spread, **SPREAD.get(kind, {})},
+        motor=motor(names[int(rng.integers(len(names)))]),
+        travel=None,
+        lowest=None,
+    )
+    return plain.draw(rng)
+
+
+def _machine(kind: str, built: "Mechanism", rng: "np.random.Generator") -> Machine:
+    from sim.units import gains_per, unit  # noqa: PLC0415 - numpy only where it is needed
+
+    per = unit(UNITS.get(kind, "rotations"))
+    found = gains_per(built.gains, factor=per.si)
+    gains = [_rounded(found.get(name, 0.0)) for name in ("kS", "kV", "kA", "kG")]
+    machine = Machine(
+        kind,
+        per.symbol,
+        *gains,
+        travel=None,
+        stall=built.motor.stall_current,
+        limit=LIMITS[built.motor.name] * (1.5 if kind == "shooter" else 1.0),
+        noise=float(f"{rng.uniform(*NOISE[kind]):.2g}"),
+        grip=GRIPS[int(rng.integers(len(GRIPS)))] if kind == "drivetrain" else 0.0,
+        reaction=round(float(rng.uniform(*REACTION)), 2),
+    )
+    if kind not in ROOM:
+        return machine
+    need = quasistatic(machine, sound(machine)).rests * float(rng.uniform(*ROOM[kind]))
+    return replace(machine, travel=float(f"{need:.2g}"))
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.4g}")
+
+
+def steps(machine: Machine) -> tuple[float, float]:
+    """[V] the smallest and the largest step that is allowed, whatever the travel."""
+    low = machine.hold + SIGNAL * machine.scatter * machine.ka
+    return low, min(12.0 * machine.limit / machine.stall, GRIP * machine.slip)
+
+
+def sound(machine: Machine) -> Plan:
+    """A plan that keeps the rules, if there is room for one."""
+    ramp = BEYOND * QUARTER * machine.free * machine.kv / (LASTS - machine.tau)
+    step = math.sqrt(math.prod(steps(machine)))
+    timeout = machine.hold / ramp + LASTS + 0.5
+    plan = Plan(ramp, step, timeout, math.inf)
+    mark = quasistatic(machine, plan).place(LASTS - machine.reaction)
+    plan = replace(plan, release=mark)
+    return plan if dynamic(machine, plan).push else replace(plan, step=machine.hold * 2.0)

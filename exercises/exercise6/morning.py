@@ -1,0 +1,128 @@
+"""The morning of the tests: what is seen of six things, two limits, and a USB stick."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+
+SEEN: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # item -> decision -> what may be seen
+    "travel": {
+        "go": (
+            "15 m of free carpet ahead and as much behind, the ends marked with tape",
+            "nothing in the way for 12 m ahead and 12 m behind; tape on the floor",
+        ),
+        "no-go": (
+            "free carpet ahead; right behind the robot stands the table with the laptops",
+            "the robot stands on blocks, its wheels in the air",
+        ),
+    },
+    "battery": {
+        "go": ("12.8 V at rest, just off the charger", "12.6 V at rest, charged over night"),
+        "no-go": ("11.7 V at rest; it has driven since nine", "11.4 V at rest; no other at hand"),
+    },
+    "encoder": {
+        "go": (
+            "moved forward by hand, the position rises smoothly",
+            "moved back and forth by hand, the position follows smoothly",
+        ),
+        "no-go": (
+            "moved forward by hand, the position falls",
+            "moved forward by hand, the position rises, with a jump now and then",
+        ),
+    },
+    "log": {
+        "go": (
+            "AdvantageScope is open, and lists the files on the robot",
+            "the log tool is open; we have fetched yesterday's file with it",
+        ),
+        "no-go": (
+            "we will look for the file in the evening",
+            "nobody knows yet where the robot keeps it",
+        ),
+    },
+    "guard": {
+        "go": (
+            "the test buttons do nothing until the characterization switch is on",
+            "the tests are on a controller of their own, which is not plugged in for matches",
+        ),
+        "no-go": (
+            "the tests are on the driver's A, B, X and Y, at all times",
+            "a test starts when the trigger that also shoots is pressed",
+        ),
+    },
+    "driver_station": {
+        "go": (
+            "one of us sits at the Driver Station and does nothing but wait to disable",
+            "a finger is on the key that disables, and stays there",
+        ),
+        "no-go": (
+            "all of us stand at the robot, to see it better",
+            "whoever disables also holds the gamepad and reads the plot",
+        ),
+    },
+}
+LIMITS = {  # who sets it -> what a test does to it, and how it is told
+    "command": (
+        "bypassed",
+        (
+            "the elevator's own command stops raising it above 1.2 m",
+            "the default command of the drivetrain slows down near the wall",
+        ),
+    ),
+    "controller": (
+        "acts",
+        (
+            "a soft limit at 1.2 m is set in the motor controller's configuration",
+            "a current limit of 60 A is set in the motor controller's configuration",
+        ),
+    ),
+}
+FOLDERS = ("/u/logs", "/home/lvuser/logs", "/home/lvuser/deploy", "/home/systemcore/logs")
+LEAST_BAD, MOST_BAD = 2, 4  # items that say no-go
+
+
+@dataclass(frozen=True)
+class Morning:
+    """What a learner sees that morning.
+
+    Args:
+        seen: item -> what is seen.
+        decisions: item -> ``go`` or ``no-go``.
+        limits: ``limit_a`` and ``limit_b`` -> what is set.
+        effects: the same -> ``acts`` or ``bypassed``.
+        stick: whether a USB stick is in the roboRIO.
+    """
+
+    seen: Mapping[str, str]
+    decisions: Mapping[str, str]
+    limits: Mapping[str, str]
+    effects: Mapping[str, str]
+    stick: bool
+
+    @property
+    def roborio(self) -> str:
+        """Where the roboRIO keeps its log."""
+        return FOLDERS[0] if self.stick else FOLDERS[1]
+
+
+def morning(rng: "np.random.Generator") -> Morning:
+    """Draw a morning on which some things are not as they should be."""
+    items = list(SEEN)
+    bad = set(rng.permutation(items)[: int(rng.integers(LEAST_BAD, MOST_BAD + 1))].tolist())
+    decisions = {item: "no-go" if item in bad else "go" for item in items}
+    seen = {item: _one(SEEN[item][decisions[item]], rng) for item in items}
+    order = rng.permutation(list(LIMITS)).tolist()
+    names = dict(zip(("limit_a", "limit_b"), order, strict=True))
+    return Morning(
+        seen,
+        decisions,
+        {name: _one(LIMITS[who][1], rng) for name, who in names.items()},
+        {name: LIMITS[who][0] for name, who in names.items()},
+        bool(rng.integers(2)),
+    )
+
+
+def _one(of: tuple[str, ...], rng: "np.random.Generator") -> str:
+    return of[int(rng.integers(len(of)))]

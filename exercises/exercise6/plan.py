@@ -1,0 +1,176 @@
+"""What a test does to a mechanism, in closed form, from rest until it stands again.
+
+    kA·v' = c + r·t - kV·v        from the moment it moves; c volts of push, r of ramp
+    v(t) = (c·e + r·(t - τ·e))/kV                with e = 1 - exp(-t/τ), τ = kA/kV
+    x(t) = (c·(t - τ·e) + r·(t²/2 - τ·t + τ²·e))/kV
+
+A ramp moves from kS + kG on, with c = 0; a step has r = 0 and c = step - kS - kG. Left alone, with
+0 V in brake mode, it stands after τ·v - w·τ·ln(1 + v/w), with w = (kS + kG)/kV.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+BATTERY = 12.0  # [V]
+GRAVITY = 9.81  # [m/s²]
+PERIOD = 0.02  # [s] between two samples
+HALVINGS = 60  # of an interval: as exact as a number gets
+
+
+@dataclass(frozen=True)
+class Machine:
+    """What a learner knows of one mechanism.
+
+    Args:
+        kind: ``drivetrain``.
+        symbol: of its unit of position.
+        ks, kv, ka, kg: estimates [V, and V·s, V·s² for the unit].
+        travel: how far it may go; None is without end.
+        stall: [A] one motor draws at standstill at 12 V.
+        limit: [A] the motor controller lets through.
+        noise: scatter of the velocity, in units a second.
+        grip: friction of wheels on carpet; 0 where nothing can slip.
+        reaction: [s] from a mark to the thumb off the button.
+    """
+
+    kind: str
+    symbol: str
+    ks: float
+    kv: float
+    ka: float
+    kg: float
+    travel: float | None
+    stall: float
+    limit: float
+    noise: float
+    grip: float
+    reaction: float
+
+    @property
+    def tau(self) -> float:
+        """[s] in which it nearly follows its voltage."""
+        return self.ka / self.kv
+
+    @property
+    def hold(self) -> float:
+        """[V] that it needs before it moves."""
+        return self.ks + self.kg
+
+    @property
+    def free(self) -> float:
+        """The speed that a full battery reaches."""
+        return (BATTERY - self.hold) / self.kv
+
+    @property
+    def slip(self) -> float:
+        """[V] at which the wheels spin, from standstill."""
+        return self.ks + self.ka * self.grip * GRAVITY if self.grip else math.inf
+
+    @property
+    def scatter(self) -> float:
+        """Of an acceleration made from the samples before and after."""
+        return self.noise / (math.sqrt(2.0) * PERIOD)
+
+    def speed(self, push: float, ramp: float, time: float) -> float:
+        """After a time of moving [s]."""
+        e = -math.expm1(-time / self.tau)
+        return (push * e + ramp * (time - self.tau * e)) / self.kv
+
+    def place(self, push: float, ramp: float, time: float) -> float:
+        """After a time of moving [s], from where it began."""
+        e, tau = -math.expm1(-time / self.tau), self.tau
+        risen = time * time / 2.0 - tau * time + tau * tau * e
+        return (push * (time - tau * e) + ramp * risen) / self.kv
+
+    def stops_in(self, speed: float) -> float:
+        """How far it goes on with 0 V in brake mode."""
+        wall = self.hold / self.kv
+        return self.tau * (speed - wall * math.log1p(speed / wall))
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a learner chose: V/s, V, s, and the mark at which the button is let go."""
+
+    ramp: float
+    step: float
+    timeout: float
+    release: float  # infinite where nobody lets go before the timeout
+
+
+@dataclass(frozen=True)
+class Test:
+    """One test of a plan, forward.
+
+    Args:
+        machine: what moves.
+        push: [V] beyond what holds it.
+        ramp: [V/s].
+        still: [s] before it moves.
+        timeout: [s].
+        release: the mark.
+    """
+
+    __test__ = False  # no test of pytest's
+
+    machine: Machine
+    push: float
+    ramp: float
+    still: float
+    timeout: float
+    release: float
+
+    @cached_property
+    def lasts(self) -> float:
+        """[s] that it moves with a voltage on."""
+        longest = max(self.timeout - self.still, 0.0)
+        if self.place(longest) <= self.release:
+            return longest
+        return min(longest, self.when(self.place, self.release) + self.machine.reaction)
+
+    @property
+    def by_mark(self) -> bool:
+        """Whether the thumb ends it, and not the timeout."""
+        return self.lasts < self.timeout - self.still
+
+    @property
+    def fastest(self) -> float:
+        """The speed at its end."""
+        return self.speed(self.lasts)
+
+    @property
+    def rests(self) -> float:
+        """How far from its start it stands again."""
+        return self.place(self.lasts) + self.machine.stops_in(self.fastest)
+
+    def speed(self, time: float) -> float:
+        """After a time of moving [s]."""
+        return self.machine.speed(self.push, self.ramp, time)
+
+    def place(self, time: float) -> float:
+        """After a time of moving [s]."""
+        return self.machine.place(self.push, self.ramp, time)
+
+    def when(self, what: Callable[[float], float], value: float) -> float:
+        """[s] of moving after which a speed or a place is reached; they only grow."""
+        low, high = 0.0, 1.0
+        while what(high) < value:
+            high *= 2.0
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2.0
+            low, high = (low, middle) if what(middle) >= value else (middle, high)
+        return high
+
+
+def quasistatic(machine: Machine, plan: Plan) -> Test:
+    """The slow test of a plan."""
+    still = machine.hold / plan.ramp
+    return Test(machine, 0.0, plan.ramp, still, plan.timeout, plan.release)
+
+
+def dynamic(machine: Machine, plan: Plan) -> Test:
+    """The step test of a plan."""
+    push = max(plan.step - machine.hold, 0.0)
+    return Test(machine, push, 0.0, 0.0, plan.timeout, plan.release)

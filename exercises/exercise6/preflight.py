@@ -1,0 +1,140 @@
+"""Words about the morning of the tests, and what to say of a wrong one."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from grader.check import Wrong
+from grader.word import judge_word, word
+
+from .morning import FOLDERS, SEEN
+
+DECISIONS = ("go", "no-go")
+STEPS = ("wire-routine", "run-tests", "inspect-and-fit", "place-gains")
+LISTED = tuple(sorted(STEPS))
+WHY = {  # item of the checklist -> what a wrong decision overlooks
+    "travel": "what does the ramp need, forward and back, and what do the wheels push against?",
+    "battery": "a battery below 12 V at rest sags under a step, and a charged one does not.",
+    "encoder": "positive volts have to give a rising position, without jumps.",
+    "log": "what use is a test whose record nobody finds, and what speaks against one that is?",
+    "guard": "can a test be started by a thumb that means something else?",
+    "driver_station": "who can stop the robot at once, and has nothing else to do?",
+}
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A question with words to choose from.
+
+    Args:
+        words: to choose from.
+        why: wrong word -> a hint, and a misconception's code or empty.
+        always: the right word where it is the same for everybody.
+        also: other spellings.
+    """
+
+    words: tuple[str, ...]
+    why: Callable[[str], tuple[str, str]]
+    always: str = ""
+    also: Mapping[str, str] = field(default_factory=dict)
+
+
+def _decision(item: str) -> Choice:
+    says = f"{item}: {WHY[item]} Read that line of your morning once more"
+    also = {"yes": "go", "no": "no-go", "stop": "no-go"}
+    return Choice(DECISIONS, lambda _: (says, ""), also=also)
+
+
+def _folder_2026(found: str) -> tuple[str, str]:
+    if "systemcore" in found:
+        return "that is on another controller than the roboRIO", ""
+    if found.endswith("deploy"):
+        return "there your program lies, not what it writes down", ""
+    return "does your roboRIO have a USB stick? A log goes there first, if there is one", ""
+
+
+def _folder_2027(_: str) -> tuple[str, str]:
+    return "a Systemcore has another user than a roboRIO, and its home is called after it", ""
+
+
+def _limit(found: str) -> tuple[str, str]:
+    who = "who keeps this limit, and does that one still run while the test command has the motor?"
+    return who, "M-LIMITS-BYPASSED" if found == "bypassed" else ""
+
+
+def _season(found: str) -> tuple[str, str]:
+    if found == "kickoff-week":
+        return "there is no mechanism yet whose friction and weight will stay", ""
+    if found == "after-the-season":
+        return "whom would the gains help then?", ""
+    return (
+        "eight minutes between matches, a pit as large as a parking space: where is room?",
+        "",
+    )
+
+
+CHOICES: Mapping[str, Choice] = {
+    **{f"check_{item}": _decision(item) for item in SEEN},
+    "log_2026": Choice(FOLDERS, _folder_2026),
+    "log_2027": Choice(FOLDERS, _folder_2027, always="/home/systemcore/logs"),
+    "limit_a": Choice(("acts", "bypassed"), _limit),
+    "limit_b": Choice(("acts", "bypassed"), _limit),
+    "schedule": Choice(
+        ("kickoff-week", "last-two-weeks-of-build-season", "first-regional", "after-the-season"),
+        _season,
+        always="last-two-weeks-of-build-season",
+        also={"last-two-weeks": "last-two-weeks-of-build-season"},
+    ),
+}
+
+
+def judge_choice(name: str, given: Mapping[str, object], right: str) -> None:
+    """Hold a word against the right one.
+
+    Raises:
+        Wrong: it is another, or none.
+    """
+    choice = CHOICES[name]
+    try:
+        judge_word(given.get(name), right, choice.words, why=choice.why, also=choice.also)
+    except Wrong as wrong:
+        wrong.seen = f"{name}: {wrong.seen}"
+        raise
+
+
+def judge_all(given: Mapping[str, object], right: Mapping[str, str], *, points: float) -> None:
+    """Hold several words against the right ones; each earns its share.
+
+    Raises:
+        Wrong: one of them is another, or none; the first of these is told.
+    """
+    wrong = []
+    for name, expected in right.items():
+        try:
+            judge_choice(name, given, expected)
+        except Wrong as why:
+            wrong.append(why)
+    if wrong:
+        wrong[0].earned = points * (1.0 - len(wrong) / len(right))
+        raise wrong[0]
+
+
+def judge_steps(raw: object) -> None:
+    """Hold an order of the four steps against the one that works.
+
+    Raises:
+        Wrong: it is another, or no order of the four.
+    """
+    if isinstance(raw, str) and raw:
+        raw = raw.split(",")
+    ask = f"Write all four, in a list: {', '.join(LISTED)}."
+    if raw is None or raw in ("", []):
+        raise Wrong("nothing yet", hint=ask)
+    if not isinstance(raw, list):
+        raise Wrong(f"{raw}, which is not a list", hint=ask)
+    found = tuple(word(one, LISTED) for one in raw)
+    seen = ", ".join(found)
+    if sorted(found) != list(LISTED):
+        raise Wrong(seen, hint=f"each of the four once. {ask}")
+    late = next((one for one, right in zip(found, STEPS, strict=True) if one != right), "")
+    if late:
+        raise Wrong(seen, hint=f"{late} comes too early. What has to be there before it?")

@@ -1,0 +1,87 @@
+"""What a plan has to keep, each rule with its figure, and what the robot would do otherwise."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from .plan import BATTERY, Machine, Plan, Test, dynamic, quasistatic
+
+LONGEST = 10.0  # [s] of a test: the last thing that ends it when nobody does
+MOVES = 3.0  # [s] that the ramp has to move
+QUARTER = 0.25  # [share] of the free speed that it has to reach
+GRIP = 0.9  # [share] of the volts at which wheels slip
+SIGNAL = 10.0  # [times] the acceleration is above its scatter
+BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
+
+
+@dataclass(frozen=True)
+class Broken:
+    """A rule that a plan breaks: what is told, and the misconception's code, or empty."""
+
+    says: str
+    misconception: str = ""
+
+
+def broken(machine: Machine, plan: Plan) -> tuple[Broken, ...]:
+    """The rules that a plan breaks; none if it may be run."""
+    return (*_safe(machine, plan), *_tells(machine, plan))
+
+
+def _safe(machine: Machine, plan: Plan) -> Iterator[Broken]:
+    if plan.timeout > LONGEST:
+        yield Broken(f"a timeout of {plan.timeout:g} s; no test may be longer than {LONGEST:g} s")
+    slow = quasistatic(machine, plan)
+    asks = plan.ramp * (slow.still + slow.lasts)
+    if asks > BATTERY:
+        yield Broken(f"your ramp asks for {asks:.1f} V in the end; the battery has {BATTERY:g} V")
+    for name, test in (("ramp", slow), ("step", dynamic(machine, plan))):
+        if machine.travel is not None and test.rests > machine.travel:
+            yield Broken(_too_far(name, test, machine.travel))
+    amps = plan.step / BATTERY * machine.stall
+    if amps > machine.limit:
+        says = f"at standstill your step draws {amps:.0f} A; the limit is {machine.limit:g} A. The "
+        yield Broken(f"{says}controller takes volts away, and the log shows a gentler start", BIG)
+    if plan.step > GRIP * machine.slip:
+        share = 100.0 * plan.step / machine.slip
+        says = f"your step takes {share:.0f} % of the volts at which the wheels slip; at most 90 %"
+        if plan.step > machine.slip:
+            says += ". They spin, and the encoder counts meters that the robot does not go"
+        yield Broken(says, BIG)
+
+
+def _too_far(name: str, test: Test, travel: float) -> str:
+    """The run a test needs, and how it ends."""
+    symbol = test.machine.symbol
+    says = f"your {name} needs {test.rests:.2f} {symbol} of run; you have {travel:g} {symbol}. "
+    hit = test.when(test.place, travel)
+    if hit < test.lasts:
+        says += f"It hits the end at {test.speed(hit):.2f} {symbol}/s, {test.still + hit:.1f} s "
+        return says + "after the start, with the voltage still on"
+    late = "the thumb is late, and " if test.by_mark else ""
+    return f"{says}At its end it does {test.fastest:.2f} {symbol}/s: {late}it cannot stand at once"
+
+
+def _tells(machine: Machine, plan: Plan) -> Iterator[Broken]:
+    slow = quasistatic(machine, plan)
+    end = "your mark" if slow.by_mark else "the timeout"
+    if slow.lasts < MOVES:
+        yield Broken(f"your ramp moves it for {slow.lasts:.1f} s until {end}; at least {MOVES:g} s")
+    if slow.fastest < QUARTER * machine.free:
+        yield _too_slow(slow, end)
+    push = plan.step - machine.hold
+    if push <= 0.0:
+        yield Broken("your step does not move it: friction, or gravity with it, takes all of it")
+    elif push / machine.ka < SIGNAL * machine.scatter:
+        times = push / machine.ka / machine.scatter
+        says = f"your step's acceleration is {times:.1f} times its scatter; at least {SIGNAL:g}"
+        yield Broken(f"{says} times. It drowns in noise")
+
+
+def _too_slow(slow: Test, end: str) -> Broken:
+    machine = slow.machine
+    share = 100.0 * slow.fastest / machine.free
+    says = f"your ramp gets to {share:.0f} % of the free speed until {end}; at least 25 %"
+    run = slow.place(slow.when(slow.speed, QUARTER * machine.free))
+    if machine.travel is None or run <= machine.travel:
+        return Broken(says)
+    says += f". To get there, your ramp needs {run:.1f} {machine.symbol} of run; you have "
+    return Broken(f"{says}{machine.travel:g} {machine.symbol}", SLOW)

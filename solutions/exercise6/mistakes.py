@@ -1,0 +1,198 @@
+"""Wrong answers to exercise 6, and what a learner must be told about each."""
+
+from collections.abc import Callable
+
+from grader.mistake import Mistake, put, scaled
+
+ANSWERS = "answers.toml"
+BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
+
+
+def puts(**values: str) -> Callable[[str], str]:
+    """Give several lines other values, as TOML."""
+
+    def make(text: str) -> str:
+        for name, value in values.items():
+            text = put(name, value)(text)
+        return text
+
+    return make
+
+
+MORNING = ("travel", "battery", "encoder", "log", "guard", "driver_station")
+
+MISTAKES = (
+    Mistake(
+        "nothing for the ramp",
+        ANSWERS,
+        put("drivetrain_ramp", '""'),
+        "drivetrain",
+        "drivetrain_ramp: nothing yet",
+    ),
+    Mistake(
+        "a slow ramp, to be safe",
+        ANSWERS,
+        puts(drivetrain_ramp="0.1", drivetrain_timeout="10"),
+        "drivetrain",
+        "To get there, your ramp needs",
+        SLOW,
+    ),
+    Mistake(
+        "the numbers of a lesson, and no thumb",
+        ANSWERS,
+        puts(turret_ramp="0.5", turret_timeout="10", turret_release='"timeout"'),
+        "turret",
+        "It hits the end at",
+    ),
+    Mistake(
+        "the library's own step",
+        ANSWERS,
+        put("drivetrain_step", "7.0"),
+        "drivetrain",
+        "of the volts at which the wheels slip",
+        BIG,
+    ),
+    Mistake(
+        "a step beyond the current limit",
+        ANSWERS,
+        put("shooter_step", "9"),
+        "shooter",
+        "at standstill your step draws",
+        BIG,
+    ),
+    Mistake(
+        "a step that drowns in noise",
+        ANSWERS,
+        put("turret_step", "0.5"),
+        "turret",
+        "It drowns in noise",
+    ),
+    Mistake(
+        "a step that gravity eats",
+        ANSWERS,
+        put("elevator_step", "0.3"),
+        "elevator",
+        "does not move it",
+    ),
+    Mistake(
+        "a timeout that ends it too soon",
+        ANSWERS,
+        put("shooter_timeout", "2"),
+        "shooter",
+        "s until the timeout; at least 3 s",
+    ),
+    Mistake(
+        "a steep ramp to the same mark",
+        ANSWERS,
+        scaled(3.0, "elevator_ramp"),
+        "elevator",
+        "s until your mark; at least 3 s",
+    ),
+    Mistake(
+        "a mark too far away",
+        ANSWERS,
+        lambda text: put("elevator_timeout", "10")(scaled(4.0, "elevator_release")(text)),
+        "elevator",
+        "m of run; you have",
+    ),
+    Mistake(
+        "a timeout that saves nobody",
+        ANSWERS,
+        put("shooter_timeout", "30"),
+        "shooter",
+        "no test may be longer",
+    ),
+    Mistake(
+        "more volts than there are",
+        ANSWERS,
+        puts(shooter_ramp="5", shooter_timeout="9"),
+        "shooter",
+        "the battery has 12 V",
+    ),
+    Mistake(
+        "a step turned around",
+        ANSWERS,
+        scaled(-1.0, "turret_step"),
+        "turret",
+        "Choose a number above 0",
+    ),
+    Mistake(
+        "a speed for a mark",
+        ANSWERS,
+        put("drivetrain_release", '"3 m/s"'),
+        "drivetrain",
+        "does not measure",
+        "M-UNITS",
+    ),
+    Mistake(
+        "a mark that is none",
+        ANSWERS,
+        put("elevator_release", '"at the top"'),
+        "elevator",
+        "if nobody lets go before it",
+    ),
+    Mistake(
+        "everything is a go",
+        ANSWERS,
+        puts(**dict.fromkeys((f"check_{item}" for item in MORNING), '"go"')),
+        "checklist",
+        "Read that line of your morning once more",
+    ),
+    Mistake(
+        "nothing is a go",
+        ANSWERS,
+        puts(**dict.fromkeys((f"check_{item}" for item in MORNING), '"no-go"')),
+        "checklist",
+        "Read that line of your morning once more",
+    ),
+    Mistake(
+        "a decision that is none",
+        ANSWERS,
+        put("check_guard", '"perhaps"'),
+        "checklist",
+        "Choose one of: go, no-go",
+    ),
+    Mistake(
+        "gains before they are looked at",
+        ANSWERS,
+        put("steps", '["wire-routine", "run-tests", "place-gains", "inspect-and-fit"]'),
+        "steps",
+        "place-gains comes too early",
+    ),
+    Mistake(
+        "three steps",
+        ANSWERS,
+        put("steps", '["wire-routine", "run-tests", "place-gains"]'),
+        "steps",
+        "each of the four once",
+    ),
+    Mistake(
+        "where the program lies",
+        ANSWERS,
+        put("log_2026", '"/home/lvuser/deploy"'),
+        "log-2026",
+        "there your program lies",
+    ),
+    Mistake(
+        "last year's controller",
+        ANSWERS,
+        put("log_2027", '"/home/lvuser/logs"'),
+        "log-2027",
+        "another user than a roboRIO",
+    ),
+    Mistake(
+        "every limit bypassed",
+        ANSWERS,
+        puts(limit_a='"bypassed"', limit_b='"bypassed"'),
+        "limits",
+        "who keeps this limit",
+        "M-LIMITS-BYPASSED",
+    ),
+    Mistake(
+        "in the pit",
+        ANSWERS,
+        put("schedule", '"first-regional"'),
+        "schedule",
+        "where is room?",
+    ),
+)

@@ -1,0 +1,362 @@
+"""Exercise 6: plans that keep the rules, held against the bench, and a morning before the tests."""
+
+import math
+import re
+import shutil
+import sys
+import tomllib
+from dataclasses import replace
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from grader.cli import run
+from grader.exercise import Exercise
+from grader.variant import folder_name
+from sim.battery import Battery
+from sim.engine import State, move
+from sim.model import Model
+from sim.routine import Routine
+from sim.simulate import simulate
+from sim.units import unit
+
+ROOT = Path(__file__).resolve().parents[1]
+OWN = Exercise("exercise6", ROOT / "exercises" / "exercise6")
+DRAWN = sys.modules[OWN.module.draw.__module__]
+RULES = sys.modules[OWN.module.broken.__module__]
+PLAN = sys.modules[OWN.module.Plan.__module__]
+CLASS = [f"student {number}" for number in range(50)]
+KINDS = ("drivetrain", "elevator", "turret", "shooter")
+STEPS = ["wire-routine", "run-tests", "inspect-and-fit", "place-gains"]
+UNITS = {"m": "meters", "rot": "rotations"}
+
+
+@pytest.fixture
+def copy(tmp_path, monkeypatch):
+    """A copy of the exercise in a course of its own, in whose folder the command runs."""
+    folder = tmp_path / "exercises" / "exercise6"
+    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return Exercise("exercise6", folder)
+
+
+def graded(exercise, *, student="ann", **answers):
+    """The results of an answer, by check."""
+    path = exercise.folder / "answers.toml"
+    lines = (f"{name} = {toml(value)}\n" for name, value in answers.items())
+    path.write_text("".join(lines), "utf-8")
+    return {check.id: check for check in exercise.grade(path, student=student).checks}
+
+
+def toml(value):
+    """A value as TOML has it: lists of words, words and numbers."""
+    if isinstance(value, list):
+        return "[" + ", ".join(f'"{one}"' for one in value) + "]"
+    return f'"{value}"'
+
+
+def written(kind, plan):
+    """A plan as the lines of an answer."""
+    mark = "timeout" if math.isinf(plan.release) else f"{plan.release:.4g}"
+    values = {"ramp": plan.ramp, "step": plan.step, "timeout": plan.timeout}
+    return {f"{kind}_{name}": f"{value:.4g}" for name, value in values.items()} | {
+        f"{kind}_release": mark
+    }
+
+
+def right(variant):
+    """Everything as it should be."""
+    answers = {}
+    for kind, machine in variant.machines.items():
+        answers |= written(kind, DRAWN.sound(machine))
+    morning = variant.morning
+    answers |= {f"check_{item}": word for item, word in morning.decisions.items()}
+    return answers | {
+        "steps": STEPS,
+        "log_2026": "/u/logs" if morning.stick else "/home/lvuser/logs",
+        "log_2027": "/home/systemcore/logs",
+        **morning.effects,
+        "schedule": "last-two-weeks-of-build-season",
+    }
+
+
+def grid(machine):
+    """Some hundred plans, sensible and not."""
+    for ramp, step, timeout, share in product(
+        np.geomspace(0.2, 2.0, 9), np.geomspace(0.7, 7.0, 7), (4.0, 5.0, 10.0), (0.4, 0.6, 0.8)
+    ):
+        mark = math.inf if machine.travel is None else share * machine.travel
+        yield PLAN.Plan(float(ramp), float(step), timeout, mark)
+
+
+def test_fifty_students_can_solve_theirs(copy):
+    for student in CLASS:
+        results = graded(copy, student=student, **right(OWN.module.draw(student)))
+
+        assert {check.status for check in results.values()} == {"passed"}
+        assert sum(check.points for check in results.values()) == 10  # as the course lists it
+
+
+def test_every_mechanism_has_several_plans_and_far_more_that_break_a_rule():
+    for student in CLASS[:4]:
+        for machine in OWN.module.draw(student).machines.values():
+            kept = [not RULES.broken(machine, plan) for plan in grid(machine)]
+
+            assert 4 <= sum(kept) < 0.4 * len(kept)
+
+
+def test_any_plan_that_keeps_the_rules_passes(copy):
+    variant = OWN.module.draw("ann")
+    for kind, machine in variant.machines.items():
+        kept = [plan for plan in grid(machine) if not RULES.broken(machine, plan)]
+        for plan in kept[:: max(1, len(kept) // 6)]:
+            assert graded(copy, **written(kind, plan))[kind].points == 1.5
+
+
+def test_the_numbers_of_the_source_lesson_do_not_pass_for_a_drivetrain_without_a_thumb(copy):
+    """0.5 V/s, 3.5 V, 10 s: nine or ten meters of ramp, and more of step."""
+    for student in CLASS[:10]:
+        plan = PLAN.Plan(0.5, 3.5, 10.0, math.inf)
+        found = graded(copy, student=student, **written("drivetrain", plan))["drivetrain"]
+
+        assert re.search(r"your ramp needs \d+\.\d\d m of run; you have [\d.]+ m", found.hint)
+
+
+def test_at_half_a_volt_a_second_for_ten_seconds_the_facts_drivetrain_goes_nine_meters():
+    """Four Kraken X60 at 6.75:1 and 60 kg: 9.3 m, and at 1 V/s it is at 4.1 V after 10 feet."""
+    machine = PLAN.Machine(
+        "drivetrain", "m", 0.15, 2.524, 0.191, 0.0, 20.0, 366.0, 120.0, 0.01, 1.1, 0.3
+    )
+    ten = PLAN.quasistatic(machine, PLAN.Plan(0.5, 2.0, 10.0, math.inf))
+    feet = PLAN.quasistatic(machine, PLAN.Plan(1.0, 2.0, 10.0, math.inf))
+
+    assert ten.place(ten.lasts) == pytest.approx(9.3, abs=0.15)
+    assert feet.still + feet.when(feet.place, 3.048) == pytest.approx(4.1, abs=0.1)
+    assert machine.slip == pytest.approx(2.2, abs=0.02)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_closed_form_is_where_the_bench_goes_under_the_routine(kind):
+    """The bench's own routine begins to drive two loops late; its sensor rounds."""
+    variant = OWN.module.draw("ann")
+    machine, built = variant.machines[kind], variant.built[kind]
+    per = unit(UNITS[machine.symbol]).si
+    plan = replace(DRAWN.sound(machine), release=math.inf)
+    sensor = replace(built.sensor, velocity_noise=0.0, jitter=0.0)
+    strong = Battery(14.0, 0.0)
+    quiet = replace(built, sensor=sensor, battery=strong, stator=1e4, supply=1e4)
+    if machine.kg:
+        quiet = replace(quiet, lowest=0.0, travel=100.0)  # it begins at the bottom
+    routine = Routine(ramp=plan.ramp, step=plan.step, timeout=plan.timeout)
+    log = simulate(quiet, routine, rng=np.random.default_rng(1))
+
+    for test, name in ((PLAN.quasistatic, "quasistatic"), (PLAN.dynamic, "dynamic")):
+        (ran,) = log.of(f"{name}-forward")
+        begins = ran.time[0] - (0.04 if name == "quasistatic" else 0.0)
+        moving = ran.time - begins - test(machine, plan).still
+        places = [test(machine, plan).place(max(float(t), 0.0)) for t in moving]
+        seen = (ran.position - ran.position[0]) / per
+
+        assert np.max(np.abs(seen - places)) < 0.02 * max(places)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_bench_stands_where_the_plan_says(kind):
+    """The mark, a late thumb, and 0 V in brake mode: how far it got."""
+    for student in CLASS[:5]:
+        machine = OWN.module.draw(student).machines[kind]
+        plan = DRAWN.sound(machine)
+        gains = {"kS": machine.ks, "kV": machine.kv, "kA": machine.ka}
+        gains |= {"kG": machine.kg} if machine.kg else {}
+        stops = (0.0, 100.0) if machine.kg else None  # it begins at the bottom
+        model = Model("elevator" if machine.kg else "simple", gains, (), stops)
+        for test in (PLAN.quasistatic(machine, plan), PLAN.dynamic(machine, plan)):
+            off = test.still + test.lasts
+            time = np.arange(0.0, off + 12.0 * machine.tau + 0.2, 0.002)
+            drive = plan.ramp * (time + 0.001) if test.ramp else np.full(time.size, plan.step)
+            track = move(model, time=time, voltage=np.where(time < off, drive, 0.0), state=State())
+
+            assert np.max(track.position) == pytest.approx(test.rests, rel=0.01)
+            assert np.max(track.velocity) == pytest.approx(test.fastest, rel=0.01)
+
+
+def test_acceleration_scatters_on_the_bench_as_the_rule_says():
+    """Velocity samples 20 ms apart, the one after less the one before."""
+    machine = OWN.module.draw("ann").machines["shooter"]
+    noisy = machine.noise * np.random.default_rng(2).standard_normal(20000)
+
+    assert np.std(np.gradient(noisy, 0.02)[1:-1]) == pytest.approx(machine.scatter, rel=0.03)
+
+
+def test_a_student_gets_the_same_numbers_every_time_and_nobody_elses():
+    ann, again, ben = (OWN.module.draw(name) for name in ("ann", "Ann", "ben"))
+
+    assert (ann.machines, ann.morning) == (again.machines, again.morning)
+    assert ann.machines != ben.machines
+    assert {ann.morning.stick, *(OWN.module.draw(one).morning.stick for one in CLASS)} == {
+        True,
+        False,
+    }
+
+
+def test_what_the_file_tells_is_what_is_graded(copy):
+    copy.prepare("ann", say=lambda _: None)
+    given = tomllib.loads((copy.folder / "data" / "ann" / "given.toml").read_text("utf-8"))
+    for kind, machine in OWN.module.draw("ann").machines.items():
+        told = given[kind]
+
+        assert (told["kS"], told["kV"], told["kA"]) == (machine.ks, machine.kv, machine.ka)
+        assert told.get("kG", 0.0) == machine.kg
+        assert told.get("travel") == machine.travel
+        assert told["free_speed"] == pytest.approx((12.0 - machine.hold) / machine.kv, rel=0.005)
+
+
+@pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
+def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy, student, capsys):
+    """The smallest and the largest step, the ramp of a sound plan; a word outside of its list."""
+    variant = OWN.module.draw(student)
+    said = []
+    words = {"log_2026": "/home/lvuser/deploy", "log_2027": "/u/logs", "schedule": "kickoff-week"}
+    for ramp, step, timeout in ((0.11, 11.5, 9.9), (3.9, 0.15, 1.1), (99.0, 99.0, 99.0)):
+        plan = PLAN.Plan(ramp, step, timeout, math.inf)
+        lines = {name: one for kind in KINDS for name, one in written(kind, plan).items()}
+        results = graded(copy, student=student, **lines, **words, steps=STEPS[::-1])
+        said += [one.hint for one in results.values()]
+        run(["6", "--student", student, "--json"])
+    printed = capsys.readouterr().out
+    told = " ".join(said)
+
+    assert all(one in printed for one in ("V/s", "of run", "at least 25 %", "does not move it"))
+    for machine in variant.machines.values():
+        ramp = DRAWN.sound(machine).ramp
+        for value, per in ((ramp, "V/s"), *((step, "V") for step in DRAWN.steps(machine))):
+            near = [float(one) for one in re.findall(rf"(\d+\.\d+) {per}(?!/s)\b", told)]
+
+            assert [one for one in near if abs(one - value) < 0.02 * value] == []
+    for word in (variant.morning.roborio, "/home/systemcore/logs", "last-two-weeks"):
+        assert not any(word in one for one in said if "Choose one of" not in one)
+
+
+def test_every_broken_rule_is_told_with_its_figure(copy):
+    """7 V, 0.1 V/s, 30 s and no thumb: half a dozen rules at once."""
+    plan = PLAN.Plan(0.1, 7.0, 30.0, math.inf)
+    found = graded(copy, **written("drivetrain", plan))["drivetrain"]
+
+    assert found.points == 0
+    for figure in (
+        r"a timeout of 30 s",
+        r"your step needs [\d.]+ m of run; you have [\d.]+ m",
+        r"It hits the end at [\d.]+ m/s, [\d.]+ s after the start",
+        r"at standstill your step draws \d+ A; the limit is \d+ A",
+        r"your step takes \d+ % of the volts at which the wheels slip",
+    ):
+        assert re.search(figure, found.hint)
+
+
+def test_a_plan_that_breaks_one_rule_earns_half(copy):
+    machine = OWN.module.draw("ann").machines["shooter"]
+    plan = DRAWN.sound(machine)
+    one = graded(copy, **written("shooter", replace(plan, step=12.0)))["shooter"]
+    two = graded(copy, **written("shooter", replace(plan, step=12.0, timeout=30.0)))["shooter"]
+
+    assert (one.points, two.points) == (0.75, 0)
+
+
+@pytest.mark.parametrize(
+    ("written_as", "status"),
+    [
+        ("{:.3f} V", "passed"),
+        ("{:.3f}V", "passed"),
+        ("{:.3f} volts", "passed"),
+        ("{:.3f} V/s", "failed"),
+        ("about {:.3f}", "failed"),
+        ("-{:.3f}", "failed"),
+        ("0", "failed"),
+        ("1e999", "failed"),
+        ("nan", "failed"),
+    ],
+)
+def test_a_number_may_be_written_in_many_ways(copy, written_as, status):
+    plan = DRAWN.sound(OWN.module.draw("ann").machines["turret"])
+    answers = written("turret", plan) | {"turret_step": written_as.format(plan.step)}
+    comma = answers | {"turret_step": answers["turret_step"].replace(".", ",")}
+
+    assert graded(copy, **answers)["turret"].status == status
+    assert graded(copy, **comma)["turret"].status == status
+
+
+@pytest.mark.parametrize("extreme", ["1e-300", "1e-9", "1e4", "1e300"])
+def test_extreme_numbers_are_told_what_is_wrong(copy, extreme):
+    plan = written("drivetrain", DRAWN.sound(OWN.module.draw("ann").machines["drivetrain"]))
+    never = {"release"} if extreme == "1e4" else set()  # a mark that far the timeout comes before
+    for name in {"ramp", "step", "timeout", "release"} - never:
+        answers = plan | {f"drivetrain_{name}": extreme}
+
+        assert graded(copy, **answers)["drivetrain"].status == "failed"
+
+
+@pytest.mark.parametrize(
+    ("name", "check", "given", "status"),
+    [
+        ("log_2027", "log-2027", "/home/systemcore/logs/", "passed"),
+        ("log_2027", "log-2027", "home/systemcore/logs", "passed"),
+        ("log_2027", "log-2027", "/home/SystemCore/Logs", "passed"),
+        ("log_2027", "log-2027", "/var/log", "failed"),
+        ("schedule", "schedule", "last two weeks of build season", "passed"),
+        ("schedule", "schedule", "Last two weeks", "passed"),
+        ("schedule", "schedule", "whenever", "failed"),
+        (
+            "steps",
+            "steps",
+            ["Wire routine", "RUN TESTS", "inspect_and_fit", "place gains"],
+            "passed",
+        ),
+        ("steps", "steps", "wire-routine, run-tests, inspect-and-fit, place-gains", "passed"),
+        ("steps", "steps", "wire-routine", "failed"),
+        ("steps", "steps", [*STEPS, "place-gains"], "failed"),
+    ],
+)
+def test_a_word_may_be_written_in_many_ways(copy, name, check, given, status):
+    assert graded(copy, **{name: given})[check].status == status
+
+
+@pytest.mark.parametrize(("go", "no_go"), [("GO", "NO GO"), ("go!", "nogo"), ("yes", "no")])
+def test_a_decision_may_be_written_in_many_ways(copy, go, no_go):
+    decisions = OWN.module.draw("ann").morning.decisions
+    words = {f"check_{item}": go if word == "go" else no_go for item, word in decisions.items()}
+
+    assert graded(copy, **words)["checklist"].status == "passed"
+
+
+def test_decisions_and_limits_earn_their_share(copy):
+    variant = OWN.module.draw("ann")
+    answers = right(variant) | {"check_log": "perhaps", "limit_a": "perhaps"}
+    results = graded(copy, **answers)
+
+    assert results["checklist"].points == pytest.approx(5 / 6)
+    assert results["limits"].points == 0.25
+
+
+def test_a_limit_in_the_controller_called_bypassed_is_named_and_the_other_is_not(copy):
+    for student in CLASS[:8]:
+        effects = OWN.module.draw(student).morning.effects
+        for name, effect in effects.items():
+            wrong = effects | {name: "acts" if effect == "bypassed" else "bypassed"}
+            found = graded(copy, student=student, **wrong)["limits"]
+
+            assert found.misconception == ("M-LIMITS-BYPASSED" if effect == "acts" else "")
+
+
+def test_numbers_that_were_changed_are_written_anew(copy):
+    said = []
+    copy.prepare("ann", say=said.append)
+    given = copy.folder / "data" / folder_name("ann") / "given.toml"
+    made = given.read_bytes()
+    given.write_bytes(made.replace(b"kS = ", b"kS = 1"))
+    copy.prepare("ann", say=said.append)
+
+    assert given.read_bytes() == made
+    assert ["anew" in line for line in said] == [False, True]
