@@ -5,6 +5,7 @@ import sys
 import pytest
 from robot_mistakes import changed, needs_robot, ran
 
+from grader.robotcode import bench
 from grader.robotcode.bench import Outcome, apart
 from grader.robotcode.bench.logged import told
 
@@ -120,3 +121,32 @@ def test_a_child_that_does_not_end_is_ended(tmp_path):
 
     assert apart.alone(program, tmp_path, 0.5) is False
     assert told(tmp_path, tmp_path / "a.py", ended=False, seconds=0.5).outcome is Outcome.ENDLESS
+
+
+@pytest.mark.parametrize(
+    ("stack", "outcome"),
+    [
+        ('  File "/class/mine.py", line 7 in drive\n', Outcome.ENDLESS),
+        ('  File "/lib/wpilib/__init__.py", line 7 in run\n', Outcome.CANNOT),
+    ],
+    ids=["in the learner's code", "on a machine that is too busy"],
+)
+def test_only_a_loop_in_the_learners_own_code_is_blamed_on_the_learner(tmp_path, stack, outcome):
+    (tmp_path / "endless.txt").write_text(stack, "utf-8")
+
+    assert told(tmp_path, tmp_path / "mine.py", ended=True, seconds=1).outcome is outcome
+
+
+@needs_robot
+def test_whoever_confines_the_child_starts_it(tmp_path):
+    started = []
+
+    def start(program, folder, seconds):
+        started.append((program[0], folder.is_dir(), [*folder.iterdir()], seconds))
+        return apart.alone(program, folder, seconds)
+
+    path = tmp_path / "mine.py"
+    path.write_text(changed(), "utf-8")
+
+    assert bench.run(path, "ExampleSubsystem", start=start, seconds=8).outcome is Outcome.RAN
+    assert started == [(sys.executable, True, [], 8 + apart.GRACE)]

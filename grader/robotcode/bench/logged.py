@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from grader.robotcode.bench.on_bench import LONGEST
 from grader.robotcode.bench.ran import Driven, Outcome, Ran, Recorded
 from grader.robotcode.bench.season import of_another
 from sim.errors import Refusal
@@ -24,7 +25,6 @@ NEEDED = {"voltage", "position", "velocity"}
 MOVED = 0.05  # [any unit] less motion than this tells nothing
 AWAKE = 0.5  # [V] below this the steps of a PWM signal, 20 mV, count too much
 FOLLOWS = 0.02  # relative misfit up to which a position follows an encoder
-LONGEST = 20.0  # [s] as in on_bench
 LOW = (0.85, 1.15)  # [s] of a dynamic test: the battery is low, and nothing jumps
 
 
@@ -85,6 +85,8 @@ def _gone(folder: Path, file: Path, *, ended: bool, seconds: float) -> Ran:
     stack = re.findall(r'File "(.*)", line (\d+) in (\w+)', where)
     lines = [int(line) for name, line, _ in stack if Path(name).name == file.name]
     inside = [name for _, _, name in stack if name in {"drive_callback", "log_callback"}]
+    if stack and not lines:  # nothing of the learner's was at work: a machine that is too busy
+        return Ran(Outcome.CANNOT, f"the simulation took longer than {seconds:g} s")
     line = lines[0] if lines else 0
     place = f"{file.name}, line {line}: " if line else ""
     said = f"{place}this did not come to an end within {seconds:g} s"
