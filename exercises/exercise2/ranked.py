@@ -28,8 +28,8 @@ def judge_list(raw: object, variant: Variant) -> None:
     if len(set(kinds)) < LEAST:
         raise Wrong(
             seen,
-            hint="all possible, and all of one kind. Name at least two causes, of two kinds: what "
-            "was written down wrong, what is electrical, what is mechanical",
+            hint="all possible, and all of one kind. Name at least two causes, of two "
+            "kinds: mechanical, written down wrong, electrical",
             earned=some,
         )
     if kinds != sorted(kinds, key=ORDER.index):
@@ -45,12 +45,12 @@ def _read(raw: object) -> list[str]:
     """The causes, each once."""
     if isinstance(raw, str) and raw:
         raw = raw.split(",")
-    ask = f'Write at least two, in a list: ["...", "..."]. Choose from: {", ".join(KINDS)}.'
+    ask = f'Write at least two, in a list: ["...", "..."]. Choose from: {", ".join(sorted(KINDS))}.'
     if raw is None or raw in ("", []):
         raise Wrong("nothing yet", hint=ask)
     if not isinstance(raw, list):
         raise Wrong(f"{raw}, which is not a list", hint=ask)
-    return list(dict.fromkeys(word(one, tuple(KINDS)) for one in raw))
+    return list(dict.fromkeys(word(one, sorted(KINDS)) for one in raw))
 
 
 def _impossible(cause: str, variant: Variant) -> tuple[str, str]:

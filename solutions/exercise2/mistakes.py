@@ -137,7 +137,9 @@ MISTAKES = (
         "inspection",
         "all of one kind",
     ),
-    Mistake("no list", ANSWERS, put("inspection", "[]"), "inspection", "Choose from: gear-ratio"),
+    Mistake(
+        "no list", ANSWERS, put("inspection", "[]"), "inspection", "Choose from: constant-friction"
+    ),
     Mistake(
         "a cause that there is not",
         ANSWERS,
