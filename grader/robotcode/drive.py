@@ -49,6 +49,8 @@ class DriveTrace(Trace):
         if any(map(self._is_motor, args)) and not (receiver and self._is_motor(receiver)):
             self.cannot_read(call)  # a motor is handed out: what it gets is not told here
             return None
+        if method[:1].isupper():  # makes an object, a request perhaps
+            return None
         if not self._may_be_motor(method, receiver, at):
             if receiver is not None and self._may_lead_to_one(method, receiver, args):
                 self.cannot_read(call)
@@ -129,6 +131,12 @@ class DriveTrace(Trace):
         while isinstance(node, Element):
             node = node.owner
         brought = {one.name for one in scope.module.imports}
+        if isinstance(node, Member) and self.names.home(node.owner, scope) is None:
+            root = node.owner
+            while isinstance(root, Member):
+                root = root.owner
+            if isinstance(root, Name) and root.name in brought:  # phoenix6.controls
+                return bool(self.names.local(root.name, scope))
         if isinstance(node, Name) and node.name in brought:
             return bool(self.names.local(node.name, scope))
         named = last_name(node).lstrip("_")  # in any script: most have no capitals

@@ -62,6 +62,9 @@ def _listed(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tuple[
         owner = last_name(value.target.owner) if isinstance(value.target, Member) else ""
         if maker in GROUPS | DRIVES or owner in COLLECTIONS:
             several = value.args
+            if len(several) == 1 and depth < DEEPEST:  # Arrays.stream(m_modules)
+                inner = _listed(several[0], where, names, depth=depth + 1)
+                return inner or ((several[0], where),)
         elif where.module.language == "python" and depth < DEEPEST:
             return _paired(value, where, names, depth + 1)
     return tuple((item.owner if isinstance(item, Reference) else item, where) for item in several)

@@ -11,6 +11,7 @@ from grader.robotcode.meaning import (
     Placed,
     brought_name,
     constructed,
+    last_name,
     methods,
     resolve,
     simple,
@@ -20,7 +21,7 @@ from grader.robotcode.measure import Measures
 from grader.robotcode.motors import owned
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope, walk
-from grader.robotcode.syntax import Call, Function, Node, Null, Number, Self, Text
+from grader.robotcode.syntax import Assign, Call, Function, Member, Node, Null, Number, Self, Text
 from grader.robotcode.value import MotorLog, Value
 from grader.robotcode.vocabulary import (
     CONFIG,
@@ -147,7 +148,23 @@ def _with_config(
             found[name] = _quantity(given[at], scope, default, names, measures)
         elif not _may_hide(call, CONFIG):
             found[name] = default
+    for name, change in _changes(config[0], names).items():
+        line = _line(change, names)
+        found[name] = Quantity(Known.UNKNOWN, text=change.place.text, line=line)
     return replace(facts, ramp=found["ramp"], step=found["step"], timeout=found["timeout"])
+
+
+def _changes(config: Node, names: Names) -> dict[str, Assign]:
+    """Where a Config that a variable holds gets other numbers later, as Python lets it."""
+    words = dict(zip(CONFIG, DEFAULTS, strict=False))
+    return {
+        words[plain(node.target.name)]: node
+        for node, _ in walk(names.main.body, Scope(names.main))
+        if isinstance(node, Assign)
+        and isinstance(node.target, Member)
+        and plain(node.target.name) in words
+        and last_name(node.target.owner) == last_name(config) != ""
+    }
 
 
 def _line(node: Node, names: Names) -> int:

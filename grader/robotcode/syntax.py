@@ -211,10 +211,11 @@ class Loop(Node):
 
 @dataclass(frozen=True, eq=False)
 class Parameter(Node):
-    """One parameter of a function; ``type`` as written, empty if not."""
+    """One parameter of a function; ``type`` as written, empty if not; ``default`` if it has one."""
 
     name: str
     type: str
+    default: Node | None = None
 
 
 @dataclass(frozen=True, eq=False)

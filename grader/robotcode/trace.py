@@ -6,6 +6,7 @@ entry in a log) is for a subclass to say.
 
 from abc import abstractmethod
 from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
 
 from grader.robotcode.facts import Problem
@@ -144,7 +145,11 @@ class Trace(Statements):
             return self.too_deep(function, frame)
         inner = Frame(scope, me, around=(*frame.around, function))
         inner.locals |= captured
-        inner.locals |= {one.name: inner.value(one) for one in function.parameters}
+        outer = Frame(replace(scope, functions=scope.functions[:-1]), me, around=inner.around)
+        inner.locals |= {
+            one.name: self.evaluate(one.default, outer) if one.default else inner.value(one)
+            for one in function.parameters
+        }
         inner.locals |= {one.name: arg for one, arg in zip(function.parameters, args, strict=False)}
         inner.locals |= named
         for statement in function.body:

@@ -39,6 +39,8 @@ def _call(lowering: Lowering, tree: ast.Call) -> tuple[syntax.Node, ...]:
     named = tuple((word.arg, lowering.one(word.value)) for word in tree.keywords if word.arg)
     spread = len(args) + len(named) < len(tree.args) + len(tree.keywords)
     target = lowering.one(tree.func)
+    if isinstance(tree.func, ast.Name) and tree.func.id == "super":
+        return (syntax.Name(lowering.place(tree), "super"),)
     if args and not spread and lowering.said(tree.func) in {"partial", "functools.partial"}:
         return (_partial(lowering.place(tree), args, named),)
     if isinstance(target, syntax.Member):  # a chain begins far above; its method stands here

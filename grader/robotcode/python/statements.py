@@ -54,10 +54,18 @@ def _function(
     lowering: Lowering, tree: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 ) -> tuple[syntax.Node, ...]:
     place = lowering.place(tree)
-    listed = [*tree.args.posonlyargs, *tree.args.args, *tree.args.kwonlyargs]
+    plain = [*tree.args.posonlyargs, *tree.args.args]
+    given = [None] * (len(plain) - len(tree.args.defaults))
+    defaults = [*given, *tree.args.defaults, *tree.args.kw_defaults]
+    listed = zip([*plain, *tree.args.kwonlyargs], defaults, strict=True)
     parameters = tuple(
-        syntax.Parameter(lowering.place(one), one.arg, lowering.said(one.annotation))
-        for index, one in enumerate(listed)
+        syntax.Parameter(
+            lowering.place(one),
+            one.arg,
+            lowering.said(one.annotation),
+            None if default is None else lowering.one(default),
+        )
+        for index, (one, default) in enumerate(listed)
         if index or one.arg not in SELF
     )
     if isinstance(tree, ast.Lambda):
