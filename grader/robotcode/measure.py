@@ -12,7 +12,7 @@ from grader.robotcode.meaning import called, last_name, only_return, simple
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope
 from grader.robotcode.syntax import Assign, Call, Cast, Member, Name, Node, Number, Operation
-from grader.robotcode.vocabulary import PYTHON_UNITS, UNITS
+from grader.robotcode.vocabulary import PYTHON_UNITS, UNITS, plain
 
 DEEPEST = 50  # expressions inside one another, names followed on the way
 LARGEST_INT = 2**31 - 1  # Java's; beyond it an int wraps around, which nobody means
@@ -128,8 +128,8 @@ class Measures:
         name, target = last_name(call.target), call.target
         args = [self.of(arg, scope, depth=depth) for arg in call.args]
         first = args[0] if len(args) == 1 else None
-        if first is not None and first.dimension == "number" and name in FACTORS:
-            return Measure(first.value * FACTORS[name])
+        if first is not None and first.dimension == "number" and plain(name) in FACTORS:
+            return Measure(first.value * FACTORS[plain(name)])
         if scope.module.language == "python":
             factor = PYTHON_UNITS.get(name)
             return None if first is None or factor is None else first.times(Measure(factor))
@@ -146,11 +146,11 @@ def _library_number(node: Name | Member, scope: Scope) -> float | None:
     if isinstance(node, Member):
         return NUMBERS.get((last_name(node.owner), node.name))
     for one in scope.module.imports:
-        owner, _, name = one.path.rpartition(".")
-        if one.name in {node.name, "*"}:
-            found = (owner if one.name != "*" else one.path).rpartition(".")[2]
-            if (found, name if one.name != "*" else node.name) in NUMBERS:
-                return NUMBERS[found, name if one.name != "*" else node.name]
+        path = f"{one.path}.{node.name}" if one.name == "*" else one.path
+        owner, _, name = path.rpartition(".")
+        found = NUMBERS.get((owner.rpartition(".")[2], name))
+        if one.name in {node.name, "*"} and found is not None:
+            return found
     return None
 
 

@@ -120,14 +120,27 @@ class Names:
             node = node.owner
         if isinstance(node, Self):
             return self._descend(path, scope.home if scope.classes else None)
-        if not isinstance(node, Name) or self.local(node.name, scope):
+        if not isinstance(node, Name):
             return None
+        if self.local(node.name, scope):
+            return self._descend(path, self._other_name(node.name, scope))
         if node.name == "super":
             return next(iter(self.lineage(scope.home)[1:]), None) if scope.classes else None
         start = self.named(node.name, scope)
         if start is None and scope.module.language == "java":  # a name with its package in front
             return self._found(".".join((node.name, *path)), scope.module)
-        return self._descend(path, start)
+        return self._descend(path, start or self._other_name(node.name, scope))
+
+    def _other_name(self, name: str, scope: Scope) -> Scope | None:
+        """The class that a variable of Python is another name for: ``C = constants.Drive``."""
+        valued = [one for one in self._variable(name, scope) if one.value is not None]
+        if scope.module.language == "java" or len(valued) != 1:
+            return None
+        value = valued[0].value
+        if not isinstance(value, Name | Member) or not value.name[:1].isupper():
+            return None
+        with self.one_deeper() as allowed:
+            return self.home(value, valued[0].scope) if allowed else None
 
     def named(self, name: str, scope: Scope) -> Scope | None:
         """The class or file of a bare name, as seen from a scope."""
