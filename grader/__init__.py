@@ -1,1 +1,21 @@
-"""The examiner: checks a learner's answers and says what to do next. Knows no exercise by name."""
+"""The examiner: checks a learner's answers and says what to do next. Knows no exercise by name.
+
+from grader import submit
+submit("exercise9", kS=0.12, kV=2.4, kA=0.3)   # in a notebook: writes answers.toml, grades it
+"""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from grader.notebook import submit
+
+__all__ = ["submit"]
+
+
+def __getattr__(name: str) -> object:
+    """What a notebook asks for, imported only then: the command starts without it."""
+    if name != "submit":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from grader.notebook import submit  # noqa: PLC0415 - see above
+
+    return submit

@@ -119,7 +119,7 @@ def _standing(one: Mapping[str, object]) -> Standing:
 
 def save(progress: Progress, course: Path) -> str:
     """Write the progress; what is to be said if that fails, else nothing."""
-    import tomli_w  # noqa: PLC0415 - reading needs no writer
+    import tomlkit  # noqa: PLC0415 - reading needs no writer
 
     tables = {
         student: {
@@ -132,7 +132,7 @@ def save(progress: Progress, course: Path) -> str:
     part = path.with_suffix(f".{os.getpid()}.part")
     try:
         path.parent.mkdir(exist_ok=True)
-        text = tomli_w.dumps({"student": progress.student, "progress": tables})
+        text = tomlkit.dumps({"student": progress.student, "progress": tables})
         part.write_text(text, encoding="utf-8", newline="")
         part.replace(path)
     except OSError as error:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import tomli_w
+import tomlkit
 
 from grader.classroom.bundle import Bundle
 from grader.classroom.secret import seal
@@ -97,7 +97,7 @@ def own(package: Package) -> tuple[str, bytes]:
         for name, content in made.items()
     }
     told = {"class": package.name, "student": package.student, "sealed": sealed}
-    files = {**made, PLACE.as_posix(): tomli_w.dumps(told).encode()}
+    files = {**made, PLACE.as_posix(): tomlkit.dumps(told).encode()}
     return package.student, _zipped({f"course/{name}": text for name, text in files.items()})
 
 

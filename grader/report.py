@@ -96,7 +96,7 @@ def _result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
         rows = [line(f"{mark} {result.description}, {points} points", style)]
     else:
         rows = _row(result.description, points, mark, style)
-    for word, text in _told(result):
+    for word, text in told_of(result):
         if text and text not in said:
             rows += wrapped(text, lead=f"{INDENT}{word}")
         if word in ONCE:
@@ -112,7 +112,7 @@ def _row(description: str, points: str, mark: str, style: str) -> list[Line]:
     return rows
 
 
-def _told(result: Result) -> list[tuple[str, str]]:
+def told_of(result: Result) -> list[tuple[str, str]]:
     """What stands under a check: a word that leads, and what is said."""
     if result.status is Status.PASSED:
         return [("note ", result.hint)]

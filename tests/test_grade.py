@@ -264,7 +264,7 @@ def test_help_imports_nothing_heavy():
     )
 
     assert "grade [EXERCISE [FILE]]" in done.stdout
-    assert not {"numpy", "scipy", "rich", "numba", "tomli_w"} & set(done.stdout.split())
+    assert not {"numpy", "scipy", "rich", "numba", "tomlkit"} & set(done.stdout.split())
 
 
 def test_a_reader_who_leaves_early_causes_no_traceback(course):

@@ -1,0 +1,174 @@
+"""Answers from a notebook: written into the exercise's file, and graded as the command does it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from grader.check import Result, Status
+from grader.course import find_course, load, save
+from grader.exercise import Exercise, Grade, find
+from grader.issued import issued, only_there
+from grader.report import MARKS, SPOKEN, received, to_lines, told_of
+from grader.submission import read_answers
+from grader.terminal import Line, complain, line
+from grader.variant import student_name
+from sim.errors import BadRequest, Refusal
+
+STYLE = {  # of the line that leads a check; colors that are legible on light and on dark pages
+    Status.PASSED: "#1f9d61",
+    Status.FAILED: "#d1495b",
+    Status.NOT_REACHED: "#808080",
+    Status.ERROR: "#b060b0",
+}
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What became of an answer, as a cell shows it.
+
+    Args:
+        lines: the same as on a terminal.
+        html: the same for a cell.
+        grade: the result itself; None where nothing could be graded here.
+    """
+
+    lines: tuple[Line, ...]
+    html: str
+    grade: Grade | None = None
+
+    def __str__(self) -> str:
+        """As on a terminal."""
+        return "\n".join("".join(span.text for span in row).rstrip() for row in self.lines)
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        return {"text/plain": str(self), "text/html": self.html}
+
+
+def submit(
+    exercise: str | int,
+    /,
+    student: str | None = None,
+    *,
+    course: Path | None = None,
+    **answers: object,
+) -> Shown:
+    """Write answers into an exercise's file and grade it, as ``grade`` does on a terminal.
+
+    Args:
+        exercise: which: ``"exercise9"`` or ``9``.
+        student: whose answer; None takes who is learning on this machine.
+        course: the course folder; None looks for it from here upwards.
+        answers: by name, as in the file; a unit makes a text of a number: ``kV="2.4 V·s/m"``.
+            Without any, the file is graded as it is.
+
+    Returns:
+        The result, which a cell shows. What cannot be graded is shown in one line, too.
+    """
+    folder = find_course(Path.cwd()) if course is None else course
+    progress, said = load(folder)
+    if said:
+        complain(said)
+    try:
+        who = progress.student if student is None else student_name(student)
+        one = find(str(exercise), folder)
+        if answers:
+            write(one, answers)
+        of_class = issued(folder)
+        if of_class and one.personal and of_class.is_for(who):
+            return _received(one, only_there(one.name, of_class))
+        one.prepare(who, say=lambda _: None)
+        grade = one.grade(None, student=who)
+    except Refusal as refusal:
+        return _refused(str(refusal))
+    if grade.status == "ungradable":
+        return _refused(grade.reason)
+    noted = progress.with_score(who, one.name, score=grade.score, max_score=grade.max_score)
+    if said := save(noted, folder):
+        complain(said)
+    lines = to_lines(grade, hints_shown=progress.of(who, one.name).hints, solution=one.solution)
+    return Shown(tuple(lines), _html(grade), grade)
+
+
+def write(exercise: Exercise, answers: Mapping[str, object]) -> None:
+    """Write answers into the exercise's file; what else stands there stays, comments and all.
+
+    Raises:
+        BadRequest: the exercise has no file of answers, or none with such a name in it.
+        UnreadableFile: the file cannot be read.
+    """
+    import tomlkit  # noqa: PLC0415 - only who writes needs it
+    from tomlkit.exceptions import TOMLKitError  # noqa: PLC0415 - the same
+
+    path = exercise.folder / exercise.files[0]
+    if path.suffix != ".toml":
+        raise BadRequest(
+            f"{exercise.name} is answered in {' or '.join(exercise.files)}",
+            advice=f"Write your answer there, then: submit({exercise.name!r})",
+        )
+    there = read_answers(path)  # says what is wrong with it in our own words
+    known = {name.lower(): name for name in there}
+    for name in answers:
+        if name.lower() not in known:
+            listed = ", ".join(there) or "none"
+            raise BadRequest(
+                f"{exercise.name} asks for no {name!r}", advice=f"It asks for: {listed}."
+            )
+    document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
+    for name, value in answers.items():
+        try:
+            document[known[name.lower()]] = _plain(value)
+        except (TOMLKitError, ValueError, TypeError) as error:
+            raise BadRequest(
+                f"{name} = {value!r} cannot be written down ({error})",
+                advice="Give a number, or a text in quotes.",
+            ) from None
+    part = path.with_name(f"{path.name}.part")
+    part.write_text(tomlkit.dumps(document), encoding="utf-8", newline="\n")
+    part.replace(path)
+
+
+def _plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
+    """A value as a file holds it: what NumPy makes of a number is a number."""
+    if value is None:
+        return ""
+    single = getattr(value, "item", None)
+    if callable(single) and getattr(value, "size", None) == 1:
+        return single()
+    return value
+
+
+def _refused(said: str) -> Shown:
+    return Shown((line(f"! {said}"),), f"<p><b>!</b> {escape(said)}</p>")
+
+
+def _received(exercise: Exercise, said: Refusal) -> Shown:
+    rows = received(exercise, None)
+    text = "\n".join("".join(span.text for span in row) for row in rows)
+    html = f"<pre>{escape(text)}</pre><p>{escape(str(said))}</p>"
+    return Shown((*rows, line(str(said))), html)
+
+
+def _html(grade: Grade) -> str:
+    passed = grade.status == "passed"
+    verdict = "all right" if passed else "not all right yet"
+    head = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points, {verdict}"
+    rows = "".join(_check(result) for result in grade.checks)
+    listed = f"<ul style='list-style:none;padding-left:0'>{rows}</ul>"
+    return f"<p><strong>{escape(head)}</strong></p>{listed}"
+
+
+def _check(result: Result) -> str:
+    mark, _ = MARKS[result.status]
+    points = f"{result.points:g} of {result.max_points:g}"
+    told = "".join(
+        f"<div style='margin-left:1.6em'>{escape(word)}{escape(text)}</div>"
+        for word, text in told_of(result)
+        if text
+    )
+    style = f"margin:0.35em 0;padding-left:0.6em;border-left:4px solid {STYLE[result.status]}"
+    return (
+        f"<li style='{style}'><span aria-hidden='true'>{mark}</span> {escape(SPOKEN[mark])}: "
+        f"<b>{escape(result.description)}</b> ({points}){told}</li>"
+    )

@@ -1,0 +1,134 @@
+"""Answers from a notebook: the same result as from the file, and the same file afterwards."""
+
+import json
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from page_flaws import page_flaws
+from small_course import HALF, RIGHT, answer, lay_out
+
+from grader import submit
+from grader.cli import run
+from grader.course import load
+
+STARTER = '# Measure it.\nsize = ""  # in units\ncolor = "" # a word\n'
+PAGE = "<!DOCTYPE html><html lang='en'><head><title>t</title></head><body>{}</body></html>"
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A small course, in whose folder the notebook runs."""
+    lay_out(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    answer(tmp_path, STARTER)
+    return tmp_path
+
+
+def text_of(course):
+    return (course / "exercises" / "exercise1" / "answers.toml").read_text("utf-8")
+
+
+def test_answers_go_into_the_file_and_its_comments_stay(course):
+    shown = submit("exercise1", size=3, color="blue")
+
+    assert text_of(course) == '# Measure it.\nsize = 3  # in units\ncolor = "blue" # a word\n'
+    assert (shown.grade.score, shown.grade.status) == (2.5, "failed")
+    submit(1, COLOR="green")
+    assert 'color = "green" # a word' in text_of(course)
+    assert load(course)[0].of("me", "exercise1").done
+
+
+@pytest.mark.parametrize("text", [RIGHT, HALF, "size = 1\n"])
+def test_notebook_and_file_give_the_same(course, capsys, text):
+    answer(course, text)
+    shown = submit("exercise1")
+    run(["1", "--json"])
+    by_command = json.loads(capsys.readouterr().out)
+
+    assert [one.points for one in shown.grade.checks] == [
+        one["points"] for one in by_command["checks"]
+    ]
+    run(["1"])
+    assert f"{shown}\n" == capsys.readouterr().out
+
+
+@pytest.mark.parametrize("size", [3, 3.0, np.float64(3), np.int32(3), np.array(3), np.array([3])])
+@pytest.mark.usefixtures("course")
+def test_a_number_of_numpy_is_a_number(size):
+    assert submit(1, size=size, color="green").grade.status == "passed"
+
+
+@pytest.mark.parametrize(
+    ("answers", "said"),
+    [
+        ({"colour": "green"}, "asks for no 'colour'. It asks for: size, color."),
+        ({"size": object()}, "cannot be written down"),
+        ({"size": np.array([3, 4])}, "cannot be written down"),
+    ],
+)
+def test_what_cannot_be_an_answer_is_said_and_changes_nothing(course, answers, said):
+    shown = submit(1, **answers)
+
+    assert said in str(shown)
+    assert said.split(".")[0].replace("'", "&#x27;") in shown.html
+    assert shown.grade is None
+    assert text_of(course) == STARTER
+
+
+@pytest.mark.parametrize(
+    ("exercise", "said"), [("exercise7", "there is no exercise"), ("1", "cannot be read")]
+)
+def test_what_cannot_be_graded_is_one_line(course, exercise, said):
+    answer(course, "size = [\n")
+
+    assert said in str(submit(exercise))
+    assert "Traceback" not in str(submit(exercise))
+
+
+def test_a_cell_shows_marks_as_words_too_and_escapes_what_was_given(course):
+    shown = submit(1, size="<b>7</b>")
+    bundle = shown._repr_mimebundle_()
+
+    assert page_flaws(PAGE.format(bundle["text/html"])) == []
+    assert "not right yet" in bundle["text/html"]
+    assert "&lt;b&gt;7&lt;/b&gt;" in bundle["text/html"]
+    assert bundle["text/plain"] == str(shown)
+    assert course.is_dir()
+
+
+def test_a_file_of_code_is_graded_as_it_stands(root, tmp_path, monkeypatch):
+    folder = tmp_path / "exercises" / "exercise4"
+    shutil.copytree(root / "exercises" / "exercise4", folder)
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+
+    assert submit(4).grade.status == "failed"
+    assert "is answered in ExampleSubsystem.java or" in str(submit(4, ramp=0.5))
+
+
+def test_numbers_of_a_class_are_only_received(course):
+    checks = course / "exercises" / "exercise1" / "checks.py"
+    checks.write_text(
+        checks.read_text("utf-8") + "\ndef prepare(student, *, say):\n    pass\n", encoding="utf-8"
+    )
+    place = course / ".course"
+    place.mkdir()
+    (place / "class.toml").write_text('class = "East"\nstudent = "me"\n[sealed]\n', "utf-8")
+    shown = submit(1, size=3)
+
+    assert "1 of 2 answered" in str(shown)
+    assert "only your instructor can grade" in str(shown)
+    assert shown.grade is None
+    assert submit(1, "practice").grade is not None
+
+
+def test_the_package_itself_imports_nothing():
+    code = "import sys; import grader; print(*sorted(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert not {"numpy", "tomlkit", "click", "rich"} & set(done.stdout.split())
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        __import__("grader").nothing  # noqa: B018 - asking is the test
