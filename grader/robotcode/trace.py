@@ -19,6 +19,7 @@ from grader.robotcode.value import Value, joined
 from grader.robotcode.vocabulary import LOOPS, RUNS, is_motor, plain
 
 MOST_CALLS = 4  # methods followed, one inside the other
+MOST_SPREAD = 8  # arguments that a list may be spread into
 
 
 class Trace(Statements):
@@ -80,6 +81,8 @@ class Trace(Statements):
         owner = node.target.owner if isinstance(node.target, Member) else None
         receiver = None if owner is None else self.evaluate(owner, frame)
         args = [self.evaluate(arg, frame) for arg in node.args]
+        if node.spread:  # any of the arguments that are left may be in it
+            args += [replace(frame.value(node), carries=None, factor=None)] * MOST_SPREAD
         named = {word: self.evaluate(value, frame) for word, value in node.named}
         return self._applied(node, receiver, args, named, frame)
 

@@ -5,6 +5,8 @@ import ast
 from grader.robotcode import syntax
 from grader.robotcode.python.lowering import SELF, SIGNS, Lowering, Maker
 
+AROUND = frozenset({"Annotated", "Any", "ClassVar", "Final", "Optional"})  # around another type
+
 
 def _assign(lowering: Lowering, tree: ast.Assign) -> tuple[syntax.Node, ...]:
     place, value = lowering.place(tree), lowering.one(tree.value)
@@ -21,9 +23,23 @@ def _assign(lowering: Lowering, tree: ast.Assign) -> tuple[syntax.Node, ...]:
     return tuple(made)
 
 
+def _type(lowering: Lowering, annotation: ast.expr | None) -> str:
+    """A type as written, without what is put around it: ``TalonFX`` of ``Final[TalonFX]``."""
+    inner = annotation
+    while isinstance(inner, ast.Subscript) and _ends(lowering, inner.value) in AROUND:
+        several = inner.slice.elts if isinstance(inner.slice, ast.Tuple) else [inner.slice]
+        inner = several[0] if several else None
+    bare = inner is not None and _ends(lowering, inner) in AROUND
+    return "" if bare else lowering.said(inner)
+
+
+def _ends(lowering: Lowering, tree: ast.expr) -> str:
+    return lowering.said(tree).rpartition(".")[2]
+
+
 def _annotated(lowering: Lowering, tree: ast.AnnAssign) -> tuple[syntax.Node, ...]:
     value = None if tree.value is None else lowering.one(tree.value)
-    type_ = lowering.said(tree.annotation)
+    type_ = _type(lowering, tree.annotation)
     return (syntax.Assign(lowering.place(tree), lowering.one(tree.target), value, type=type_),)
 
 
@@ -62,7 +78,7 @@ def _function(
         syntax.Parameter(
             lowering.place(one),
             one.arg,
-            lowering.said(one.annotation),
+            _type(lowering, one.annotation),
             None if default is None else lowering.one(default),
         )
         for index, (one, default) in enumerate(listed)
