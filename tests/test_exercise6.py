@@ -18,6 +18,7 @@ from grader.exercise import Exercise
 from grader.variant import folder_name
 from sim.battery import Battery
 from sim.engine import State, move
+from sim.fit import fit
 from sim.model import Model
 from sim.routine import Routine
 from sim.simulate import simulate
@@ -201,6 +202,24 @@ def test_the_bench_stands_where_the_plan_says(kind):
             assert np.max(track.velocity) == pytest.approx(test.fastest, rel=0.01)
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_log_made_by_a_plan_that_keeps_the_rules_tells_the_gains(kind):
+    """With the bench's own noise and SysId's recipe: kV within 3, kA 20, kG 4 %."""
+    for number, student in enumerate(CLASS[:4]):
+        variant = OWN.module.draw(student)
+        machine, built = variant.machines[kind], variant.built[kind]
+        if machine.travel is not None:
+            built = replace(built, travel=machine.travel * unit(UNITS[machine.symbol]).si)
+        built = replace(built, lowest=0.0) if machine.kg else built
+        plan = DRAWN.sound(machine)
+        routine = Routine(ramp=plan.ramp, step=plan.step, timeout=plan.timeout)
+        log = simulate(built, routine, rng=np.random.default_rng(number))
+        found = fit(log, type=built.type, method="sysid").gains
+
+        for gain, near in {"kV": 0.03, "kA": 0.20, "kG": 0.04}.items():
+            assert found.get(gain, 0.0) == pytest.approx(built.gains.get(gain, 0.0), rel=near)
+
+
 def test_acceleration_scatters_on_the_bench_as_the_rule_says():
     """Velocity samples 20 ms apart, the one after less the one before."""
     machine = OWN.module.draw("ann").machines["shooter"]
@@ -269,9 +288,22 @@ def test_every_broken_rule_is_told_with_its_figure(copy):
         r"your step needs [\d.]+ m of run; you have [\d.]+ m",
         r"It hits the end at [\d.]+ m/s, [\d.]+ s after the start",
         r"at standstill your step draws \d+ A; the limit is \d+ A",
-        r"your step takes \d+ % of the volts at which the wheels slip",
+        r"your step takes [\d.]+ % of the volts at which the wheels slip",
     ):
         assert re.search(figure, found.hint)
+
+
+@pytest.mark.parametrize(("off", "kept"), [(0.002, True), (-0.002, True), (0.02, False)])
+def test_who_rounds_up_to_a_bound_is_not_wrong(off, kept):
+    """The current, the grip, the end of the travel: a fifth of a percent beyond is rounding."""
+    machine = replace(OWN.module.draw("ann").machines["drivetrain"], limit=1e4)
+    plan = replace(DRAWN.sound(machine), step=0.9 * machine.slip * (1.0 + off))
+    rests = max(one(machine, plan).rests for one in (PLAN.quasistatic, PLAN.dynamic))
+    short = replace(machine, travel=rests / (1.0 + off))
+    drawn = replace(machine, grip=9.0, limit=plan.step / 12.0 * machine.stall / (1.0 + off))
+
+    for here in (machine, replace(short, grip=9.0), drawn):
+        assert (RULES.broken(here, plan) == ()) == kept
 
 
 def test_a_plan_that_breaks_one_rule_earns_half(copy):

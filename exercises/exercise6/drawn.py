@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 LIMITS = {"krakenX60": 80.0, "neoVortex": 80.0, "neo": 60.0, "krakenX44": 60.0}  # [A]
 MOTORS = {
     "drivetrain": ("krakenX60", "neo", "neoVortex"),
-    "elevator": ("neo", "neoVortex"),
+    "elevator": ("neo",),
     "turret": ("krakenX44",),
     "shooter": ("krakenX60",),
 }
 SPREAD = {  # where the bench's own draws have no plan: too fast for their travel
-    "elevator": {"ratio": (6.0, 9.0), "load": (9.0, 14.0)},
-    "turret": {"ratio": (80.0, 120.0), "load": (1.6, 2.6)},
+    "elevator": {"ratio": (4.8, 6.2), "load": (15.0, 22.0)},
+    "turret": {"ratio": (60.0, 85.0), "load": (1.2, 2.0)},
     "shooter": {"load": (0.003, 0.006)},
 }
 UNITS = {"drivetrain": "meters", "elevator": "meters", "turret": "rotations"}
@@ -39,6 +39,7 @@ NOISE = {  # [units/s]
 }
 GRIPS = (1.0, 1.1, 1.2)
 REACTION = (0.25, 0.40)  # [s]
+LEAST_TAU = 0.04  # [s] below, samples 20 ms apart can hardly tell kA
 WIDE = 1.3  # [times] the largest step is above the smallest: room for a choice
 LASTS = 3.4  # [s] that a sound ramp moves
 BEYOND = 1.12  # [times] the wanted speed that it reaches
@@ -69,7 +70,7 @@ def _feasible(student: str, kind: str) -> "tuple[Machine, Mechanism]":
         built = _built(kind, rng)
         machine = _machine(kind, built, rng)
         low, high = steps(machine)
-        if high > WIDE * low and not broken(machine, sound(machine)):
+        if machine.tau > LEAST_TAU and high > WIDE * low and not broken(machine, sound(machine)):
             return machine, built
     raise RuntimeError(f"no plan for {kind} of {student!r}")
 

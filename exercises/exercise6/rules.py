@@ -10,6 +10,7 @@ MOVES = 3.0  # [s] that the ramp has to move
 QUARTER = 0.25  # [share] of the free speed that it has to reach
 GRIP = 0.9  # [share] of the volts at which wheels slip
 SIGNAL = 10.0  # [times] the acceleration is above its scatter
+LESS, MORE = 0.995, 1.005  # [times] a bound: who rounds is not wrong
 BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
 
 
@@ -31,18 +32,18 @@ def _safe(machine: Machine, plan: Plan) -> Iterator[Broken]:
         yield Broken(f"a timeout of {plan.timeout:g} s; no test may be longer than {LONGEST:g} s")
     slow = quasistatic(machine, plan)
     asks = plan.ramp * (slow.still + slow.lasts)
-    if asks > BATTERY:
+    if asks > MORE * BATTERY:
         yield Broken(f"your ramp asks for {asks:.1f} V in the end; the battery has {BATTERY:g} V")
     for name, test in (("ramp", slow), ("step", dynamic(machine, plan))):
-        if machine.travel is not None and test.rests > machine.travel:
+        if machine.travel is not None and test.rests > MORE * machine.travel:
             yield Broken(_too_far(name, test, machine.travel))
     amps = plan.step / BATTERY * machine.stall
-    if amps > machine.limit:
+    if amps > MORE * machine.limit:
         says = f"at standstill your step draws {amps:.0f} A; the limit is {machine.limit:g} A. The "
         yield Broken(f"{says}controller takes volts away, and the log shows a gentler start", BIG)
-    if plan.step > GRIP * machine.slip:
+    if plan.step > MORE * GRIP * machine.slip:
         share = 100.0 * plan.step / machine.slip
-        says = f"your step takes {share:.0f} % of the volts at which the wheels slip; at most 90 %"
+        says = f"your step takes {share:.1f} % of the volts at which the wheels slip; at most 90 %"
         if plan.step > machine.slip:
             says += ". They spin, and the encoder counts meters that the robot does not go"
         yield Broken(says, BIG)
@@ -63,23 +64,23 @@ def _too_far(name: str, test: Test, travel: float) -> str:
 def _tells(machine: Machine, plan: Plan) -> Iterator[Broken]:
     slow = quasistatic(machine, plan)
     end = "your mark" if slow.by_mark else "the timeout"
-    if slow.lasts < MOVES:
-        yield Broken(f"your ramp moves it for {slow.lasts:.1f} s until {end}; at least {MOVES:g} s")
-    if slow.fastest < QUARTER * machine.free:
+    if slow.lasts < LESS * MOVES:
+        yield Broken(f"your ramp moves it for {slow.lasts:.2f} s until {end}; at least {MOVES:g} s")
+    if slow.fastest < LESS * QUARTER * machine.free:
         yield _too_slow(slow, end)
     push = plan.step - machine.hold
     if push <= 0.0:
         yield Broken("your step does not move it: friction, or gravity with it, takes all of it")
-    elif push / machine.ka < SIGNAL * machine.scatter:
+    elif push / machine.ka < LESS * SIGNAL * machine.scatter:
         times = push / machine.ka / machine.scatter
-        says = f"your step's acceleration is {times:.1f} times its scatter; at least {SIGNAL:g}"
+        says = f"your step's acceleration is {times:.2f} times its scatter; at least {SIGNAL:g}"
         yield Broken(f"{says} times. It drowns in noise")
 
 
 def _too_slow(slow: Test, end: str) -> Broken:
     machine = slow.machine
     share = 100.0 * slow.fastest / machine.free
-    says = f"your ramp gets to {share:.0f} % of the free speed until {end}; at least 25 %"
+    says = f"your ramp gets to {share:.1f} % of the free speed until {end}; at least 25 %"
     run = slow.place(slow.when(slow.speed, QUARTER * machine.free))
     if machine.travel is None or run <= machine.travel:
         return Broken(says)

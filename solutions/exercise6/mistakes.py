@@ -45,9 +45,9 @@ MISTAKES = (
         "It hits the end at",
     ),
     Mistake(
-        "the library's own step",
+        "a step that burns rubber",
         ANSWERS,
-        put("drivetrain_step", "7.0"),
+        put("drivetrain_step", "11"),
         "drivetrain",
         "of the volts at which the wheels slip",
         BIG,
