@@ -120,7 +120,7 @@ def named(code: Code) -> None:
 
 @check(points=1)
 def volts(code: Code) -> None:
-    """KS, and kG where gravity pulls, are the analyzer's."""
+    """The volts of kS, and of kG where gravity pulls, are the analyzer's."""
     for gain in code.variant.gains:
         if gain in {"kS", "kG"}:
             _valued(gain, code)
@@ -128,23 +128,31 @@ def volts(code: Code) -> None:
 
 @check(points=1)
 def kv(code: Code) -> None:
-    """KV is the analyzer's, or what it becomes in the robot's unit."""
+    """The constant kV is the analyzer's, or what it becomes in the robot's unit."""
     _valued("kV", code)
 
 
 @check(points=1)
 def ka(code: Code) -> None:
-    """KA is the analyzer's, or what it becomes in the robot's unit."""
+    """The constant kA is the analyzer's, or what it becomes in the robot's unit."""
     _valued("kA", code)
 
 
 def _valued(gain: str, code: Code) -> None:
     constant = _constant(gain, code)
     value = _known(constant.value, f"{constant.name} = {constant.text}", constant.line)
-    if near(value, code.variant.shown[gain]) or near(value, code.variant.needed(gain)):
+    if _right(constant, code.variant):
         return
     slip = constant_slip(value, gain, code.variant, text=constant.text)
     raise Wrong(_at(constant), hint=slip.says, misconception=slip.misconception)
+
+
+def _right(constant: Constant, variant: Variant) -> bool:
+    """Whether a constant is the analyzer's number, or the one the robot needs."""
+    value, gain = constant.value, constant.gain
+    return value is not None and (
+        near(value, variant.shown[gain]) or near(value, variant.needed(gain))
+    )
 
 
 def _constant(gain: str, code: Code) -> Constant:
@@ -175,11 +183,7 @@ def units(code: Code) -> None:
     if not found:
         raise NotReached("looked at once there are gains")
     for one in found:
-        used = one.value is not None and near(one.value, code.variant.needed(one.gain))
-        unit = code.variant.unit(one.gain, used=used)
-        verdict = judged(one.comment, unit, name=one.name)
-        if verdict is False and judged(code.facts.general, unit):
-            verdict = True
+        verdict = _unit_told(one, code)
         shown = f'"{one.comment[:50]}" beside {one.name}' if one.comment else f"{one.name} alone"
         if verdict is False:
             raise Wrong(
@@ -192,6 +196,17 @@ def units(code: Code) -> None:
                 hint="A unit of the right kind, but not the one of this number.",
                 misconception="M-UNITS",
             )
+
+
+def _unit_told(one: Constant, code: Code) -> bool | None:
+    """Whether a gain's unit is told; where the number itself is not right, either will do."""
+    used = one.value is not None and near(one.value, code.variant.needed(one.gain))
+    either = (True, False) if not _right(one, code.variant) else (used,)
+    units_ = [code.variant.unit(one.gain, used=way) for way in either]
+    beside = {judged(one.comment, unit, name=one.name) for unit in units_}
+    if True in beside or (beside == {False} and any(judged(code.facts.general, u) for u in units_)):
+        return True
+    return None if None in beside else False
 
 
 @check(points=1)
@@ -236,8 +251,13 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
     given = next(
         (arg for arg in one.arguments.values() if arg.gain == gain), one.arguments.get(gain)
     )
+    constant = code.facts.constant(gain)
     if given is None:
         raise Wrong(f"the feedforward in line {one.line} gets no {gain}", hint="Hand it over, too.")
+    if constant is None and given.value is None:
+        raise Wrong(f"no constant {gain}", hint="Write it down first.")
+    if constant is not None and constant.value is not None and not _right(constant, code.variant):
+        raise Wrong(_at(constant), hint=f"Put the constant {gain} right first.")
     value = _known(given.value, given.text, one.line)
     if near(value, code.variant.needed(gain)):
         return
@@ -251,7 +271,7 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
 
 @check(points=1)
 def kp(code: Code) -> None:
-    """KP fits the robot's loop, and its comment says what kind of number it is."""
+    """The constant kP fits the robot's loop, and its comment says what kind of number it is."""
     constant = _constant("kP", code)
     handed = code.facts.feedback
     at = f"{constant.name} = {constant.text}"

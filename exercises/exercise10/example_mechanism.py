@@ -2,11 +2,13 @@
 
 from commands2 import Subsystem
 
+# TODO: 1. Import your feedforward. wpimath.controller has one for each kind of mechanism.
+
 
 class CharacterizationConstants:
     """What SysId found out. Measured with a fresh battery; again when the mechanism changes."""
 
-    # TODO: 1. One constant for each gain that the analyzer shows, kP among them. Beside each, a
+    # TODO: 2. One constant for each gain that the analyzer shows, kP among them. Beside each, a
     #       comment with its unit. Beside kP, also say how far this number can be trusted.
 
 
@@ -15,6 +17,5 @@ class ExampleMechanism(Subsystem):
 
     def __init__(self) -> None:
         super().__init__()
-        # TODO: 2. self.feedforward, made of these constants: wpimath.controller has three classes,
-        #       of which one fits your mechanism. Its velocities come in the unit that given.toml
-        #       tells under [robot].
+        # TODO: 3. self.feedforward, made of these constants. Its velocities come in the unit that
+        #       given.toml tells under [robot].

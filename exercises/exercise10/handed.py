@@ -1,5 +1,7 @@
 """What a feedforward is handed: which gain stands in which place."""
 
+import re
+
 from grader.check import NotReached, Wrong
 from grader.robotcode.deployed import Argument, DeployFacts, Feedforward
 
@@ -32,7 +34,7 @@ def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, point
     """
     places = _places(one)
     found = {place: _gain(arg, facts, variant) for place, arg in one.arguments.items()}
-    at = f"{one.text} in line {one.line}"
+    at = f"{re.sub(r'[A-Za-z_.]+[.](?=k)', '', one.text)} in line {one.line}"
     for place, gain in found.items():
         if gain and gain != place:
             raise Wrong(

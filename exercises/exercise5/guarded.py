@@ -3,7 +3,7 @@
 from grader.check import Wrong
 from grader.robotcode.binding_facts import Binding, BindingFacts, Controller, Guard
 
-from .four import TESTS, missing
+from .four import TESTS
 
 WAYS = (
     "Ask for something a driver never does in a match: test mode, a second button held along, a "
@@ -23,10 +23,11 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
         Wrong: some or all are not.
     """
     open_ = [one for one in facts.bindings if not _guarded(one, facts)]
-    if not open_ and missing(facts):
-        earned = points * (len(TESTS) - len(missing(facts))) / len(TESTS)
+    bound = len(facts.bindings)
+    if not open_ and bound < len(TESTS):
         hint = "The guard is right. It counts for the whole once all four tests are there."
-        raise Wrong(f"{len(facts.bindings)} of 4 tests bound", hint=hint, earned=earned)
+        earned = points * bound / len(TESTS)
+        raise Wrong(f"{bound} of {len(TESTS)} tests bound", hint=hint, earned=earned)
     if not open_:
         return _note(facts)
     first = open_[0]
@@ -37,12 +38,12 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
             hint="That if is asked once, while the robot starts, and it is not in test mode then. "
             "Let the trigger ask, every time.",
         )
-    guarded = len(facts.bindings) - len(open_)
+    guarded = bound - len(open_)
     if guarded:
         lines = ", ".join(str(one.line) for one in open_)
-        said = f"{guarded} of {len(facts.bindings)} bindings are guarded; not so: line {lines}"
+        said = f"{guarded} of {bound} bindings are guarded; not so: line {lines}"
         hint = "One open door is enough. Guard all four the same way."
-        raise Wrong(said, hint=hint, earned=points * guarded / max(len(facts.bindings), 4))
+        raise Wrong(said, hint=hint, earned=points * guarded / max(bound, len(TESTS)))
     used = [one for one in _controllers(first, facts) if one.uses]
     if used and len(facts.controllers) > 1:
         text, line = used[0].uses[0]

@@ -3,7 +3,7 @@
 from grader.check import Wrong
 from grader.robotcode.binding_facts import Binding, BindingFacts, Hold
 
-from .four import TESTS, all_of
+from .four import TESTS
 
 PRESSED = 1 / 3  # [share] of the points for a test that starts, but does not stop on release
 
@@ -62,15 +62,11 @@ def check_hold(one: Binding, facts: BindingFacts, *, earned: float) -> None:
 
 def held_share(facts: BindingFacts) -> float:
     """The share of the points: whole for a test that is held, part of it for one that is not."""
-    best = dict.fromkeys(TESTS, 0.0)
-    taken: set[str] = set()
+    best: dict[str, float] = {}
     for one in facts.bindings:
-        fresh = bool(one.trigger) and one.trigger not in taken
-        taken.add(one.trigger)
-        good = one.hold is Hold.WHILE and not one.scheduled and fresh and not facts.uncalled
-        started = (one.hold is Hold.PRESS or one.scheduled) and fresh
+        good = one.hold is Hold.WHILE and not one.scheduled and not facts.uncalled
+        started = one.hold is Hold.PRESS or one.scheduled
         share = 1.0 if good else PRESSED if started else 0.0
-        if len(one.tests) == 1:
-            for test in all_of(one.tests):
-                best[test] = max(best[test], share)
-    return sum(best.values()) / len(TESTS)
+        if one.trigger:
+            best[one.trigger] = max(best.get(one.trigger, 0.0), share)
+    return min(sum(best.values()) / len(TESTS), 1.0)

@@ -127,7 +127,7 @@ MISTAKES = (
     Mistake(
         "no feedforward",
         PYTHON,
-        changed(r"^.*wpimath\.controller\.\w+\(.*\n", "        pass\n"),
+        changed(r"^.*self\.feedforward = .*\n", "        pass\n"),
         "feedforward",
         "no feedforward is made",
     ),

@@ -72,8 +72,8 @@ def in_python(text: str, rows: list[Row], made: str, gains: tuple[str, ...]) -> 
     kind = f"{made}Radians" if made.startswith("Simple") else made
     if "V·s/m" in constants and made.startswith("Simple"):
         kind = f"{made}Meters"
-    field = f"        self.feedforward = wpimath.controller.{kind}({arguments})\n"
-    return _filled(text, constants, field, mark="#")
+    field = f"        self.feedforward = {kind}({arguments})\n"
+    return _filled(text, f"from wpimath.controller import {kind}\n", constants, field, mark="#")
 
 
 def _filled(text: str, *parts: str, mark: str) -> str:
