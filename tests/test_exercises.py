@@ -3,6 +3,7 @@
 import importlib.util
 import re
 import shutil
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -35,24 +36,25 @@ MISTAKES = [
 ]
 
 
-@pytest.fixture
-def answered(tmp_path):
-    """Makes the solution of an exercise for a student: file name -> text."""
+@pytest.fixture(scope="module")
+def answered(tmp_path_factory):
+    """Makes the solution of an exercise for a student, once: file name -> text."""
 
-    def answer(name, student):
+    @cache
+    def solved(name, student):
         folder = ROOT / "solutions" / name
         one = EXERCISES[name]
         if not (folder / "solve.py").is_file():
             named = (*one.files, *one.beside)
             return {file: (folder / file).read_text(encoding="utf-8") for file in named}
-        copy = tmp_path / "exercises" / name
+        copy = tmp_path_factory.mktemp("course") / "exercises" / name
         shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data"))
         moved = type(one)(name, copy)
         moved.prepare(student, say=lambda _: None)
         (data,) = (copy / "data").iterdir()
         return load(folder / "solve.py").solve(copy, data)
 
-    return answer
+    return lambda name, student: dict(solved(name, student))
 
 
 def grade(name, texts, file, student, folder):

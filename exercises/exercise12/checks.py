@@ -1,0 +1,211 @@
+"""Exercise 12: what is missing in a model, named, sized, and shown on runs nobody fitted."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from grader.answer import Asked, Band, number
+from grader.check import NotReached, Wrong, check
+from grader.given import hand_out
+from grader.submission import read_answers
+from grader.variant import folder_name
+
+from .drawn import Variant, draw
+from .gap import compared, gap, noise, with_effects, with_gains
+from .patch import names_of, on_a_bound, parts_of
+
+if TYPE_CHECKING:
+    from sim.log import Log
+    from sim.model import Model, Part
+
+__all__ = [  # what try_it.py uses, too
+    "compared", "draw", "folder_name", "gap", "names_of", "noise", "with_effects", "with_gains",
+]  # fmt: skip
+
+FILES = ("answers.toml",)
+HERE = Path(__file__).resolve().parent
+
+FLOOR = 1.3  # [of the gap that the truth leaves] for full marks
+SHRINK = 0.6  # [share of what can be shrunk] for partial marks
+WORSE = 1.05  # [of the base's gap] beyond it, effects do harm
+SURE = 20.0  # [BIC] odds of about twenty thousand to one
+NARROWER = 0.985  # [of the gap without] what a refit by chance does not do
+SAME = (0.6, 1.6)  # [of the gap graded] what another honest way to compute it may give
+BASE = (0.3, 3.0)  # [of the same] of a base that another method fitted
+REPORTED = 0.5  # points for the two gaps
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at."""
+
+    given: Mapping[str, object]
+    variant: Variant
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The effects, in order; raises Wrong."""
+        return names_of(self.given.get("effects"))
+
+    @property
+    def parts(self) -> "list[Part]":
+        """The effects with their parameters; raises Wrong."""
+        from sim.units import unit  # noqa: PLC0415 - numpy only where it is needed
+
+        return parts_of(self.names, self.given, unit(self.variant.log.units))
+
+    @cached_property
+    def base(self) -> "Model":
+        """Nothing but gains."""
+        return with_gains(self.variant.log, ())
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Make the learner's logs, where they are not there as they were made."""
+    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
+
+    variant = draw(student)
+    logs = {
+        "log": variant.log,
+        "validation": variant.validation,
+        "held-out": variant.held_out,
+    }
+    made = {
+        f"{name}{suffix}": partial(write, log)
+        for name, log in logs.items()
+        for suffix in (".wpilog", ".csv")
+    }
+    hand_out(made, exercise=HERE, student=student, what="logs", say=say)
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and what they are held against.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    return Answers(given, draw(student))
+
+
+@check(points=3)
+def first_effect(answers: Answers) -> None:
+    """The first effect is the one that matters most."""
+    first = answers.names[0]
+    if first == answers.variant.hidden[0]:
+        return
+    hint = "there is an effect that narrows the gap of the validation more, alone"
+    if first in answers.variant.hidden:
+        hint = f"it is there, but {hint}"
+    raise Wrong(f'"{first}"', hint=f"{hint}{_alone(answers)}")
+
+
+def _alone(answers: Answers) -> str:
+    """What the first effect does by itself, as the learner sized it."""
+    try:
+        part = answers.parts[0]
+    except Wrong:
+        return ""
+    log, validation = answers.variant.log, answers.variant.validation
+    unit = noise(validation)
+    before, after = (
+        gap(model, validation) / unit for model in (answers.base, with_gains(log, [part]))
+    )
+    return (
+        f". With {part.effect} alone, as you give it, that gap goes from {before:.3g} to "
+        f"{after:.3g} times the noise"
+    )
+
+
+@check(points=2)
+def all_effects(answers: Answers) -> None:
+    """All effects that are missing are named, and no others."""
+    named, hidden = {*answers.names}, {*answers.variant.hidden}
+    if named == hidden:
+        return
+    hint = "each of those is there, and something is still missing: look at what is left"
+    if named > hidden:
+        hint = "what is missing is among them, and more. Which of them narrows no gap?"
+    elif not named < hidden:
+        hint = "not all of those are there. Leave one out at a time: which does nobody miss?"
+    some = named > hidden or named < hidden
+    raise Wrong(", ".join(answers.names), hint=hint, earned=1.0 if some else 0.0)
+
+
+@check(points=3)
+def held_out(answers: Answers) -> str | None:
+    """The model predicts the held-out log, which nothing was fitted to."""
+    log, shown = answers.variant.log, answers.variant.held_out
+    unit = noise(shown)
+    floor = max(1.0, gap(answers.variant.mechanism.model, shown) / unit)
+    before = gap(answers.base, shown) / unit
+    after = gap(with_gains(log, answers.parts), shown) / unit
+    seen = f"the gap goes from {before:.3g} to {after:.3g} times the noise"
+    if after <= FLOOR * floor:
+        return _reported(answers, before=before, after=after, seen=seen)
+    shrunk = (before - after) / (before - floor)
+    if shrunk >= SHRINK:
+        hint = "most of the way. Is an effect missing, or a parameter not yet right?"
+        raise Wrong(seen, hint=hint, earned=2.0)
+    hint = "there is much left. Are the parameters those of your own log, in its units?"
+    if after > WORSE * before:
+        hint = (
+            "on runs it was not fitted to, your model is worse than none. What fits one log only "
+            "is no physics: choose by the validation, and leave out what does not help there"
+        )
+    raise Wrong(seen, hint=hint)
+
+
+def _reported(answers: Answers, *, before: float, after: float, seen: str) -> str:
+    """Whether the gaps that the learner wrote down are those of this model."""
+    for name, expected, bounds in (("gap_before", before, BASE), ("gap_after", after, SAME)):
+        asked = Asked(name, expected, "", Band(0.0, 0.0))
+        try:
+            _near(number(answers.given.get(name), asked), expected, bounds)
+        except Wrong as wrong:
+            wrong.seen, wrong.earned = f"{name}: {wrong.seen}", 3.0 - REPORTED
+            raise
+    return seen
+
+
+def _near(value: float, expected: float, bounds: tuple[float, float]) -> None:
+    if not bounds[0] * expected <= value <= bounds[1] * expected:
+        hint = "that is not the gap of your model on the held-out log, in noises"
+        raise Wrong(f"{value:g}", hint=hint)
+
+
+@check(points=2)
+def justified(answers: Answers) -> None:
+    """Each effect earns its place on the validation, and no parameter is at a bound."""
+    try:
+        parts = answers.parts
+    except Wrong:
+        raise NotReached("it takes effects and their parameters") from None
+    for part in parts:
+        if stuck := on_a_bound(part):
+            raise Wrong(
+                f"{part.effect}.{stuck} is at its bound",
+                hint="there an effect does nothing, or wants to be another one. Leave it out, or "
+                "search again from elsewhere",
+            )
+    log, validation = answers.variant.log, answers.variant.validation
+    whole = gap(with_gains(log, parts), validation)
+    for part in parts:
+        without = gap(with_gains(log, [one for one in parts if one is not part]), validation)
+        if not _worth(part, whole=whole, without=without, log=validation):
+            raise Wrong(
+                part.effect,
+                hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
+                "wide. That is no reason to have it: more effects always fit the log they are "
+                "fitted to, and predict other runs worse",
+            )
+
+
+def _worth(part: "Part", *, whole: float, without: float, log: "Log") -> bool:
+    """Whether an effect makes runs likelier that it was not fitted to, its parameters paid."""
+    count = sum(int(where.sum()) for where in compared(log))
+    bic = 2.0 * count * math.log(without / whole) - len(part.parameters) * math.log(count)
+    return bic >= SURE and whole <= NARROWER * without

@@ -1,0 +1,80 @@
+"""A learner's own mechanism and what is hidden in it: three logs, and the truth about them."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from grader.variant import generator
+
+if TYPE_CHECKING:
+    from sim.log import Log
+    from sim.mechanism import Mechanism
+
+FOUR = ("quasistatic", "dynamic")
+HIDDEN = (
+    ("drivetrain", (("velocity-filter", 1.5),)),
+    ("drivetrain", (("cogging", 1.2),)),
+    ("drivetrain", (("velocity-filter", 1.5), ("stribeck", 0.8))),
+    ("drivetrain", (("asymmetric-back-emf", 1.2), ("drag", 0.8))),
+    ("drivetrain", (("cogging", 1.2), ("velocity-filter", 0.8))),
+    ("drivetrain", (("velocity-filter", 1.5), ("drag", 0.8), ("stribeck", 0.6))),
+    ("drivetrain", (("asymmetric-back-emf", 1.2), ("drag", 1.2), ("stribeck", 0.6))),
+    ("shooter", (("velocity-filter", 2.0),)),
+    ("shooter", (("drag", 1.5), ("velocity-filter", 0.8))),
+    ("shooter", (("asymmetric-back-emf", 1.2), ("drag", 0.8))),
+)
+"""Mechanism, and its effects with their sizes. In each of them the first effect alone narrows the
+gap more than any other of the catalogue alone does, and all of them together bring it to the noise.
+"""
+
+SIZES = (0.9, 1.1)  # [1] by which a size differs from learner to learner
+TESTS = {  # ramp [V/s] and step [V] of the log and of the validation, step [V] of the held-out log
+    "drivetrain": ((0.5, 3.5), (0.5, 2.5), 3.0),
+    "shooter": ((0.5, 3.5), (1.0, 6.0), 5.0),
+}
+"""Below what 120 A in the stator let through, so that nothing but what is hidden is missing."""
+
+TIMEOUT = 8.0  # [s] of a test of the validation and of the held-out log
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One learner's mechanism.
+
+    Args:
+        mechanism: with all that is hidden in it.
+        log: the four tests, to fit.
+        validation: other runs, to choose effects by.
+        held_out: more runs, to show the gap on and nothing else.
+    """
+
+    mechanism: "Mechanism"
+    log: "Log"
+    validation: "Log"
+    held_out: "Log"
+
+    @property
+    def hidden(self) -> tuple[str, ...]:
+        """The effects that are hidden, the one that matters most first."""
+        return tuple(part.effect for part in self.mechanism.hidden)
+
+
+@lru_cache(maxsize=4)  # it is asked for when the logs are made, and when an answer is graded
+def draw(student: str) -> Variant:
+    """A learner's mechanism, always the same one."""
+    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.routine import Routine  # noqa: PLC0415 - the same
+    from sim.simulate import simulate  # noqa: PLC0415 - the same
+
+    rng = generator(student, "exercise12")
+    kind, effects = HIDDEN[int(rng.integers(len(HIDDEN)))]
+    mechanism = MECHANISMS[kind].draw(rng)
+    for effect, size in effects:
+        mechanism = mechanism.hiding(effect, size * float(rng.uniform(*SIZES)))
+    (ramp, step), (other_ramp, other_step), held_out = TESTS[kind]
+    routines = (
+        Routine(ramp=ramp, step=step, kinds=FOUR),
+        Routine(other_ramp, other_step, timeout=TIMEOUT, kinds=(*FOUR, "multistep")),
+        Routine(step=held_out, timeout=TIMEOUT, kinds=("coast", "triangle", "chirp")),
+    )
+    return Variant(mechanism, *(simulate(mechanism, routine, rng=rng) for routine in routines))

@@ -1,0 +1,111 @@
+"""What a learner puts into the model: names in order, and the parameters of each."""
+
+import difflib
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from grader.answer import Asked, Band, number
+from grader.check import Wrong
+
+if TYPE_CHECKING:
+    from sim.effect import Parameter
+    from sim.model import Part
+    from sim.units import Unit
+
+GAINS = ("ks", "kv", "ka", "kg", "kp")
+MOST = 19  # names; more than there are effects is no answer
+EDGE = 1e-4  # [share] a parameter this near to its bound is on it
+NOTHING = 1e-9  # in SI: no effect is so small and still one
+LIST = "sysid effects lists the names"
+
+
+def names_of(raw: object) -> tuple[str, ...]:
+    """The names of the effects, in the learner's order.
+
+    Raises:
+        Wrong: there are none, or one that is none.
+    """
+    some = raw.split(",") if isinstance(raw, str) else raw
+    if not isinstance(some, list) or not all(isinstance(one, str) for one in some):
+        raise Wrong("not a list of names", hint=f'Write effects = ["drag", "delay"]; {LIST}.')
+    names = [one.strip().lower().replace("_", "-").replace(" ", "-") for one in some]
+    names = [one for one in names if one]
+    if not names:
+        raise Wrong("nothing yet", hint=f'Write effects = ["…"], the most important first; {LIST}.')
+    for name in names[:MOST]:
+        _known(name)
+    if len(names) > MOST or len({*names}) < len(names):
+        raise Wrong(f"{len(names)} names", hint="Name each effect once.")
+    return tuple(names)
+
+
+def _known(name: str) -> None:
+    from sim.effects import EFFECTS  # noqa: PLC0415 - numpy only where it is needed
+
+    if name in GAINS:
+        raise Wrong(
+            f'"{name}"',
+            hint="that is a gain, and the base model has it already: its gains are fitted to your "
+            "log as well as they can be. A gain that is bent until one log fits hides what is "
+            f"missing, and fails on the next log; {LIST}",
+        )
+    if name not in EFFECTS:
+        near = difflib.get_close_matches(name, EFFECTS, n=1)
+        also = f"Did you mean {near[0]}? " if near else ""
+        raise Wrong(f'"{name[:40]}", which is no effect', hint=f"{also}{LIST}.")
+
+
+def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -> "list[Part]":
+    """The effects with their parameters, as the bench needs them.
+
+    Args:
+        names: of the effects.
+        given: the answers.
+        per: the unit of position in which the learner writes.
+
+    Raises:
+        Wrong: a parameter is missing, or is none.
+    """
+    from sim.effects import effect  # noqa: PLC0415 - numpy only where it is needed
+    from sim.model import Part  # noqa: PLC0415 - the same
+
+    parts = []
+    for name in names:
+        table = given.get(name, given.get(name.replace("-", "_")))
+        known = effect(name).parameters
+        if not isinstance(table, dict):
+            lines = ", ".join(f"{name}.{one.name} = …" for one in known)
+            raise Wrong(f"no parameters of {name}", hint=f"Write a line for each: {lines}.")
+        values = {one.name: _value(name, one, table.get(one.name), per) for one in known}
+        parts.append(Part(name, values))
+    return parts
+
+
+def _value(name: str, known: "Parameter", raw: object, per: "Unit") -> float:
+    """A parameter, in SI."""
+    asked = Asked(f"{name}.{known.name}", 0.0, known.unit.format(u=per.symbol), Band(0.0, 0.0))
+    try:
+        value = number(raw, asked)
+    except Wrong as wrong:
+        wrong.seen = f"{asked.name}: {wrong.seen}"
+        raise
+    si = value / per.si**known.power
+    if not known.least <= si <= known.most:
+        raise Wrong(
+            f"{asked.name} = {value:g} {asked.unit}",
+            hint=f"that is not physics: {known.what} cannot be that. Mind the sign and the unit",
+        )
+    return si
+
+
+def on_a_bound(part: "Part") -> str:
+    """The parameter that stands at the end of what is allowed; empty if none does."""
+    from sim.effects import effect  # noqa: PLC0415 - numpy only where it is needed
+
+    for one in effect(part.effect).parameters:
+        value = part.parameters[one.name]
+        for bound in (one.least, one.most):
+            if math.isfinite(bound) and abs(value - bound) <= max(EDGE * abs(bound), NOTHING):
+                return one.name
+    return ""

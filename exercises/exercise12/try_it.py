@@ -1,0 +1,68 @@
+"""Try effects on your own logs.
+
+    python exercises/exercise12/try_it.py drag delay
+
+Their parameters are fitted to your log. What counts is the gap of the validation.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from grader.course import find_course, load
+from grader.exercise import find
+from sim import read
+from sim.errors import Refusal
+from sim.reconcile.where import map_of
+from sim.replay import replay
+from sim.units import gains_per, unit
+
+TOLD = 4  # places
+
+
+def main() -> int:
+    """Show what some effects do for the gap."""
+    parser = argparse.ArgumentParser(description="Try effects on your own logs.")
+    parser.add_argument("effects", nargs="*", help="names, as sysid effects lists them")
+    parser.add_argument("--student", help="whose logs; yours if not given")
+    parser.add_argument("--held-out", action="store_true", help="show that gap, too: at the end")
+    asked = parser.parse_args()
+    course = find_course(Path(__file__).resolve().parent)
+    exercise = find("12", course)
+    student = asked.student or load(course)[0].student
+    exercise.prepare(student, say=_say)
+    room = exercise.module
+    data = room.HERE / "data" / room.folder_name(student)
+    logs = {name: read(data / f"{name}.wpilog") for name in ("log", "validation", "held-out")}
+    names = room.names_of(asked.effects) if asked.effects else ()
+    model = room.with_effects(logs["log"], names)
+    per = unit(logs["log"].units)
+    gains = gains_per(model.gains, factor=per.si)
+    _say(", ".join(f"{name} = {value:.4g}" for name, value in gains.items()))
+    for part in model.parts:
+        for name, one in part.said(per).items():
+            _say(f"{part.effect}.{name} = {one['value']:.5g}  # [{one['unit']}]")
+    for name, log in logs.items():
+        if name != "held-out" or asked.held_out:
+            wide = room.gap(model, log) / room.noise(log)
+            _say(f"gap of the {name}: {wide:.3g} times the noise of the velocity")
+    _say("Where the validation disagrees most:")
+    shown = logs["validation"]
+    tracks = [np.column_stack((one.position, one.seen)) for one in replay(model, shown)]
+    found = map_of(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
+    for place in found.places(TOLD, signal="velocity") if found else ():
+        _say(f"  {place.sentence}")
+    return 0
+
+
+def _say(line: str) -> None:
+    sys.stdout.write(f"{line}\n")
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except Refusal as refusal:
+        sys.exit(str(refusal))

@@ -1,0 +1,124 @@
+"""Wrong answers to exercise 12, and what a learner must be told about each."""
+
+import re
+from collections.abc import Callable
+
+from grader.mistake import Mistake, put
+
+ANSWERS = "answers.toml"
+LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILINE)
+
+
+def named(change: Callable[[str], str], lines: str = "") -> Callable[[str], str]:
+    """Change the list of names, and add lines with parameters."""
+
+    def make(text: str) -> str:
+        found = re.search(r"^effects = \[(.*?)\]", text, re.MULTILINE)
+        if found is None:
+            raise ValueError("the solution names no effects")
+        return text.replace(found[0], f"effects = [{change(found[1])}]") + lines
+
+    return make
+
+
+def first_line(change: Callable[[str, float], str]) -> Callable[[str], str]:
+    """Change the first parameter."""
+
+    def make(text: str) -> str:
+        if not LINE.search(text):
+            raise ValueError("the solution has no parameters")
+        return LINE.sub(lambda one: change(one["name"], float(one["value"])), text, count=1)
+
+    return make
+
+
+MISTAKES = (
+    Mistake("no effect named", ANSWERS, put("effects", "[]"), "first-effect", "nothing yet"),
+    Mistake(
+        "kA fixes it",
+        ANSWERS,
+        put("effects", '["kA"]'),
+        "first-effect",
+        "hides what is missing",
+    ),
+    Mistake(
+        "inertia for whatever is missing",
+        ANSWERS,
+        named(
+            lambda _: '"inertia-change"',
+            '"inertia-change".extra = 0.05\n"inertia-change".moment = 20.0\n',
+        ),
+        "first-effect",
+        "narrows the gap of the validation more, alone",
+    ),
+    Mistake(
+        "a word of one's own",
+        ANSWERS,
+        put("effects", '["air resistance"]'),
+        "first-effect",
+        "sysid effects lists the names",
+    ),
+    Mistake(
+        "one effect too many",
+        ANSWERS,
+        named(lambda names: f'{names}, "constant-load"', "constant-load.load = 0.001\n"),
+        "justified",
+        "predict other runs worse",
+    ),
+    Mistake(
+        "one name too many",
+        ANSWERS,
+        named(lambda names: f'{names}, "constant-load"', "constant-load.load = 0.001\n"),
+        "all-effects",
+        "Which of them narrows no gap?",
+    ),
+    Mistake(
+        "everything that might be, added",
+        ANSWERS,
+        named(
+            lambda names: f'{names}, "constant-load", "delay", "heating"',
+            "constant-load.load = 0.15\ndelay.lag = 0.2\nheating.rate = 0.01\n",
+        ),
+        "held-out",
+        "worse than none",
+    ),
+    Mistake(
+        "an effect of nothing",
+        ANSWERS,
+        named(lambda names: f'{names}, "delay"', "delay.lag = 0.0\n"),
+        "justified",
+        "at its bound",
+    ),
+    Mistake(
+        "a look-alike that explains little",
+        ANSWERS,
+        named(lambda _: '"constant-load"', "constant-load.load = 0.02\n"),
+        "held-out",
+        "there is much left",
+    ),
+    Mistake(
+        "a parameter left out",
+        ANSWERS,
+        first_line(lambda _name, _value: ""),
+        "held-out",
+        "Write",
+    ),
+    Mistake(
+        "a parameter in another unit",
+        ANSWERS,
+        first_line(lambda name, value: f'{name} = "{value} m^7"'),
+        "held-out",
+        "does not measure",
+        "M-UNITS",
+    ),
+    Mistake(
+        "no gaps written down", ANSWERS, put("gap_after", '""'), "held-out", "gap_after: nothing"
+    ),
+    Mistake(
+        "a gap below what noise allows",
+        ANSWERS,
+        put("gap_after", "0.2"),
+        "held-out",
+        "not the gap of your model",
+    ),
+)

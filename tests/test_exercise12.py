@@ -1,0 +1,191 @@
+"""Exercise 12: what is hidden in a mechanism of one's own, named, sized and shown."""
+
+import re
+import runpy
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from grader.exercise import Exercise
+from sim.effects import effect
+from sim.units import unit
+
+ROOT = Path(__file__).resolve().parents[1]
+OWN = Exercise("exercise12", ROOT / "exercises" / "exercise12")
+ROOM = OWN.module
+DRAWN = sys.modules[f"{ROOM.__name__}.drawn"]
+
+
+@pytest.fixture
+def copy(tmp_path, monkeypatch):
+    """A copy of the exercise in a course of its own, in whose folder the command runs."""
+    folder = tmp_path / "exercises" / "exercise12"
+    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return Exercise("exercise12", folder)
+
+
+def lines_of(parts, per):
+    """Parameters as a learner writes them."""
+    return "".join(
+        f'"{part.effect}".{name} = "{one["value"]:.6g} {one["unit"]}"\n'
+        for part in parts
+        for name, one in part.said(per).items()
+    )
+
+
+def truth(student, *, names=None):
+    """The answer of somebody who knows what is hidden; ``names`` changes only the list."""
+    variant = ROOM.draw(student)
+    held, per = variant.held_out, unit(variant.log.units)
+    base = ROOM.gap(ROOM.with_gains(variant.log, ()), held) / ROOM.noise(held)
+    listed = ", ".join(f'"{name}"' for name in names or variant.hidden)
+    return (
+        f"effects = [{listed}]\n{lines_of(variant.mechanism.hidden, per)}"
+        f"gap_before = {base:.3g}\ngap_after = 1.1\n"
+    )
+
+
+def graded(text, student, folder):
+    path = folder / "answers.toml"
+    path.write_text(text, encoding="utf-8")
+    return {check.id: check for check in OWN.grade(path, student=student).checks}
+
+
+def hiding(count):
+    """A student with so many effects."""
+    return next(
+        name
+        for name in (f"student {number}" for number in range(60))
+        if len(ROOM.draw(name).hidden) == count
+    )
+
+
+def test_twelve_students_have_an_answer_that_earns_everything(tmp_path):
+    drawn = set()
+    for number in range(12):
+        results = graded(truth(f"student {number}"), f"student {number}", tmp_path)
+        drawn.add(ROOM.draw(f"student {number}").hidden)
+
+        assert [one for one in results.values() if one.status != "passed"] == []
+        assert sum(one.max_points for one in results.values()) == 10  # as the course lists it
+    assert len(drawn) > 3
+
+
+@pytest.mark.parametrize(("kind", "effects"), DRAWN.HIDDEN)
+def test_what_can_be_hidden_is_physics_that_its_mechanism_can_have(kind, effects):
+    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+
+    for name, size in effects:
+        assert effect(name).cannot(MECHANISMS[kind].scale) == ""
+        assert MECHANISMS[kind].hiding(name, size).hidden
+
+
+def test_a_student_gets_the_same_logs_every_time_and_nobody_elses(copy):
+    def files(student):
+        shutil.rmtree(copy.folder / "data", ignore_errors=True)
+        copy.prepare(student, say=lambda _: None)
+        return {one.name: one.read_bytes() for one in (copy.folder / "data").glob("*/*")}
+
+    first = files("ann")
+    assert first.keys() == {
+        f"{name}{suffix}"
+        for name in ("log", "validation", "held-out")
+        for suffix in (".csv", ".wpilog")
+    }
+    assert files("Ann") == first
+    assert files("ben")["log.csv"] != first["log.csv"]
+
+
+def test_the_second_effect_named_first_costs_three_points(tmp_path):
+    student = hiding(2)
+    swapped = ROOM.draw(student).hidden[::-1]
+    results = graded(truth(student, names=swapped), student, tmp_path)
+
+    assert results["first-effect"].status == "failed"
+    assert "it is there, but" in results["first-effect"].hint
+    assert {results[one].status for one in ("all-effects", "held-out", "justified")} == {"passed"}
+
+
+def test_one_of_three_alone_is_part_of_the_way(tmp_path):
+    student = hiding(3)
+    some = ROOM.draw(student).hidden[:1]
+    results = graded(truth(student, names=some), student, tmp_path)
+
+    assert results["first-effect"].status == "passed"
+    assert results["all-effects"].points == 1
+    assert "still missing" in results["all-effects"].hint
+    assert results["held-out"].points == 2  # most of the gap, not all of it
+    assert "most of the way" in results["held-out"].hint
+
+
+def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
+    text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ann"))
+
+    assert graded(text, "ann", tmp_path)["held-out"].points == 2.5
+
+
+@pytest.mark.parametrize(
+    ("written", "right"),
+    [
+        ('"{}"', True),
+        ('["{}"]', True),
+        ('["{}", ""]', True),
+        ("3", False),
+        ('["{0}", "{0}"]', False),
+    ],
+)
+def test_a_list_of_names_may_be_written_in_many_ways(tmp_path, written, right):
+    name = ROOM.draw("ann").hidden[0]
+    for spelled in (name, name.upper(), name.replace("-", "_")):
+        result = graded(f"effects = {written.format(spelled)}\n", "ann", tmp_path)["first-effect"]
+
+        assert (result.status == "passed") == right
+
+
+def test_a_name_that_is_nearly_one_is_asked_about(tmp_path):
+    check = graded('effects = ["stribek"]\n', "ann", tmp_path)["first-effect"]
+
+    assert "Did you mean stribeck?" in check.hint
+
+
+def test_a_value_beyond_physics_is_no_crash(tmp_path):
+    text = 'effects = ["delay"]\ndelay.lag = -1\n'
+
+    assert "is not physics" in graded(text, "ann", tmp_path)["held-out"].hint
+
+
+def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypatch, capsys):
+    name = ROOM.draw("ann").hidden[0]
+    script = str(copy.folder / "try_it.py")
+    monkeypatch.setattr(sys, "argv", [script, "--student", "ann"])
+    with pytest.raises(SystemExit):
+        runpy.run_path(script, run_name="__main__")
+    alone = capsys.readouterr().out
+    monkeypatch.setattr(sys, "argv", [script, name, "--student", "ann", "--held-out"])
+    with pytest.raises(SystemExit):
+        runpy.run_path(script, run_name="__main__")
+    tried = capsys.readouterr().out
+
+    def wide(said, which):
+        return float(re.search(rf"gap of the {which}: ([\d.e+]+)", said)[1])
+
+    assert "held-out:" not in alone
+    assert wide(tried, "validation") < 0.8 * wide(alone, "validation")
+    assert wide(tried, "held-out") > 0
+    assert f"{name}." in tried
+    assert "Where the validation disagrees most" in alone
+
+
+def test_nothing_a_learner_reads_without_trying_names_what_is_hidden():
+    """The example in the README and the hints is an effect that nobody gets."""
+    everybody = {name for _, effects in DRAWN.HIDDEN for name, _ in effects}
+    shown = (OWN.folder / "README.md").read_text("utf-8")
+    example = re.findall(r'effects = \["(.*?)"\]', shown)
+
+    assert example == ["delay"]
+    assert "delay" not in everybody
+    assert everybody & set(re.findall(r"[a-z-]+", shown)) == set()
