@@ -144,12 +144,18 @@ def timeout(code: Code) -> str | None:
 def drive(code: Code) -> str | None:
     """The drive callback sends its voltage to every motor, as a voltage."""
     running = _either("drive", contradiction.driven)
-    return settle(code, partial(_drive, code.facts), running, points=3)
+    return settle(code, partial(_drive, code.facts), running, points=3, answered=_undivided)
 
 
 def _either(where: str, running: Callable[[Ran], Fault | None]) -> Callable[[Ran], Fault | None]:
     """What a run shows, or where it stopped."""
     return lambda ran: stopped(ran, where=where) or _when_done(running)(ran)
+
+
+def _undivided(ran: Ran) -> bool:
+    """Whether every motor was seen to get the voltage of the test."""
+    told = all(motor.share is not None for motor in ran.motors)
+    return told and contradiction.driven(ran) is None
 
 
 def _drive(facts: RoutineFacts) -> str | None:
@@ -274,10 +280,6 @@ def open_loop(code: Code) -> str | None:
     """The drive callback uses no closed loop and no duty cycle."""
     running = _when_done(_as_a_share)
     return settle(code, partial(_open_loop, code.facts), running, points=2, answered=_undivided)
-
-
-def _undivided(ran: Ran) -> bool:
-    return contradiction.driven(ran) is None
 
 
 def _as_a_share(ran: Ran) -> Fault | None:

@@ -7,7 +7,7 @@
 stands for, ``measure`` works out a constant, ``trace`` follows a callback (``statements`` and
 ``flow`` step by step; ``drive`` and ``logged`` note what they are after), ``motors`` knows who
 follows whom, and ``routine`` collects the facts. Words that change with the season are in
-``vocabulary``.
+``vocabulary``. What cannot be read, ``bench`` can run: RobotPy only, and only when asked to.
 """
 
 from typing import TYPE_CHECKING

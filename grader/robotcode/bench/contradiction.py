@@ -81,7 +81,11 @@ def driven(ran: Ran) -> Fault | None:
 
 
 def _driven(motor: Driven) -> tuple[str, str, str] | None:
-    if abs(abs(motor.share) - 1.0) < CLOSE or (motor.share and not motor.own):
+    if (
+        motor.share is None
+        or abs(abs(motor.share) - 1.0) < CLOSE
+        or (motor.share and not motor.own)
+    ):
         return None
     if not motor.share:
         hint = "Drive every motor: one that is left out is dragged along, and counts as friction."
@@ -98,7 +102,7 @@ def recorded(ran: Ran) -> Fault | None:
     """What the log says of the motors' voltages, and of which motor it says it."""
     if ran.lacking:
         return Fault(f"{IN} the log cannot be read: {ran.lacking}", "Record all three signals.")
-    mirrored = any(motor.share < 0 for motor in ran.motors)  # whose sign is whose, who knows
+    mirrored = any((motor.share or 0) < 0 for motor in ran.motors)  # whose sign is whose, who knows
     for one in ran.recorded:
         fault = _voltage(one) or (None if mirrored else _sign(one))
         if fault:

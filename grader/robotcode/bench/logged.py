@@ -22,8 +22,9 @@ from sim.units import unit
 
 STATE = "sysid-test-state-"
 NEEDED = {"voltage", "position", "velocity"}
-MOVED = 0.05  # [any unit] less motion than this tells nothing
+MOVED = 0.2  # [any unit] less motion than this tells nothing
 AWAKE = 0.5  # [V] below this the steps of a PWM signal, 20 mV, count too much
+WHOLE = 10.0  # [V] above this the battery has no more to give
 FOLLOWS = 0.02  # relative misfit up to which a position follows an encoder
 LOW = (0.85, 1.15)  # [s] of a dynamic test: the battery is low, and nothing jumps
 
@@ -111,7 +112,7 @@ def _facts(seen: dict[str, Any], folder: Path, file: Path) -> Ran:
         "ramp": float(np.polyfit(trace.time[slow], trace.asked[slow], 1)[0]),
         "step": float(np.median(trace.asked[fast])),
         "timeout": math.inf if lasted >= LONGEST else round(lasted, 1),
-        "motors": _driven(seen["motors"], trace, slow),
+        "motors": _driven(seen["motors"], trace),
         "required": bool(seen["required"]),
         "per_pulse": tuple(float(size) for size in seen["per_pulse"]),
     }
@@ -128,15 +129,23 @@ def _crash(crash: dict[str, Any], file: Path) -> Ran:
     return Ran(Outcome.CRASHED, f"{place}{error}", line, str(crash["where"]))
 
 
-def _driven(names: list[str], trace: Seen, slow: NDArray[np.intp]) -> tuple[Driven, ...]:
+def _driven(names: list[str], trace: Seen) -> tuple[Driven, ...]:
+    asked = np.abs(trace.asked)
+    rows = np.flatnonzero((asked > AWAKE) & (asked < WHOLE))
+    if not rows.size:
+        return tuple(Driven(str(name), _own(name), None, 0.0, 0.0) for name in names)
+    late = rows[: np.count_nonzero(trace.test[rows] == trace.test[rows[0]])]  # of its first test
+    example = late[late.size * 4 // 5]
     driven = []
     for number, name in enumerate(names):
-        got, awake = trace.applied[slow, number], np.abs(trace.asked[slow]) > AWAKE
-        share = _share(got[awake], trace.asked[slow][awake]) or 0.0
-        late = slow[-max(1, slow.size // 5)]  # well before the end, where nothing limits it yet
-        at = float(trace.applied[late, number]), float(trace.asked[late])
-        driven.append(Driven(str(name), not str(name).startswith("PWM "), round(share, 4), *at))
+        share = float(np.median(trace.applied[rows, number] / trace.asked[rows]))
+        at = float(trace.applied[example, number]), float(trace.asked[example])
+        driven.append(Driven(str(name), _own(name), round(share, 4), *at))
     return tuple(driven)
+
+
+def _own(name: str) -> bool:
+    return not name.startswith("PWM ")
 
 
 def _with_log(path: Path, trace: Seen, facts: dict[str, Any]) -> Ran:
@@ -238,7 +247,7 @@ def _followed(pairs: list[tuple[Run, Seen]], *, size: float) -> tuple[int | None
             [seen.distance[:, number] - seen.distance[0, number] for _, seen in pairs]
         )
         scale = _share(position, truth)
-        if not scale:
+        if not scale or np.ptp(truth) < MOVED:
             continue
         misfit = float(
             np.linalg.norm(position - scale * truth) / abs(scale) / np.linalg.norm(truth)

@@ -21,13 +21,14 @@ class Driven:
         name: the field that holds it, ``left``, or ``PWM 2`` where none does.
         own: whether a field holds it; else what it got is known within some percent only.
         share: what it got, as a share of what the tests asked for; 1 is right, minus one is right
-            for a motor that is mounted the other way round; 0 for a motor that never got anything.
-        got, asked: [V] an example of it, late in the quasistatic test.
+            for a motor that is mounted the other way round; 0 for a motor that never got anything;
+            None where the tests asked for too little, or too much, to tell.
+        got, asked: [V] an example of it, late in the first test.
     """
 
     name: str
     own: bool
-    share: float
+    share: float | None
     got: float
     asked: float
 
