@@ -12,10 +12,15 @@ from robotcode_mutants import FOLDERS, Mutant
 
 from grader.robotcode import read
 from grader.robotcode.bindings import bindings_of
+from grader.robotcode.deployed import gains_of
 from grader.robotcode.facts import Known, RoutineFacts
 from sim.errors import Refusal
 
-READERS: dict[str, Callable[[Path], object]] = {"routine": read, "bindings": bindings_of}
+READERS: dict[str, Callable[[Path], object]] = {
+    "routine": read,
+    "bindings": bindings_of,
+    "gains": gains_of,
+}
 
 
 @dataclass(frozen=True)

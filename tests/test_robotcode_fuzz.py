@@ -36,7 +36,7 @@ def test_mutants_become_facts_or_a_refusal_in_time_and_never_a_crash(
             except Exception as error:
                 error.add_note(said)
                 raise
-            assert [faults(reading, one, most=SECONDS) for reading in found] == [[], []], said
+            assert not any(faults(reading, one, most=SECONDS) for reading in found), said
             outcomes.update((reading.reader, reading.outcome) for reading in found)
 
     for reader in READERS:  # a mutant that is refused tries nothing: there have to be others
