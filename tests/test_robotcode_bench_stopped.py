@@ -99,11 +99,11 @@ def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
         "        self.right.setVoltage(voltage)",
         "        while True:\n            pass",
     )
-    run = ran(tmp_path, changed(endless), seconds=2)
+    run = ran(tmp_path, changed(endless), seconds=4)
 
     assert run.outcome is Outcome.ENDLESS
     assert (run.where, run.line) in {("drive", 38), ("drive", 39)}
-    assert "did not come to an end within 2 s" in run.said
+    assert "did not come to an end within 4 s" in run.said
 
 
 @pytest.mark.parametrize(
