@@ -274,6 +274,27 @@ def test_a_percentage_may_be_written_in_many_ways(copy, written):
     assert graded(copy, difference=text.replace(".", ","))["difference"].status == "passed"
 
 
+def test_a_share_of_the_measured_kv_is_named(copy):
+    student = student_who(lambda one: one.verdict == "inspect")
+    variant = OWN.module.draw(student)
+    of_measured = 100.0 * (1.0 - variant.parts.paper / variant.measured)
+
+    assert (
+        "percent of what?"
+        in graded(copy, student=student, difference=of_measured)["difference"].hint
+    )
+
+
+@pytest.mark.parametrize("given", ["bookkeeping", "ok", "watch", "inspect"])
+def test_a_wrong_verdict_is_not_told_the_right_one(copy, given):
+    for student in CLASS[:12]:
+        verdict = OWN.module.draw(student).verdict
+        found = graded(copy, student=student, verdict=given)["verdict"]
+
+        assert (found.status == "passed") == (given == verdict)
+        assert verdict not in found.hint
+
+
 def test_every_slip_on_paper_is_named_for_everybody(copy):
     """Over rpm, over the ratio, twice the wheel, radians for rotations."""
     for student in CLASS[:20]:

@@ -49,7 +49,7 @@ MISTAKES = (
         ANSWERS,
         put("drivetrain_step", "11"),
         "drivetrain",
-        "of the volts at which the wheels slip",
+        "They spin, and the encoder counts",
         BIG,
     ),
     Mistake(
