@@ -152,6 +152,26 @@ STYLES = {
         ),
         Guard.TEST_MODE,
     ),
+    "which way by a boolean": (
+        java(
+            PLAIN.replace("Direction.kForward", "true").replace("Direction.kReverse", "false"),
+            beside=SUBSYSTEM.replace("SysIdRoutine.Direction way", "boolean way").replace(
+                "(way)", "(way ? Direction.kForward : Direction.kReverse)"
+            ),
+        ),
+        Guard.CHORD,
+    ),
+    "a subsystem there is one of": (
+        java(
+            PLAIN.replace("m_arm.", "Arm.getInstance()."),
+            beside=SUBSYSTEM.replace(
+                "SubsystemBase {",
+                "SubsystemBase {\n  static Arm arm = new Arm();\n"
+                "  static Arm getInstance() { return arm; }",
+            ),
+        ),
+        Guard.CHORD,
+    ),
     "suppliers": (
         java(
             four(
@@ -204,6 +224,17 @@ PYTHON_STYLES = {
             "    (button & Trigger(lambda: DriverStation.isTest())).whileTrue(test)"
         ),
         Guard.TEST_MODE,
+    ),
+    "side by side": (
+        (
+            "for button, way in zip([self.driver.a(), self.driver.b()], [Direction.kForward, "
+            "Direction.kReverse]):\n"
+            "    button.and_(self.driver.back()).whileTrue(self.arm.quasistatic(way))\n"
+            "for button, way in zip((self.driver.x(), self.driver.y()), (Direction.kForward, "
+            "Direction.kReverse)):\n"
+            "    button.and_(self.driver.back()).whileTrue(self.arm.dynamic(way))"
+        ),
+        Guard.CHORD,
     ),
     "a function inside": (
         "def bind(button, test):\n    button.and_(self.driver.back()).whileTrue(test)\n"

@@ -148,6 +148,22 @@ def test_what_is_not_right_is_told(tmp_path, change, check, points, says):
     assert says in f"{found.seen} {found.hint}"
 
 
+def test_a_method_that_makes_one_test_or_another_is_asked_about(tmp_path):
+    more = """def make(self, kind, way):
+    if kind == "dynamic":
+        return self.arm.dynamic(way)
+    return self.arm.quasistatic(way)
+"""
+    body = four(
+        "self.driver.{key}().and_(self.driver.start()).whileTrue("
+        "self.make('{kind}', Direction.k{Way}))"
+    )
+    found = judged(tmp_path, python(body, more=more), name=PYTHON)
+
+    assert "I cannot tell which test" in found["held"].seen
+    assert {found[name].status for name in ("each-once", "guard")} == {"not-reached"}
+
+
 def test_a_controller_that_is_used_in_a_match_is_no_guard(tmp_path):
     bound = four("m_operator.{key}()!")
     apart = judged(tmp_path, java(bound))["guard"]

@@ -14,6 +14,7 @@ from .guarded import check_guard
 from .holding import check_hold, held_share
 
 FILES = ("RobotContainer.java", "robotcontainer.py")
+WRITE_IT = "Write Direction.kForward or Direction.kReverse there."
 READ = "looked at once a test is bound to a button"
 
 
@@ -74,16 +75,13 @@ def factories(facts: BindingFacts) -> None:
 @check(points=3)
 def held(facts: BindingFacts) -> None:
     """Each of the four tests runs while a button of its own is held, and no longer."""
-    reached(facts)
+    bound(facts)
     earned = round(3 * held_share(facts), 2)
     for one in facts.bindings:
         check_hold(one, facts, earned=earned)
     if len(facts.bindings) >= len(TESTS):
         return
-    if facts.unread:
-        first = facts.unread[0]
-        hint = "Write the test into the line that binds it: then I can read it."
-        raise Wrong(f"line {first.line}: {first.message}", hint=hint, earned=earned)
+    _readable(facts, earned=earned)
     hint = "Four tests, four buttons: two kinds, each forward and reverse."
     raise Wrong(f"no button runs {named(missing(facts))}", hint=hint, earned=earned)
 
@@ -99,7 +97,7 @@ def each_once(facts: BindingFacts) -> None:
         if not all_of(one.tests) or one.tests[0].direction == "any":
             raise Wrong(
                 f"I cannot tell the direction in line {one.line} by reading {one.text}",
-                hint="Write Direction.kForward or Direction.kReverse there.",
+                hint=WRITE_IT,
             )
     twice = [test for test in TESTS if len(times(facts, test)) > 1]
     if twice:
@@ -142,7 +140,7 @@ def guard(facts: BindingFacts) -> str | None:
     return check_guard(facts, points=2)
 
 
-def reached(facts: BindingFacts) -> None:
+def bound(facts: BindingFacts) -> None:
     """Ask for bindings, where there are none.
 
     Raises:
@@ -157,10 +155,29 @@ def reached(facts: BindingFacts) -> None:
             f"{text} in line {line}",
             hint="There nobody holds a button, and nobody can let it go. Bind the test to one.",
         )
-    if facts.unread:
-        first = facts.unread[0]
-        raise Wrong(
-            f"line {first.line}: {first.message}",
-            hint="Write the test into the line that binds it: then I can read it.",
-        )
-    raise NotReached(READ)
+    _readable(facts, earned=0.0)
+    reached(facts)
+
+
+def reached(facts: BindingFacts) -> None:
+    """Look no further where there are no bindings.
+
+    Raises:
+        NotReached: there are none.
+    """
+    if not facts.bindings:
+        raise NotReached(READ)
+
+
+def _readable(facts: BindingFacts, *, earned: float) -> None:
+    """Ask, where a test that is missing may be one that cannot be read."""
+    for first in facts.unread[:1]:
+        hint = "Write the test into the line that binds it: then I can read it."
+        raise Wrong(f"line {first.line}: {first.message}", hint=hint, earned=earned)
+    for one in facts.bindings:
+        if not all_of(one.tests):
+            raise Wrong(
+                f"I cannot tell the direction in line {one.line} by reading {one.text}",
+                hint=WRITE_IT,
+                earned=earned,
+            )

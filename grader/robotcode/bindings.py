@@ -151,11 +151,7 @@ class _Reader:
     def _loop(self, seen: Seen, loop: Loop, way: _Way) -> None:
         """Go through a loop's body for each element, where they are written out."""
         several = followed(seen.at(loop.collection), self._names)
-        items: tuple[Node, ...] = ()
-        if isinstance(several.node, Items):
-            items = several.node.items
-        elif isinstance(several.node, Call) and last_name(several.node.target) in {"of", "asList"}:
-            items = several.node.args
+        items = self._items(several)
         inner = replace(way, depth=way.depth + 1)
         if not items:
             self._several(loop.body, seen, inner)
@@ -168,6 +164,18 @@ class _Reader:
             given = {**seen.given, **named}
             there = replace(inner, places=(*inner.places, item.place))
             self._several(loop.body, replace(seen, given=given), there)
+
+    def _items(self, several: Seen) -> tuple[Node, ...]:
+        """The elements of a list that is written out, or of several side by side."""
+        node = several.node
+        if isinstance(node, Items):
+            return node.items
+        if not isinstance(node, Call):
+            return ()
+        if last_name(node.target) == "zip":
+            columns = [self._items(followed(several.at(arg), self._names)) for arg in node.args]
+            return tuple(Items(row[0].place, row) for row in zip(*columns, strict=False))
+        return node.args if last_name(node.target) in {"of", "asList"} else ()
 
     def _call(self, seen: Seen, call: Call, way: _Way) -> None:
         name = plain(last_name(call.target))
@@ -200,9 +208,9 @@ class _Reader:
         runs = self._commands.of(command)
         line = call.target.place.line
         said = f"{last_name(call.target)}({command.node.place.text})"
-        if runs.unclear is not None and (not runs.tests or len(runs.tests) > 1):
+        if runs.either or (runs.unclear is not None and not runs.tests):
             self._unread.append(Problem(f"I cannot tell which test {said} runs", line))
-        if not runs.tests or not isinstance(call.target, Member):
+        if runs.either or not runs.tests or not isinstance(call.target, Member):
             return
         parts = self._triggers.parts(seen.at(call.target.owner))
         keys = sorted({part.key for part in parts if part.asks is not Asks.NOTHING})

@@ -40,6 +40,7 @@ class Runs:
         scheduled: whether a test is only handed to the scheduler.
         stopped: whether a decorator ends it early.
         unclear: what could not be told; None if nothing was left open.
+        either: whether it is one of the tests, and which one cannot be told.
     """
 
     tests: tuple[SysIdTest, ...] = ()
@@ -47,6 +48,7 @@ class Runs:
     scheduled: bool = False
     stopped: bool = False
     unclear: Node | None = None
+    either: bool = False
 
 
 class Commands:
@@ -78,13 +80,23 @@ class Commands:
         """What a choice, a list or a lambda runs."""
         parts = node.parts
         if isinstance(node, Choice):
-            parts = (node.one, node.other)
-        elif isinstance(node, Function):
+            return self._one_of(map(seen.at, self._chosen(seen, node)), depth)
+        if isinstance(node, Function):
             seen, parts = replace(seen, scope=seen.scope.within(node)), node.body
         elif not isinstance(node, Items | Opaque | Return):
             parts = ()
-        found = joined(self.of(seen.at(one), depth=depth) for one in parts)
-        return replace(found, unclear=node) if isinstance(node, Choice) and found.tests else found
+        return joined(self.of(seen.at(one), depth=depth) for one in parts)
+
+    def _one_of(self, several: Iterable[Seen], depth: int) -> Runs:
+        """One of several commands; which one, only the running program knows."""
+        found = joined(self.of(one, depth=depth) for one in several)
+        return replace(found, either=True) if len(found.tests) > 1 else found
+
+    def _chosen(self, seen: Seen, choice: Choice) -> tuple[Node, ...]:
+        """The part of a choice that holds, or both."""
+        said = followed(seen.at(choice.condition), self._names).node.place.text.lower()
+        both = (choice.one, choice.other)
+        return {"true": both[:1], "false": both[1:]}.get(said, both)
 
     def _is_method(self, seen: Seen, node: Member) -> bool:
         """Whether a member is a method that is named, not called."""
@@ -99,8 +111,7 @@ class Commands:
         if len(functions) == 1:
             inner = entered(seen, functions[0])
             results = returned(functions[0][0])
-            found = joined(self.of(inner.at(one), depth=depth) for one in results)
-            return found if results else Runs()
+            return self._one_of(map(inner.at, results), depth)
         if len(functions) > 1:
             return Runs(unclear=call)
         args = [*call.args, *(node for _, node in call.named)]
@@ -151,14 +162,23 @@ class Commands:
     def _direction(self, seen: Seen) -> str:
         seen = followed(seen, self._names)
         node = seen.node
-        if isinstance(node, Name):
-            found = self._names.local(node.name, seen.scope)
-            if any(isinstance(one.value, Parameter) for one in found):
-                return "any"
+        if isinstance(node, Choice):
+            ways = [self._direction(seen.at(one)) for one in self._chosen(seen, node)]
+            asked = followed(seen.at(node.condition), self._names)
+            return ways[0] if len(ways) == 1 else "any" if self._is_open(asked) else ""
+        if self._is_open(seen):
+            return "any"
         if isinstance(node, Name | Member):
             word = constant(node.name)
             return word if word in DIRECTIONS else ""
         return ""
+
+    def _is_open(self, seen: Seen) -> bool:
+        """Whether a name is a parameter that nobody has given anything yet."""
+        if not isinstance(seen.node, Name):
+            return False
+        found = self._names.local(seen.node.name, seen.scope)
+        return any(isinstance(one.value, Parameter) for one in found)
 
 
 def joined(several: Iterable[Runs]) -> Runs:
@@ -170,4 +190,5 @@ def joined(several: Iterable[Runs]) -> Runs:
         scheduled=any(one.scheduled for one in found),
         stopped=any(one.stopped for one in found),
         unclear=next((one.unclear for one in found if one.unclear is not None), None),
+        either=any(one.either for one in found),
     )
