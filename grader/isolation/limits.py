@@ -43,7 +43,9 @@ def _set(*, seconds: int, memory: int, file: int, processes: bool) -> Iterator[s
             continue
         with contextlib.suppress(ValueError, OSError):  # macOS knows some by name only
             hard = resource.getrlimit(which)[1]
-            most = value if hard == resource.RLIM_INFINITY else min(value, hard)
-            resource.setrlimit(which, (most, most))
+            # The first limit of processor time is a signal that tells why, the second ends it.
+            last = value + (name == "RLIMIT_CPU")
+            last = last if hard == resource.RLIM_INFINITY else min(last, hard)
+            resource.setrlimit(which, (min(value, last), last))
             if words:
                 yield words
