@@ -73,7 +73,7 @@ def _on_path(command: str) -> bool:
     return shutil.which(command) is not None
 
 
-def _as_root() -> tuple[str, ...]:
+def as_root() -> tuple[str, ...]:
     """Jupyter refuses the administrator unless told; in a container there is nobody else."""
     return ("--allow-root",) if hasattr(os, "geteuid") and os.geteuid() == 0 else ()
 
@@ -90,7 +90,7 @@ def _open_lab(course: Path, what: Path) -> int:
     scripts = sysconfig.get_path("scripts")
     paths = os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part)
     root = f"--ServerApp.root_dir={course}"  # else it shows the lessons' folder alone
-    command = [sys.executable, "-m", "jupyterlab", *QUIET, *_as_root(), root, place]
+    command = [sys.executable, "-m", "jupyterlab", *QUIET, *as_root(), root, place]
     code = run(command, cwd=course, env={**os.environ, "PATH": paths})
     return DONE if code in {DONE, INTERRUPTED} else COULD_NOT
 

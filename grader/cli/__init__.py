@@ -21,7 +21,13 @@ if TYPE_CHECKING:
     from grader.exercise import Exercise
 
 
-MODULES = {"class": "classroom", "doctor": "doctor", "release": "release", "watch": "watch"}
+MODULES = {
+    "class": "classroom",
+    "doctor": "doctor",
+    "release": "release",
+    "serve": "serve",
+    "watch": "watch",
+}
 
 
 class ExerciseOrCommand(click.Group):
@@ -47,7 +53,9 @@ class ExerciseOrCommand(click.Group):
         """Show grading, what the command is mostly for, and then the rest."""
         formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
         formatter.write_usage("grade", "start [--no-lab] [--student NAME]")
-        formatter.write_usage("grade", "watch | doctor | class FOLDER | release  [--help]")
+        formatter.write_usage(
+            "grade", "watch | doctor | class FOLDER | release | serve FOLDER  [--help]"
+        )
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)
         self.format_commands(ctx, formatter)

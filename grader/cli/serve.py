@@ -1,0 +1,84 @@
+"""``grade serve``."""
+
+import asyncio
+import socket
+from pathlib import Path
+
+import click
+
+from grader.terminal import complain, line, show
+from sim.command import COULD_NOT, DONE
+from sim.errors import BadRequest
+
+PATH = click.Path(path_type=Path)
+EVERYWHERE = "0.0.0.0"  # noqa: S104 - a class's browsers are on other machines; codes keep the door
+
+
+@click.command()
+@click.argument("folder", type=PATH)
+@click.option("--roster", type=PATH, required=True, help="CSV file with a column student.")
+@click.option("--packages", type=PATH, help="Folder that grade release made: each gets theirs.")
+@click.option("--host", default=EVERYWHERE, show_default=True, help="Address to listen on.")
+@click.option("--port", default=8000, show_default=True, help="Of the page where one comes in.")
+def serve(folder: Path, roster: Path, packages: Path | None, host: str, port: int) -> int:
+    """Serve the course to browsers on this network: Chromebooks need nothing installed.
+
+    FOLDER holds a home for each student, which stays from day to day, and codes.csv with the code
+    that each comes in with. Everything runs on this machine; two students take about 1 GB.
+    """
+    from grader.classroom.roster import members  # noqa: PLC0415 - --help must not wait for it
+    from grader.course import find_course  # noqa: PLC0415 - the same
+    from grader.release import common  # noqa: PLC0415 - the same
+    from grader.serve.door import House, stand  # noqa: PLC0415 - the same
+    from grader.serve.homes import codes, home  # noqa: PLC0415 - the same
+    from grader.serve.rooms import Rooms  # noqa: PLC0415 - the same
+    from grader.variant import folder_name  # noqa: PLC0415 - the same
+
+    course = find_course(Path.cwd())
+    students = tuple(members(roster).rows)
+    shared = common(course)
+    lessons = sorted((course / "lessons").glob("*.ipynb"))
+    first = lessons[0].relative_to(course).as_posix() if lessons else "exercises"
+
+    def at_home(student: str) -> Path:
+        own = packages / "students" / f"{folder_name(student)}.zip" if packages else None
+        if own is not None and not own.is_file():
+            raise BadRequest(
+                f"there is no package for {student}",
+                where=str(own),
+                advice="Make it with grade release --roster.",
+            )
+        given = [shared, *([own.read_bytes()] if own else [])]
+        return home(folder, student, packages=given)
+
+    house = House(codes(folder, students), at_home, Rooms(host), first)
+
+    def ready(taken: int) -> None:
+        address = _own_address() if host == EVERYWHERE else host
+        show([
+            line(f"The door: http://{address}:{taken}", "bold"),
+            line(f"Names and codes of {len(students)} students: {folder / 'codes.csv'}"),
+            line("Everybody on this network can reach the door; Ctrl-C closes it, work is kept."),
+        ])  # fmt: skip
+
+    try:
+        asyncio.run(stand(house, port=port, ready=ready))
+    except KeyboardInterrupt:
+        return DONE
+    except OSError as error:
+        complain(f"port {port} cannot be had ({error.strerror}). Name another with --port.")
+        return COULD_NOT
+    return DONE
+
+
+COMMAND = serve
+
+
+def _own_address() -> str:
+    """The address other machines reach this one by; nothing is sent to find it."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+        try:
+            one.connect(("192.0.2.1", 9))  # a documentation address: only the route is looked up
+        except OSError:
+            return "127.0.0.1"
+        return str(one.getsockname()[0])

@@ -1,0 +1,204 @@
+"""One laptop, many browsers: each student has a home, a code, and a Jupyter server of their own."""
+
+import contextlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+from urllib.parse import urlsplit
+
+import pytest
+from tornado.testing import AsyncHTTPTestCase
+
+from grader.cli import run
+from grader.course import load
+from grader.release import common
+from grader.serve.door import House, application
+from grader.serve.homes import codes, find, home, right
+from sim.errors import BadRequest
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+PATIENCE = 90_000  # [ms] for two Jupyter servers on a busy machine
+CELL = "open('mine.txt', 'w').write('{}')"
+
+
+class Room:
+    """A server that is none: it only has an address."""
+
+    port, token = 9999, "secret-token"
+
+
+class NoRooms:
+    """Rooms that are always ready."""
+
+    host = "127.0.0.1"
+
+    def open(self, student, _course):
+        """Give the same one to everybody."""
+        if student == "bob":
+            raise BadRequest("JupyterLab did not start", advice="Look.")
+        return Room()
+
+
+class TestDoor(AsyncHTTPTestCase):
+    """The page in front of the servers."""
+
+    def get_app(self):
+        """The door to a house of three."""
+        known = {"Ann": "ABC234", "bob": "XYZ567", "<Eve>": "EVE222"}
+        return application(House(known, lambda _: None, NoRooms(), "lessons/00.ipynb", wait=0.01))
+
+    def ask(self, student, code):
+        """Say who one is."""
+        body = f"student={student}&code={code}"
+        return self.fetch("/", method="POST", body=body, follow_redirects=False)
+
+    def test_the_page_asks_and_loads_nothing(self):
+        """It is whole without anything from elsewhere."""
+        page = self.fetch("/")
+        text = page.body.decode()
+
+        assert page.code == 200
+        assert "script" not in text
+        assert re.findall(r"(?:src|href)=", text) == []
+        assert page.headers["Content-Security-Policy"].startswith("default-src 'none'")
+
+    def test_the_right_code_leads_to_ones_own_server(self):
+        """In whatever case name and code are typed."""
+        came = self.ask("ANN", "abc234%20")
+
+        assert came.code == 303
+        where = urlsplit(came.headers["Location"])
+        assert (where.port, where.path) == (9999, "/lab/tree/lessons/00.ipynb")
+        assert where.query == "token=secret-token"
+
+    def test_a_wrong_name_and_a_wrong_code_get_the_same_words(self):
+        """Who tries names learns nothing."""
+        texts = set()
+        for name, code in (("Ann", "XYZ567"), ("nobody", "ABC234"), ("Ann", ""), ("", "ABC234")):
+            answer = self.ask(name, code)
+            assert answer.code == 403
+            texts.add(answer.body.decode().replace(f'value="{name}"', 'value=""'))
+        assert len(texts) == 1
+
+    def test_a_server_that_does_not_start_is_said(self):
+        """To somebody who can tell the instructor."""
+        assert b"Tell your instructor" in self.ask("bob", "XYZ567").body
+
+    def test_a_name_is_shown_as_text(self):
+        """Whatever it holds."""
+        assert b"<Eve>" not in self.ask("<Eve>", "wrong").body
+
+
+def test_codes_stay_and_new_students_get_one(tmp_path):
+    first = codes(tmp_path, ["ann", "Zoë"])
+    again = codes(tmp_path, ["Ann", "Zoë", "ben"])
+
+    assert again["Ann"] == first["ann"]
+    assert again["Zoë"] == first["Zoë"]
+    assert len({*again.values()}) == 3
+    assert all(re.fullmatch(r"[A-Z2-9]{6}", code) for code in again.values())
+    assert find(again, " zoë ") == "Zoë"
+    assert find(again, "nobody") is None
+
+
+@pytest.mark.parametrize(
+    ("given", "same"),
+    [("ABC234", True), (" abc234 ", True), ("ABC235", False), ("", False), ("é", False)],
+)
+def test_a_code_may_be_typed_in_any_case(given, same):
+    assert right(given, "ABC234") is same
+
+
+def test_a_home_is_made_once_and_work_in_it_stays(root, tmp_path):
+    packages = [common(root)]
+    course = home(tmp_path, "Zoë", packages=packages)
+    answers = course / "exercises" / "exercise1" / "answers.toml"
+    answers.write_text("forward = 3\n", encoding="utf-8")
+
+    assert home(tmp_path, "zoë", packages=packages) == course
+    assert answers.read_text("utf-8") == "forward = 3\n"
+    assert load(course)[0].student == "Zoë"
+    assert not (course / "solutions").exists()
+
+
+def test_a_port_that_is_taken_is_one_line(root, tmp_path, monkeypatch, capsys):
+    import socket  # noqa: PLC0415 - only here
+
+    monkeypatch.chdir(root)
+    (tmp_path / "r.csv").write_text("student\nann\n", encoding="utf-8")
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = str(taken.getsockname()[1])
+        command = ["serve", str(tmp_path / "homes"), "--roster", str(tmp_path / "r.csv"),
+                   "--host", "127.0.0.1", "--port", port]  # fmt: skip
+        assert run(command) == 2
+    assert f"port {port} cannot be had" in capsys.readouterr().err
+
+
+@pytest.mark.browser
+def test_two_students_work_at_the_same_time_each_in_a_home_of_their_own(root, tmp_path):
+    playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        pytest.skip(f"no browser found: install one of {', '.join(BROWSERS)}")
+    (tmp_path / "r.csv").write_text("student\nann\nben\n", encoding="utf-8")
+    homes = tmp_path / "homes"
+    with (
+        serving(root, homes, tmp_path / "r.csv") as address,
+        playwright.sync_playwright() as driver,
+    ):
+        chromium = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        known = dict(
+            line.split(",") for line in (homes / "codes.csv").read_text("utf-8").split()[1:]
+        )
+        pages = {who: come_in(chromium, address, who, code) for who, code in known.items()}
+        for who, page in pages.items():
+            run_a_cell(page, CELL.format(who))
+        chromium.close()
+
+    for who in ("ann", "ben"):
+        (written,) = (homes / who / "course").rglob("mine.txt")
+        assert written.read_text("utf-8") == who
+
+
+@contextlib.contextmanager
+def serving(root, homes, roster):
+    """The command, running; the address of its door."""
+    command = [sys.executable, "-c", "from grader.cli import main; main()", "serve", str(homes),
+               "--roster", str(roster), "--host", "127.0.0.1", "--port", "0"]  # fmt: skip
+    environment = {**os.environ, "PYTHONPATH": str(root), "PYTHONUNBUFFERED": "1"}
+    running = subprocess.Popen(
+        command, cwd=root, env=environment, stdout=subprocess.PIPE, encoding="utf-8"
+    )
+    try:
+        yield re.search(r"http://\S+", running.stdout.readline())[0]
+    finally:
+        running.terminate()
+        running.wait(timeout=30)
+        running.stdout.close()
+
+
+def come_in(chromium, address, who, code):
+    """A browser of one's own, at the first lesson."""
+    page = chromium.new_context(viewport={"width": 1280, "height": 900}).new_page()
+    page.set_default_timeout(PATIENCE)
+    page.goto(address)
+    page.get_by_label("Your name").fill(who)
+    page.get_by_label("Your code").fill(code)
+    page.get_by_role("button", name="Come in").click()
+    page.locator("#jp-main-statusbar").get_by_text("| Idle").wait_for()
+    return page
+
+
+def run_a_cell(page, code):
+    """Type a cell below the first one, run it, and wait until it is done."""
+    page.locator(".jp-Cell").first.click()
+    page.keyboard.press("Escape")
+    page.keyboard.press("b")
+    page.keyboard.press("Enter")
+    page.keyboard.type(code)
+    page.keyboard.press("Shift+Enter")
+    page.locator(".jp-OutputPrompt", has_text=re.compile(r"\[1\]")).first.wait_for()
