@@ -15,7 +15,8 @@ import pytest
 from grader.isolation import Call, Limits, apart, landlock, level, run, seccomp
 from grader.variant import of_class
 
-SHORT = Limits(seconds=0.6)
+SHORT = Limits(seconds=0.6)  # where the end of it is waited for
+LONG = Limits(seconds=10.0)  # where it is not, however busy the machine
 LEVEL = level()
 NO_ISOLATION = "" if LEVEL.startswith("isolated") else f"this system is {LEVEL}"
 isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolated")
@@ -26,7 +27,7 @@ posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such 
 def apart_run(tmp_path):
     """Runs a learner's text; calls ``fit`` as often as asked, with the number of the call."""
 
-    def start(text, *, times=1, limits=SHORT, **data):
+    def start(text, *, times=1, limits=LONG, **data):
         file = tmp_path / "fit.py"
         file.write_text(text, encoding="utf-8")
         calls = [Call("fit", {"number": number, **data}) for number in range(times)]
@@ -209,18 +210,18 @@ def test_answers_given_before_an_end_are_kept(apart_run, end, says):
         f"import os\ndef fit(number):\n    if number == 2:\n        {end}\n"
         "    return {'n': number}\n"
     )
-    outcome = apart_run(text, times=4)
+    outcome = apart_run(text, times=4, limits=SHORT)
 
     assert [dict(one.numbers) for one in outcome.answers] == [{"n": 0.0}, {"n": 1.0}, {}, {}]
     assert says in outcome.answers[2].reason
     assert says in outcome.ended
-    assert time.monotonic() - begin < 4.0
+    assert time.monotonic() - begin < 20.0
 
 
 @pytest.mark.usefixtures("each_level")
 def test_a_flood_of_output_is_dropped_and_said(apart_run):
     text = "def fit(number):\n    for _ in range(50): print('x' * 1_000_000)\n    return {'n': 1}\n"
-    outcome = apart_run(text, limits=Limits(seconds=8.0))
+    outcome = apart_run(text, limits=Limits(seconds=30.0))
 
     assert dict(outcome.answers[0].numbers) == {"n": 1.0}
     assert len(outcome.printed) < 5000
@@ -457,7 +458,7 @@ def test_children_left_behind_are_ended_with_it(apart_run, monkeypatch, tmp_path
     outcome = apart_run(text, limits=Limits(seconds=0.5))
     born = [int(line) for line in note.read_text().split()] if note.exists() else []
 
-    assert outcome.seconds < 4.0
+    assert outcome.seconds < 20.0
     assert not [pid for pid in born if alive(pid)]
 
 
