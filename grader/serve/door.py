@@ -1,11 +1,13 @@
 """The door: a page that asks for a name and a code, and leads to the student's own server."""
 
 import asyncio
+import socket
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from tornado import template
+from tornado.httpserver import HTTPServer
 from tornado.web import Application, RequestHandler
 
 from grader.serve.homes import find, right
@@ -110,10 +112,12 @@ async def stand(house: House, *, port: int, ready: Callable[[int], None]) -> Non
     Raises:
         OSError: the port is taken.
     """
-    server = application(house).listen(port, house.rooms.host)
+    listening = socket.create_server((house.rooms.host, port))
+    listening.setblocking(False)  # noqa: FBT003 - the socket's own way to say so
+    server = HTTPServer(application(house))
+    server.add_socket(listening)
     try:
-        sockets = server._sockets.values()  # noqa: SLF001 - Tornado has no other way to ask
-        ready(next(iter(sockets)).getsockname()[1])
+        ready(listening.getsockname()[1])
         await asyncio.Event().wait()
     finally:
         server.stop()
