@@ -11,6 +11,7 @@ from robotcode_mutants import CHANGES, SUFFIXES, Mutant, mutant, sources
 from robotcode_readings import READERS, Reading, among_neighbors, faults, flaws
 
 from grader.robotcode.facts import Known, Problem, Quantity, RoutineFacts
+from sim.errors import Refusal
 
 MUTANTS = 500
 FEWER = 10  # mutants of each change at least, so that none is forgotten
@@ -43,6 +44,19 @@ def test_mutants_become_facts_or_a_refusal_in_time_and_never_a_crash(
         assert outcomes[reader, "facts"] > MUTANTS / 10
         assert outcomes[reader, "problems"] > MUTANTS / 10
         assert outcomes[reader, "refused"] > 0
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_every_reader_stands_every_file_as_it_is(reader: str) -> None:
+    refused = []
+    for path in sources():
+        try:
+            READERS[reader](path)
+        except Refusal as refusal:
+            refused.append((path, refusal.where))
+
+    assert len(refused) < len(sources()) / 10
+    assert [path for path, where in refused if path.name not in where] == []
 
 
 def test_the_same_number_gives_the_same_mutant_and_another_one_another() -> None:

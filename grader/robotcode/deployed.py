@@ -12,10 +12,11 @@ from grader.robotcode.meaning import MOST_STEPS, constructed, last_name
 from grader.robotcode.measure import Measures
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Definition, Scope, walk
-from grader.robotcode.sight import Seen, definitions
+from grader.robotcode.sight import Seen, definitions, followed
 from grader.robotcode.syntax import Assign, Call, Cast, Member, Module, Name, Node, Self, inside
 from grader.robotcode.vocabulary import plain
 
+DEEPEST = 8  # constants made of constants
 HOLDER = re.compile(r"characteri[sz]ation", re.IGNORECASE)
 # kS, K_S, ks, kSVolts, kvVoltSecondsPerMeter; not kStatic, kAngle.
 GAIN = re.compile(r"[kK]_?([svagpSVAGP])(?=$|_|[A-Z0-9])(.*)")
@@ -73,13 +74,15 @@ class Feedforward:
         kind: its class, without what Python adds: ``SimpleMotorFeedforward``.
         arguments: parameter -> what it is given, where it is given anything.
         text: the call.
-        line: its line, from 1; 0 if it stands in another file.
+        line: its line, from 1.
+        spread: whether it gets more from a list that cannot be read.
     """
 
     kind: str
     arguments: dict[str, Argument] = field(hash=False)
     text: str = ""
     line: int = 0
+    spread: bool = False
 
 
 @dataclass(frozen=True)
@@ -133,6 +136,7 @@ class _Reader:
     def __init__(self, names: Names) -> None:
         self._names = names
         self._measures = Measures(names)
+        self._gains: dict[Node, str] = {}  # by node: the gain whose constant it is made of
 
     def facts(self) -> DeployFacts:
         """All facts of the file."""
@@ -200,13 +204,36 @@ class _Reader:
             arguments = {
                 word: self._argument(node, scope) for word, node in given.items() if word in words
             }
-            yield Feedforward(kind, arguments, call.place.text, call.place.line)
+            yield Feedforward(kind, arguments, call.place.text, call.place.line, spread=call.spread)
 
     def _argument(self, node: Node, scope: Scope) -> Argument:
-        return Argument(self._gain(node, scope), self._value(node, scope), node.place.text)
+        value = self._value(node, scope)
+        if value is None:
+            value = self._of_object(node, scope)
+        return Argument(self._gain(node, scope), value, node.place.text)
 
-    def _gain(self, node: Node, scope: Scope) -> str:
+    def _of_object(self, node: Node, scope: Scope) -> float | None:
+        """The value of an object's field; None where the object may have been made with others."""
+        one = self._one(node, scope) if isinstance(node, Member) else None
+        if one is None or one.value is None or not isinstance(node, Member):
+            return None
+        owner = followed(Seen(node.owner, scope), self._names).node
+        if isinstance(owner, Call) and (owner.args or owner.named or owner.spread):
+            return None
+        return self._value(one.value, one.scope)
+
+    def _gain(self, node: Node, scope: Scope, *, depth: int = 0) -> str:
         """The gain whose constant a value is made of, names followed."""
+        if depth > DEEPEST:
+            return ""
+        if node not in self._gains:
+            self._gains[node] = ""  # what is made of itself is made of no gain
+            with self._names.one_deeper() as allowed:
+                if allowed:
+                    self._gains[node] = self._followed(node, scope)
+        return self._gains[node]
+
+    def _followed(self, node: Node, scope: Scope) -> str:
         for _ in range(MOST_STEPS):
             if isinstance(node, Cast):
                 node = node.value
@@ -221,7 +248,7 @@ class _Reader:
                 return ""
             node, scope = one.value, one.scope
         found = {
-            self._gain(part, scope)
+            self._gain(part, scope, depth=depth + 1)
             for part in inside(node, but=(Member,))
             if isinstance(part, Name | Member)
         } - {""}

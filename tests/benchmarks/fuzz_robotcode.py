@@ -34,7 +34,7 @@ def main(count: int, first: int) -> int:
                 several = readings(one)
             except Exception:  # noqa: BLE001 - a crash is what is looked for
                 bad += 1
-                print(f"CRASH {said}\n{traceback.format_exc()}")
+                print(f"CRASH {said}\n{traceback.format_exc(limit=-4)}")
                 continue
             for reading in several:
                 wrong = faults(reading, one, most=SECONDS)
