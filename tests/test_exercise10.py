@@ -215,6 +215,10 @@ PYTHON_STYLES = {
     "from math": [("import math\n", "from math import pi\n"), ("math.tau", "(2 * pi)")],
     "wpimath": [("{kV} / math.tau", "{kV} * radiansToRotations(1)")],
     "2027": [("{kV} / math.tau", "{kV} * radians_to_rotations(1)")],
+    "an object of it": [
+        ("class Turret", "GAINS = CharacterizationConstants()\n\nclass Turret"),
+        ("C.k", "GAINS.k"),
+    ],
     "a module's names": [
         ("class CharacterizationConstants:\n", ""),
         ("    k", "k"),
@@ -235,6 +239,32 @@ def test_python_is_read_in_many_styles(checked, turret, style):
     wrong = {one.id for one in found.values() if one.status != "passed"}
 
     assert wrong == ({"named"} if style == "a module's names" else set())
+
+
+@pytest.mark.parametrize(
+    ("made", "handed", "says"),
+    [
+        ("CharacterizationConstants(kV=load())", "C.kS, C.kV, C.kA", "I cannot tell the number"),
+        ("CharacterizationConstants", "*gains", "I cannot tell by reading"),
+    ],
+)
+def test_what_reading_cannot_tell_is_asked(checked, turret, made, handed, says):
+    student, shown = turret
+    body = PYTHON_BODY.replace("C = CharacterizationConstants", f"C = {made}")
+    body = body.replace("C.kS, C.kV, C.kA", handed)
+    found = checked(body.format(**shown), student=student, name=PYTHON)["conversion"]
+
+    assert says in found.seen
+
+
+def test_a_constant_that_is_made_of_itself_ends(tmp_path):
+    path = tmp_path / JAVA
+    rows = "double a = b + kT; double b = a + c; double c = a + b; double kV = a + b + c;"
+    path.write_text(
+        f"class A {{ {rows} Object f = new ArmFeedforward(a, b, c, a + b); }}\n", "utf-8"
+    )
+
+    assert gains_of(path).feedforwards[0].arguments["kS"].value is None
 
 
 def test_constants_may_stand_in_a_file_of_their_own(tmp_path, turret):

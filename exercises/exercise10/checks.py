@@ -252,6 +252,9 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
         (arg for arg in one.arguments.values() if arg.gain == gain), one.arguments.get(gain)
     )
     constant = code.facts.constant(gain)
+    if given is None and one.spread:
+        hint = "Write the arguments one by one."
+        raise Wrong(f"I cannot tell by reading what {gain} it gets", hint=hint)
     if given is None:
         raise Wrong(f"the feedforward in line {one.line} gets no {gain}", hint="Hand it over, too.")
     if constant is None and given.value is None:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from grader.variant import generator
 
-from .key import UNITS, Variant
+from .key import FULL, UNITS, Variant, near
 
 if TYPE_CHECKING:
     import numpy as np
@@ -21,6 +21,8 @@ KINDS = {
 }
 KP = (0.4, 1.6)  # times kV: what the analyzer suggests for the mechanisms of the course
 APART = 0.15  # [share] any two numbers differ by more, so that each is known by its size
+SLIPS = (FULL, 60.0)  # no gain may pass for another that is off by one of these
+ALIKE = 0.05
 DIGITS = 4
 MOST_DRAWS = 2000
 
@@ -51,13 +53,19 @@ def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
 
 def _clear(variant: Variant) -> bool:
     """Whether no number passes for another, as it is shown or as it is needed."""
+    times = variant.times
     volts = [variant.shown[name] for name in ("kS", "kG") if name in variant.shown]
     others = [
-        {value, variant.shown[name] * variant.times}
+        {value, variant.shown[name] * times}
         for name, value in variant.shown.items()
         if name in {"kV", "kA", "kP"}
     ]
-    others[-1] |= {value / 12 for value in others[-1]}
+    others[-1] |= {value / FULL for value in others[-1]}
+    ratio = variant.shown["kV"] / variant.shown["kA"]
+    if any(
+        near(ratio * size, slip, share=ALIKE) for size in (1, times, 1 / times) for slip in SLIPS
+    ):
+        return False
     groups = [*({value} for value in volts), *others]
     return all(
         abs(one - other) > APART * max(one, other)

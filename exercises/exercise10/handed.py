@@ -49,6 +49,9 @@ def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, point
                 f"I cannot tell which gain {one.arguments[place].text} is, in line {one.line}",
                 hint="Hand over the constants by their names.",
             )
+    if one.spread:
+        hint = "Write the arguments one by one."
+        raise Wrong(f"I cannot tell by reading which gains {at} gets", hint=hint)
     lacking = [place for place in places if place not in found]
     if lacking:
         raise Wrong(

@@ -37,8 +37,11 @@ def _first(value: float, ways: list[Way]) -> Slip | None:
 def _others(gain: str, variant: Variant) -> list[Way]:
     """Another gain's number."""
     return [
-        ((shown,), Slip("other-gain", f"that is the analyzer's {other}", "M-ARGORDER"))
-        for other, shown in variant.shown.items()
+        (
+            (variant.shown[other], variant.needed(other)),
+            Slip("other-gain", f"that is the analyzer's {other}", "M-ARGORDER"),
+        )
+        for other in variant.shown
         if other not in {gain, "kP"}
     ]
 

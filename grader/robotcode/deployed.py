@@ -16,7 +16,6 @@ from grader.robotcode.sight import Seen, definitions, followed
 from grader.robotcode.syntax import Assign, Call, Cast, Member, Module, Name, Node, Self, inside
 from grader.robotcode.vocabulary import plain
 
-DEEPEST = 8  # constants made of constants
 HOLDER = re.compile(r"characteri[sz]ation", re.IGNORECASE)
 # kS, K_S, ks, kSVolts, kvVoltSecondsPerMeter; not kStatic, kAngle.
 GAIN = re.compile(r"[kK]_?([svagpSVAGP])(?=$|_|[A-Z0-9])(.*)")
@@ -222,10 +221,8 @@ class _Reader:
             return None
         return self._value(one.value, one.scope)
 
-    def _gain(self, node: Node, scope: Scope, *, depth: int = 0) -> str:
+    def _gain(self, node: Node, scope: Scope) -> str:
         """The gain whose constant a value is made of, names followed."""
-        if depth > DEEPEST:
-            return ""
         if node not in self._gains:
             self._gains[node] = ""  # what is made of itself is made of no gain
             with self._names.one_deeper() as allowed:
@@ -248,7 +245,7 @@ class _Reader:
                 return ""
             node, scope = one.value, one.scope
         found = {
-            self._gain(part, scope, depth=depth + 1)
+            self._gain(part, scope)
             for part in inside(node, but=(Member,))
             if isinstance(part, Name | Member)
         } - {""}
