@@ -239,4 +239,6 @@ def test_a_log_is_drawn_whole_and_close_up(tmp_path):
     part = look("4", "dynamic-forward", "0.1", "0.6")
     assert "dynamic-forward" in part.stdout
     assert (folder / "data" / "ann" / "log04.svg").read_bytes() != whole
-    assert look("13").returncode == 2
+    assert look("13").returncode == 1
+    assert look(str(folder / "data" / "ann" / "log07.csv")).returncode == 0
+    assert (folder / "data" / "ann" / "log07.svg").is_file()

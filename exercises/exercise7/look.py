@@ -2,9 +2,11 @@
 
     python exercises/exercise7/look.py 4
     python exercises/exercise7/look.py 4 dynamic-forward 1.0 1.6
+    python exercises/exercise7/look.py any/other/log.wpilog
 
 The first draws log 4, all of it. The second draws a part of one test, with a dot for each sample;
-its times count from the beginning of the test. Both save a picture beside your logs.
+its times count from the beginning of the test. The third draws any log. Each saves a picture beside
+the log.
 """
 
 import re
@@ -31,18 +33,19 @@ DOTS = 150  # samples in a picture up to which each gets a dot
 
 
 @click.command(help=re.sub(r"(?m)^    ", "\b\n    ", __doc__))
-@click.argument("number", type=click.IntRange(1, 12))
+@click.argument("log")
 @click.argument("test", default="", type=click.Choice(("", *TESTS)))
 @click.argument("begin", default=0.0)
 @click.argument("end", default=1e9)
 @click.option("--student", default="me", help="The name your logs are under.")
-def main(number: int, test: str, begin: float, end: float, student: str) -> None:
+def main(log: str, test: str, begin: float, end: float, student: str) -> None:
     """Draw one log, or a part of it."""
-    place = DATA / folder_name(student) / f"log{number:02}.wpilog"
+    own = DATA / folder_name(student) / f"log{int(log):02}.wpilog" if log.isdecimal() else None
+    place = own or Path(log)
     try:
-        log = read(place)
-        runs = [run for run in log.runs if test in ("", run.test)]
-        picture = drawn(log, runs, begin=begin, end=end)
+        found = read(place)
+        runs = [run for run in found.runs if test in ("", run.test)]
+        picture = drawn(found, runs, begin=begin, end=end)
         target = place.with_suffix(".svg")
         picture.save(target)
     except Refusal as refusal:

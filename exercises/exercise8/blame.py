@@ -1,0 +1,85 @@
+"""Which part of a preparation is to blame for a gain: the one whose repair helps it most."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from .preparation import TESTS, Preparation, fitted
+
+if TYPE_CHECKING:
+    from .drawn import Variant
+
+HELPS = 0.9  # [times the error] what leaves more than that is not to blame
+
+Said = tuple[str, str]  # what to say, and the misconception's code, or empty
+
+LONG = (
+    "A median of that many samples bends the rise of the steps: how many samples does the rise "
+    "take? Take the shortest window that outvotes a reading that is off."
+)
+SHORT = (
+    "Single readings are far off, in the steps, too, and one of them passes for the largest "
+    "acceleration. What outvotes a single reading?"
+)
+HIGH = "Your threshold drops samples that do move, and are sound."
+LOW = (
+    "Samples from before it moves get through: there, voltage brings neither speed nor "
+    "acceleration. How fast does the velocity tremble while the position stands?"
+)
+
+
+def blame(gain: str, variant: "Variant", preparation: Preparation) -> Said:
+    """What to say about a gain that came out wrong; nothing if no one part explains it."""
+    errors = [
+        (_error(gain, variant, repaired), says)
+        for repaired, says in _repairs(variant.reference, preparation)
+    ]
+    limit = HELPS * _error(gain, variant, preparation)
+    helped = [one for one in errors if one[0] < limit]
+    if not helped:
+        return ("Several things at once are in the way: begin with the hard stops.", "")
+    return min(helped, key=lambda one: one[0])[1]
+
+
+def _error(gain: str, variant: "Variant", preparation: Preparation) -> float:
+    """How far a gain is off; infinitely, if there is no fit."""
+    from sim.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
+
+    try:
+        found = fitted(variant.log, preparation).gains[gain]
+    except Refusal:
+        return float("inf")
+    return abs(found - variant.asked[gain].expected)
+
+
+def _repairs(reference: Preparation, given: Preparation) -> Iterator[tuple[Preparation, Said]]:
+    """The preparation with one part of it repaired, and what was wrong with that part."""
+    yield replace(given, median=reference.median), _median(reference, given)
+    yield replace(given, threshold=reference.threshold), _threshold(reference, given)
+    for test in TESTS:
+        keep = dict(given.keep)
+        if test in reference.keep:
+            keep[test] = reference.keep[test]
+        else:
+            keep.pop(test, None)
+        yield replace(given, keep=keep), _window(test, reference, given)
+
+
+def _median(reference: Preparation, given: Preparation) -> Said:
+    return (LONG, "M-FILTER-FREE") if given.median > reference.median else (SHORT, "")
+
+
+def _threshold(reference: Preparation, given: Preparation) -> Said:
+    return (HIGH, "M-TRIM-PRETTY") if given.threshold > reference.threshold else (LOW, "")
+
+
+def _window(test: str, reference: Preparation, given: Preparation) -> Said:
+    begin, end = given.keep.get(test, (0.0, float("inf")))
+    if end > reference.keep.get(test, (0.0, float("inf")))[1]:
+        return (f"{test}: you keep samples from where the mechanism is held up by a stop.", "")
+    if test.startswith("dynamic") and begin > 0.0:
+        return (
+            f"{test}: its first rise is cut away or cut into. It is all that tells kA.",
+            "M-TRIM-PRETTY",
+        )
+    return (f"{test}: you cut away samples that are sound.", "M-TRIM-PRETTY")

@@ -1,0 +1,144 @@
+"""Exercise 8: what to cut from a damaged log, graded by the fit that comes of it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from grader.check import NotReached, Wrong, check
+from grader.given import hand_out
+from grader.submission import read_answers
+
+from .blame import blame
+from .drawn import Variant, draw
+from .left import Left, left
+from .preparation import POINTS, TESTS, Preparation, earned, fitted, read_preparation
+
+FILES = ("answers.toml",)
+HERE = Path(__file__).resolve().parent
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at."""
+
+    preparation: Preparation | Wrong
+    variant: Variant
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Make the learner's log, where it is not there as it was made."""
+    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
+
+    made = dict.fromkeys(("log.wpilog", "log.csv"), partial(write, draw(student).log))
+    hand_out(made, exercise=HERE, student=student, what="log", say=say)
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and what they are held against.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    from sim.units import unit  # noqa: PLC0415 - numpy only where it is needed
+
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    variant = draw(student)
+    per = unit(variant.mechanism.units)
+    try:
+        return Answers(read_preparation(given, symbol=per.symbol, si=per.si), variant)
+    except Wrong as wrong:
+        return Answers(wrong, variant)
+
+
+@check(points=2)
+def kept(answers: Answers) -> None:
+    """At least 60 % of the sound samples of each test are kept."""
+    if isinstance(answers.preparation, Wrong):
+        raise answers.preparation
+    short = [one for one in _left(answers) if not one.enough]
+    if not short:
+        return
+    tests = ", ".join(one.test for one in short)
+    raise Wrong(
+        f"too little is left of {tests}",
+        hint="Cut only what is not the mechanism's own motion. Noise in sound samples averages "
+        "out in a fit; samples that are gone tell nothing.",
+        misconception="M-TRIM-PRETTY",
+        earned=2 * (1 - len(short) / len(TESTS)),
+    )
+
+
+@check(points=2)
+def reach(answers: Answers) -> None:
+    """The fast end of each ramp is kept, and the first rise of each step."""
+    short = [one for one in _left(answers) if not one.reaches]
+    if not short:
+        return
+    tests = ", ".join(one.test for one in short)
+    ramps = any(one.test.startswith("quasi") for one in short)
+    why = (
+        "The fast samples of a ramp are the far end of the lever that kV hangs on: without them "
+        "a little noise turns the line."
+        if ramps
+        else "A step tells kA only while it speeds up, right after the voltage comes."
+    )
+    raise Wrong(
+        f"cut off in {tests}",
+        hint=why,
+        misconception="M-TRIM-PRETTY",
+        earned=2 * (1 - len(short) / len(TESTS)),
+    )
+
+
+@check(points=POINTS)
+def ks(answers: Answers) -> None:
+    """The fit of what you kept finds kS."""
+    _gain("kS", answers)
+
+
+@check(points=POINTS)
+def kv(answers: Answers) -> None:
+    """The fit of what you kept finds kV."""
+    _gain("kV", answers)
+
+
+@check(points=POINTS)
+def ka(answers: Answers) -> None:
+    """The fit of what you kept finds kA."""
+    _gain("kA", answers)
+
+
+def _preparation(answers: Answers) -> Preparation:
+    if isinstance(answers.preparation, Wrong):
+        raise NotReached("looked at once all six lines can be read")
+    return answers.preparation
+
+
+def _left(answers: Answers) -> tuple[Left, ...]:
+    return left(answers.variant, _preparation(answers))
+
+
+def _gain(name: str, answers: Answers) -> None:
+    from sim.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
+
+    preparation, variant = _preparation(answers), answers.variant
+    try:
+        found = fitted(variant.log, preparation)
+    except Refusal as refusal:
+        raise Wrong(
+            "no fit", hint=f"{refusal} You cut away too much.", misconception="M-TRIM-PRETTY"
+        ) from None
+    value, asked = found.gains[name], variant.asked[name]
+    score = earned(value, asked)
+    if score == POINTS:
+        return
+    says, code = blame(name, variant, preparation)
+    close = "Close. " if score else ""
+    raise Wrong(
+        f"{value:.4g} {asked.unit} comes out, with an acceleration R² of "
+        f"{found.acceleration_r2:.3f}",
+        hint=f"{close}{says}",
+        misconception=code,
+        earned=score,
+    )

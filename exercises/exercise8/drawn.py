@@ -1,0 +1,146 @@
+"""A log for each learner, damaged so that it can be mended, and in no other way than by looking."""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+from grader.answer import Asked, gains_asked
+from grader.variant import generator, seed
+
+from .left import left
+from .preparation import LONGEST, POINTS, Preparation, points
+from .spoiled import noise_at_rest, sound, spiked, stopped
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from sim.clues import Flags
+    from sim.log import Array, Log
+    from sim.mechanism import Mechanism
+
+RAMP, STEP, TIMEOUT, PERIOD = 0.5, 4.0, 8.0, 0.02  # [V/s], [V], [s], [s]
+TREMBLES = {  # [severity] of the noise at rest; a shooter's kS is too small to be told from it
+    "drivetrain": (0.8, 1.2),  # 5 to 7 % of the top speed
+    "turret": (0.35, 0.6),  # 2 to 4 %; it stands longer before it moves, so that less does as much
+}
+
+MEDIAN = 3  # [samples] is enough for spikes of one
+ABOVE = 3.5  # [times the noise at rest] is a threshold that none of it passes
+EARLY = 0.05  # [s] before the impact a careful person cuts
+EARLIER = (0.0, 0.2)  # [s] and so much earlier others do; all of these must find the gains
+ROUGHLY = (0.7, 1.0, 1.2)  # [times the threshold] that others choose
+NOTHING = Preparation({}, 0.0, 1)
+LACKING: tuple[tuple[str, dict[str, Any]], ...] = (  # what must cost a gain to leave out, or overdo
+    ("kA", {"keep": {}}),
+    ("kS", {"threshold": 0.0}),
+    ("kA", {"median": 1}),
+    ("kA", {"median": 15}),
+)
+SURELY = 1.3  # [times the bands] even if they were this much wider
+SNUG = 0.9  # [times the bands] what is right must be so even if they were this much narrower
+MOST_DRAWS = 300  # so many in a row that cannot be solved would be our fault
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """One learner's log, and what is known about it.
+
+    Args:
+        mechanism: the truth.
+        log: as the learner gets it.
+        asked: the gains that a fit ought to find.
+        valid: per test, (n,) whether a sample tells of the mechanism: it moves, unharmed.
+        clean: per test, (n,) [m/s or rad/s], the velocity without noise at rest and spikes.
+        reference: a preparation that earns everything.
+    """
+
+    mechanism: "Mechanism"
+    log: "Log"
+    asked: dict[str, Asked]
+    valid: "dict[str, Flags]"
+    clean: "dict[str, Array]"
+    reference: Preparation
+
+
+def draw(student: str) -> Variant:
+    """A learner's log, always the same one."""
+    return _drawn(student, seed(student, "exercise8"))
+
+
+@lru_cache(maxsize=8)  # it is asked for when the log is made, and when it is graded
+def _drawn(student: str, _seed: int) -> Variant:
+    rng = generator(student, "exercise8")
+    kind = str(rng.choice(tuple(TREMBLES)))
+    for _ in range(MOST_DRAWS):
+        variant = _one(kind, rng)
+        if variant is not None and _solvable(variant):
+            return variant
+    raise RuntimeError(f"no log that can be mended for {student!r}")
+
+
+def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
+    from sim.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
+    from sim.errors import Refusal  # noqa: PLC0415 - the same
+    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
+    from sim.routine import Routine  # noqa: PLC0415 - the same
+    from sim.simulate import simulate  # noqa: PLC0415 - the same
+    from sim.units import gains_per, unit  # noqa: PLC0415 - the same
+
+    mechanism = MECHANISMS[kind].draw(rng)
+    routine = Routine(ramp=RAMP, step=STEP, timeout=TIMEOUT)
+    severity = float(rng.uniform(*TREMBLES[kind]))
+    try:
+        log, impacts = stopped(simulate(mechanism, routine, rng=rng, period=PERIOD), rng=rng)
+        clean = {run.test: run.velocity for run in log.runs}
+        trembles = contaminate(log, "noisy-standstill", severity=severity, rng=rng)
+    except Refusal:  # it would not show there
+        return None
+    if any(len(one) != len(other) for one, other in zip(log.runs, trembles.log.runs, strict=True)):
+        return None  # it hardly stands before it moves
+    rests = {one.test: one.end for one in trembles.where}
+    valid = {run.test: sound(run, impacts, rests) for run in log.runs}
+    spiky = tuple(
+        spiked(run, valid[run.test], impacts.get(run.test), rng) for run in trembles.log.runs
+    )
+    per = unit(mechanism.units)
+    return Variant(
+        mechanism,
+        replace(log, runs=spiky),
+        gains_asked(gains_per(mechanism.gains, factor=per.si), position=per.symbol),
+        valid,
+        clean,
+        Preparation(
+            {test: (0.0, at - EARLY) for test, at in impacts.items()},
+            ABOVE * noise_at_rest(spiky, rests),
+            MEDIAN,
+        ),
+    )
+
+
+def _solvable(variant: Variant) -> bool:
+    """Whether who cuts by eye earns all, and who leaves anything out does not."""
+    log, asked, reference = variant.log, variant.asked, variant.reference
+    full = POINTS * len(asked)
+    if points(log, reference, asked, wider=SNUG) < full or points(log, NOTHING, asked) >= full / 2:
+        return False
+    by_eye = [_cut(reference, early, times) for early in EARLIER for times in ROUGHLY]
+    return (
+        all(part.enough and part.reaches for part in left(variant, by_eye[-1]))
+        and all(points(log, one, asked) == full for one in by_eye)
+        and all(
+            points(log, replace(one, **part), {gain: asked[gain]}, wider=SURELY) < POINTS
+            for one in by_eye
+            for gain, part in LACKING
+        )
+        and all(
+            points(log, Preparation({}, threshold, median), asked) < full
+            for threshold in (0.0, reference.threshold)
+            for median in range(1, LONGEST + 1, 2)  # a filter alone never is enough
+        )
+    )
+
+
+def _cut(reference: Preparation, early: float, times: float) -> Preparation:
+    """As the reference, but cut so much earlier [s], with so many times the threshold."""
+    keep = {test: (begin, end - early) for test, (begin, end) in reference.keep.items()}
+    return replace(reference, keep=keep, threshold=times * reference.threshold)

@@ -1,0 +1,58 @@
+"""What a preparation leaves of the samples that tell of the mechanism."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .preparation import Preparation
+
+if TYPE_CHECKING:
+    from sim.log import Run
+
+    from .drawn import Variant
+
+ENOUGH = 0.6  # [share] of a test's valid samples that has to be kept
+FAST_END = 0.8  # [share] of a ramp's fastest valid speed that has to be among them
+FIRST_RISE = 0.1  # [share] of a step's fastest valid speed up to which a start may be cut
+
+
+@dataclass(frozen=True)
+class Left:
+    """What is left of one test.
+
+    Args:
+        test: its name.
+        share: of its valid samples.
+        reaches: it still has its fast end, if it is a ramp, or its first rise, if it is a step.
+    """
+
+    test: str
+    share: float
+    reaches: bool
+
+    @property
+    def enough(self) -> bool:
+        """Whether that is enough."""
+        return self.share >= ENOUGH
+
+
+def left(variant: "Variant", preparation: Preparation) -> tuple[Left, ...]:
+    """What is left of each test."""
+    return tuple(_of(run, variant, preparation) for run in variant.log.runs)
+
+
+def _of(run: "Run", variant: "Variant", preparation: Preparation) -> Left:
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    valid, speed = variant.valid[run.test], np.abs(variant.clean[run.test])
+    trimmed = preparation.kept(run).time
+    kept = valid & np.isin(run.time, trimmed)
+    if run.kind == "quasistatic":
+        kept &= np.abs(run.velocity) >= preparation.threshold
+    share = float(kept.sum() / valid.sum())
+    top = float(speed[valid].max())
+    if not kept.any():
+        return Left(run.test, 0.0, reaches=False)
+    if run.kind == "quasistatic":
+        return Left(run.test, share, reaches=bool(speed[kept].max() >= FAST_END * top))
+    rises = int(np.argmax(valid & (speed > FIRST_RISE * top)))
+    return Left(run.test, share, reaches=int(np.argmax(kept)) <= rises)

@@ -1,0 +1,152 @@
+"""What a learner does to a log before it is fitted, and the fit that comes of it."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from grader.answer import HALF, Asked, Band, number
+from grader.check import Wrong
+
+if TYPE_CHECKING:
+    from sim.fit import Fit
+    from sim.log import Log, Run
+
+TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
+POINTS = 2.0  # for each gain
+LONGEST = 15  # [samples] of a median window, as SysId's
+EVERYTHING = ("all", "everything", "whole")
+ANY = Band(0.0, 0.0)  # nobody asks how near: what comes of it is graded
+NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+
+
+@dataclass(frozen=True)
+class Preparation:
+    """What is kept of a log.
+
+    Args:
+        keep: test -> [s] from, to, since the test began; a test that is missing is kept whole.
+        threshold: [m/s or rad/s] slower samples of quasistatic tests are dropped.
+        median: [samples] window of the filter on the velocity.
+    """
+
+    keep: Mapping[str, tuple[float, float]]
+    threshold: float
+    median: int
+
+    def kept(self, run: "Run") -> "Run":
+        """What is left of a run once it is trimmed."""
+        from sim.fault import only  # noqa: PLC0415 - numpy only where it is needed
+
+        first, last = self.keep.get(run.test, (0.0, float("inf")))
+        since = run.time - run.time[0]
+        return only(run, (since >= first - 1e-9) & (since <= last + 1e-9))
+
+
+def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> Preparation:
+    """Read the six lines of an answer.
+
+    Args:
+        given: the answers by name.
+        symbol: the unit of the log's positions.
+        si: how many meters or radians one of it is.
+
+    Raises:
+        Wrong: one of them is missing or makes no sense; the message names it.
+    """
+    keep = {test: _window(test, given.get(test.replace("-", "_"))) for test in TESTS}
+    asked = Asked("threshold", 0.0, f"{symbol}/s", ANY)
+    threshold = _number(given.get("threshold"), asked)
+    if threshold < 0.0:
+        raise Wrong(f"threshold {threshold:g}", hint="A speed has no sign here. 0 drops nothing.")
+    window = _number(given.get("median"), Asked("median", 1.0, "", ANY))
+    if window != round(window) or not 1 <= window <= LONGEST:
+        hint = f"Give a whole number of samples from 1, which filters nothing, to {LONGEST}."
+        raise Wrong(f"median {window:g}", hint=hint)
+    return Preparation(
+        {test: span for test, span in keep.items() if span is not None},
+        threshold * si,
+        round(window),
+    )
+
+
+def _number(raw: object, asked: Asked) -> float:
+    try:
+        return number(raw, asked)
+    except Wrong as wrong:
+        wrong.seen = f"{asked.name}: {wrong.seen}"
+        raise
+
+
+def _window(test: str, raw: object) -> tuple[float, float] | None:
+    """What to keep of one test; None for all of it."""
+    name = test.replace("-", "_")
+    ask = (
+        'Write what to keep, from and to, in seconds since the test began: "0.4 to 5.2", or "all".'
+    )
+    if raw is None or raw == "":
+        raise Wrong(f"{name}: nothing yet", hint=ask)
+    if isinstance(raw, list):
+        raw = " ".join(str(part) for part in raw)
+    if not isinstance(raw, str):
+        raise Wrong(f"{name}: {raw}, which is not two times", hint=ask)
+    if raw.strip().lower() in EVERYTHING:
+        return None
+    times = [float(part.replace(",", ".")) for part in NUMBER.findall(raw)]
+    if len(times) != 2:
+        raise Wrong(f'{name}: "{raw[:40]}", which is not two times', hint=ask)
+    if times[0] >= times[1]:
+        raise Wrong(f'{name}: "{raw[:40]}"', hint=f"That ends before it begins. {ask}")
+    return times[0], times[1]
+
+
+def prepared(log: "Log", preparation: Preparation) -> "Log":
+    """The log as the regression is to see it.
+
+    A slow sample loses its voltage, by which SysId's recipe leaves it out: its time stays in the
+    log, so that the period of the samples beside it is what it was.
+    """
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    runs = []
+    for run in map(preparation.kept, log.runs):
+        slow = np.abs(run.velocity) < preparation.threshold
+        voltage = np.where(slow, 0.0, run.voltage)
+        runs.append(replace(run, voltage=voltage) if run.kind == "quasistatic" else run)
+    return replace(log, runs=tuple(runs))
+
+
+def fitted(log: "Log", preparation: Preparation) -> "Fit":
+    """What SysId's recipe finds in the log, so prepared, in the unit of the log.
+
+    Raises:
+        NotIdentifiable: too little is left.
+    """
+    from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
+
+    ready = prepared(log, preparation)
+    return fit(ready, type="simple", method="sysid", median=preparation.median).in_log_units()
+
+
+def earned(value: float, asked: Asked) -> float:
+    """Points for one gain: all of them, half, or none."""
+    if asked.right(value):
+        return POINTS
+    near = abs(value - asked.expected) <= asked.band.widths(asked.expected)[1]
+    return HALF * POINTS if near else 0.0
+
+
+def points(
+    log: "Log", preparation: Preparation, asked: Mapping[str, Asked], *, wider: float = 1.0
+) -> float:
+    """What the fit of a log, so prepared, earns; were the bands this many times as wide."""
+    from sim.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
+
+    try:
+        gains = fitted(log, preparation).gains
+    except Refusal:
+        return 0.0
+    return sum(
+        earned(one.expected + (gains[name] - one.expected) / wider, one)
+        for name, one in asked.items()
+    )

@@ -1,0 +1,94 @@
+"""Wrong answers to exercise 8, and what a learner must be told about each."""
+
+from collections.abc import Callable
+
+from grader.mistake import Mistake, put, scaled
+
+ANSWERS = "answers.toml"
+RAMPS = ("quasistatic_forward", "quasistatic_reverse")
+STEPS = ("dynamic_forward", "dynamic_reverse")
+
+
+def windows(span: str, *names: str) -> Callable[[str], str]:
+    """Keep the same of some tests."""
+
+    def make(text: str) -> str:
+        for name in names:
+            text = put(name, f'"{span}"')(text)
+        return text
+
+    return make
+
+
+def both(*changes: Callable[[str], str]) -> Callable[[str], str]:
+    """Make several changes."""
+
+    def make(text: str) -> str:
+        for change in changes:
+            text = change(text)
+        return text
+
+    return make
+
+
+MISTAKES = (
+    Mistake(
+        "nothing is done",
+        ANSWERS,
+        both(windows("all", *RAMPS, *STEPS), put("threshold", "0"), put("median", "1")),
+        "ka",
+        "comes out",
+    ),
+    Mistake(
+        "the stops are kept", ANSWERS, windows("all", *RAMPS, *STEPS), "ka", "held up by a stop"
+    ),
+    Mistake(
+        "a filter for a picture",
+        ANSWERS,
+        put("median", "15"),
+        "ka",
+        "bends the rise",
+        "M-FILTER-FREE",
+    ),
+    Mistake("no filter", ANSWERS, put("median", "1"), "ka", "Single readings are far off"),
+    Mistake("no threshold", ANSWERS, put("threshold", "0"), "ks", "before it moves"),
+    Mistake(
+        "the rise of the steps is cut away",
+        ANSWERS,
+        windows("0.3 to 0.6", *STEPS),
+        "reach",
+        "while it speeds up",
+        "M-TRIM-PRETTY",
+    ),
+    Mistake(
+        "the fast half of the ramps is cut away",
+        ANSWERS,
+        windows("0 to 2.5", *RAMPS),
+        "reach",
+        "the lever",
+        "M-TRIM-PRETTY",
+    ),
+    Mistake(
+        "a threshold that drops the slow half",
+        ANSWERS,
+        scaled(4, "threshold"),
+        "kept",
+        "too little is left",
+        "M-TRIM-PRETTY",
+    ),
+    Mistake(
+        "hardly anything is left",
+        ANSWERS,
+        windows("2 to 2.1", *RAMPS),
+        "kv",
+        "You cut away too much",
+        "M-TRIM-PRETTY",
+    ),
+    Mistake("nothing yet", ANSWERS, put("threshold", '""'), "kept", "threshold: nothing yet"),
+    Mistake(
+        "a threshold in volts", ANSWERS, put("threshold", '"0.2 V"'), "kept", "measure", "M-UNITS"
+    ),
+    Mistake("half a sample", ANSWERS, put("median", "2.5"), "kept", "whole number of samples"),
+    Mistake("it ends before it begins", ANSWERS, windows("3 to 1", *RAMPS), "kept", "ends before"),
+    Mistake("no times", ANSWERS, windows("most of it", *STEPS), "kept", "not two times"),
+)

@@ -1,0 +1,226 @@
+"""Exercise 8: a damaged log of one's own, and what is left of it to fit."""
+
+import re
+import shutil
+import sys
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from grader.check import Wrong
+from grader.cli import run
+from grader.exercise import Exercise
+from grader.misconception import MISCONCEPTIONS
+from grader.variant import of_class
+from sim.fit import fit
+from sim.formats import read
+from sim.units import unit
+
+ROOT = Path(__file__).resolve().parents[1]
+OWN = Exercise("exercise8", ROOT / "exercises" / "exercise8")
+CHECKS = OWN.module
+DRAWN, PREPARATION, LEFT = (
+    sys.modules[f"{CHECKS.__name__}.{name}"] for name in ("drawn", "preparation", "left")
+)
+STUDENTS = tuple(f"student {number}" for number in range(20))
+RAMPS, STEPS = PREPARATION.TESTS[:2], PREPARATION.TESTS[2:]
+
+
+@cache
+def variant(student):
+    return CHECKS.draw(student)
+
+
+def graded(preparation, *, student="ann"):
+    """The results of a preparation, by check."""
+    answers = CHECKS.Answers(preparation, variant(student))
+    return {check.id: check.run(answers) for check in OWN.checks}
+
+
+def points(preparation, *, student="ann"):
+    return {name: result.points for name, result in graded(preparation, student=student).items()}
+
+
+ALL = dict(kept=2, reach=2, ks=2, kv=2, ka=2)
+
+
+@pytest.mark.parametrize("student", STUDENTS)
+def test_a_log_can_be_mended_and_needs_every_part_of_it(student):
+    reference = variant(student).reference
+    nothing = points(DRAWN.NOTHING, student=student)
+
+    assert points(reference, student=student) == ALL
+    assert nothing["ks"] + nothing["kv"] + nothing["ka"] < 3
+    for part, gain in (
+        (dict(keep={}), "ka"),
+        (dict(threshold=0.0), "ks"),
+        (dict(median=1), "ka"),
+        (dict(median=15), "ka"),
+    ):
+        assert points(replace(reference, **part), student=student)[gain] < 2
+
+
+def test_twenty_students_get_all_kinds_of_logs():
+    kinds = {variant(student).mechanism.units for student in STUDENTS}
+    stops = {test for student in STUDENTS for test in variant(student).reference.keep}
+
+    assert kinds == {"meters", "degrees"}
+    assert stops == {*PREPARATION.TESTS}
+
+
+def test_the_standstill_may_be_trimmed_instead_of_dropped_by_a_threshold():
+    for student in STUDENTS[:8]:
+        mine = variant(student)
+        keep = dict(mine.reference.keep)
+        for ramp in RAMPS:
+            (one,) = mine.log.of(ramp)
+            first = one.time[np.argmax(mine.valid[ramp])] - one.time[0]
+            keep[ramp] = (first, keep.get(ramp, (0.0, 99.0))[1])
+        trimmed = replace(mine.reference, keep=keep, threshold=0.0)
+
+        assert points(trimmed, student=student)["kept"] == 2
+        assert points(trimmed, student=student)["ks"] == 2
+
+
+def test_what_is_lost_costs_half_a_point_for_each_test():
+    reference = variant("ann").reference
+
+    def kept(span, *tests):
+        results = points(replace(reference, keep={**reference.keep, **dict.fromkeys(tests, span)}))
+        return results["kept"], results["reach"]
+
+    assert kept((0.0, 2.0), RAMPS[0]) == (1.5, 1.5)
+    assert kept((0.0, 2.0), *RAMPS) == (1.0, 1.0)
+    assert kept((0.2, 2.0), *STEPS) == (1.0, 1.0)
+    assert kept((90.0, 91.0), *RAMPS, *STEPS) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "check", "says", "code"),
+    [
+        (dict(keep={}), "ka", "held up by a stop", ""),
+        (dict(median=1), "ka", "Single readings are far off", ""),
+        (dict(median=15), "ka", "bends the rise", "M-FILTER-FREE"),
+        (dict(threshold=0.0), "ks", "before it moves", ""),
+        (dict(keep=dict.fromkeys(STEPS, (0.2, 0.5))), "ka", "first rise", "M-TRIM-PRETTY"),
+        (dict(threshold=1e6), "kv", "You cut away too much", "M-TRIM-PRETTY"),
+        (dict(keep=dict.fromkeys(RAMPS, (0.0, 2.0))), "reach", "the lever", "M-TRIM-PRETTY"),
+        (dict(keep=dict.fromkeys(STEPS, (0.2, 0.5))), "reach", "speeds up", "M-TRIM-PRETTY"),
+    ],
+)
+def test_a_wrong_gain_is_put_down_to_the_part_that_bends_it(changes, check, says, code):
+    for student in ("ann", "ben", "zoë"):
+        reference = variant(student).reference
+        wrong = dict(changes)
+        if changes.get("keep"):
+            wrong["keep"] = {**reference.keep, **changes["keep"]}
+        result = graded(replace(reference, **wrong), student=student)[check]
+
+        assert result.status == "failed"
+        assert says in result.hint
+        assert result.misconception == code
+        assert code in {"", *MISCONCEPTIONS}
+
+
+@pytest.mark.parametrize(
+    ("raw", "expected"),
+    [
+        ("0.4 to 5.2", (0.4, 5.2)),
+        ("0,4 - 5,2 s", (0.4, 5.2)),
+        ("from 1 s until 3 s", (1.0, 3.0)),
+        ([0.5, 2], (0.5, 2.0)),
+        ("all", None),
+        (" ALL ", None),
+    ],
+)
+def test_a_window_may_be_written_in_many_ways(raw, expected):
+    given = dict.fromkeys((one.replace("-", "_") for one in PREPARATION.TESTS), "all")
+    given |= {"dynamic_forward": raw, "threshold": "0,2 m/s", "median": "3"}
+    found = PREPARATION.read_preparation(given, symbol="m", si=1.0)
+
+    assert found.keep.get("dynamic-forward") == expected
+    assert (found.threshold, found.median) == (0.2, 3)
+
+
+def test_a_threshold_is_read_in_the_unit_of_the_log():
+    given = dict.fromkeys((one.replace("-", "_") for one in PREPARATION.TESTS), "all")
+    degrees = unit("degrees")
+
+    for written in (20, "20 deg/s", "0.34907 rad/s"):
+        given |= {"threshold": written, "median": 1}
+        found = PREPARATION.read_preparation(given, symbol=degrees.symbol, si=degrees.si)
+        assert found.threshold == pytest.approx(0.34907, rel=1e-4)  # 20·π/180
+
+
+@pytest.mark.parametrize(
+    ("name", "raw", "says"),
+    [
+        ("dynamic_forward", None, "dynamic_forward: nothing yet"),
+        ("dynamic_forward", "", "dynamic_forward: nothing yet"),
+        ("dynamic_forward", 3, "which is not two times"),
+        ("dynamic_forward", "1 to 2 and 3 to 4", "which is not two times"),
+        ("dynamic_forward", "4 to 2", '"4 to 2"'),
+        ("threshold", "", "threshold: nothing yet"),
+        ("threshold", -1, "threshold -1"),
+        ("threshold", "0.2 V", "threshold: the unit"),
+        ("threshold", True, "threshold: true"),
+        ("median", 0, "median 0"),
+        ("median", 16, "median 16"),
+        ("median", 2.5, "median 2.5"),
+        ("median", "wide", "median: "),
+    ],
+)
+def test_a_line_that_cannot_be_read_is_named_and_nothing_else_is_judged(name, raw, says):
+    given = dict.fromkeys((one.replace("-", "_") for one in PREPARATION.TESTS), "all")
+    given |= {"threshold": 0, "median": 1, name: raw}
+    with pytest.raises(Wrong) as wrong:
+        PREPARATION.read_preparation(given, symbol="m", si=1.0)
+    results = graded(wrong.value)
+
+    assert says in wrong.value.seen
+    assert results.pop("kept").status == "failed"
+    assert {one.status for one in results.values()} == {"not-reached"}
+
+
+def test_a_threshold_of_nothing_and_no_window_is_the_fit_of_the_bench():
+    mine = variant("ann")
+    theirs = fit(mine.log, method="sysid").in_log_units()
+
+    assert PREPARATION.fitted(mine.log, DRAWN.NOTHING).gains == theirs.gains
+
+
+def test_a_student_gets_the_same_log_every_time_and_nobody_elses():
+    def told(student):
+        return [run.velocity.sum() for run in CHECKS.draw(student).log.runs]
+
+    assert told("ann") == told("Ann") != told("ben")
+    alone = told("ann")
+    with of_class(b"a class"):
+        assert told("ann") != alone
+
+
+def test_nothing_a_learner_reads_holds_a_gain(tmp_path, monkeypatch, capsys):
+    folder = tmp_path / "exercises" / "exercise8"
+    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    text = (folder / "answers.toml").read_text("utf-8")
+    for test in PREPARATION.TESTS:
+        text = text.replace(f'{test.replace("-", "_")} = ""', f'{test.replace("-", "_")} = "all"')
+    text = text.replace('threshold = ""', "threshold = 0").replace('median = ""', "median = 9")
+    (folder / "answers.toml").write_text(text, "utf-8")
+    assert run(["8", "--student", "ann"]) == 1
+    assert run(["8", "--student", "ann", "--json"]) == 1
+    said = capsys.readouterr().out + " ".join(OWN.hints)
+    said += (OWN.folder / "README.md").read_text("utf-8")
+    numbers = [abs(float(found)) for found in re.findall(r"\d+\.\d+", said)]
+
+    assert len(numbers) > 10
+    for one in variant("ann").asked.values():
+        near = [n for n in numbers if abs(n - one.expected) < 0.002 * one.expected]
+        assert near == []
+    log = read(folder / "data" / "ann" / "log.wpilog")
+    assert [len(run) for run in log.runs] == [len(run) for run in variant("ann").log.runs]
