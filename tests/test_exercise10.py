@@ -7,6 +7,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from gain_styles import BODY, PYTHON_BODY, PYTHON_STYLES, STYLES
 
 from grader.cli import run
 from grader.exercise import Exercise
@@ -114,67 +115,6 @@ def turret():
     return student, OWN.module.draw(student).shown
 
 
-BODY = """  static class CharacterizationConstants {{
-    static final double kS = {kS}; // volts
-    static final double kV = {kV} / (2 * Math.PI); // volts per (rad/s)
-    static final double kA = {kA} / (2 * Math.PI); // volts per (rad/s^2)
-    static final double kP = {kP} / (2 * Math.PI); // where tuning starts
-  }}
-  SimpleMotorFeedforward ff = new SimpleMotorFeedforward(
-      CharacterizationConstants.kS, CharacterizationConstants.kV, CharacterizationConstants.kA);
-"""
-STYLES = {
-    "plain": [],
-    "a library's function": [("{kV} / (2 * Math.PI)", "{kV} / Units.rotationsToRadians(1)")],
-    "radians to rotations": [("{kV} / (2 * Math.PI)", "{kV} * Units.radiansToRotations(1)")],
-    "a named constant": [
-        ("{kV} / (2 * Math.PI)", "{kV} * TURN"),
-        ("static class", "static final double TURN = 1 / (2 * Math.PI);\n  static class"),
-    ],
-    "other names": [("kS", "K_S"), ("kV", "kVVoltSecondsPerRadian"), ("kA", "ka")],
-    "names with units": [
-        ("double kV = ", "double kVVoltSecondsPerRadian = "),
-        ("Constants.kV", "Constants.kVVoltSecondsPerRadian"),
-        (" // volts per (rad/s)\n", "\n"),
-    ],
-    "converted where it is used": [
-        ("{kV} / (2 * Math.PI); // volts per (rad/s)", "{kV}; // V·s/rot"),
-        ("Constants.kV", "Constants.kV / (2 * Math.PI)"),
-    ],
-    "units above": [
-        (" // volts per (rad/s)\n", "\n"),
-        ("    static final double kV", "    // V*s/rad\n    static final double kV"),
-    ],
-    "units above all": [
-        (" // volts per (rad/s)\n", "\n"),
-        ("  static class", "  /** In V, V·s/rad, V·s²/rad. */\n  static class"),
-    ],
-    "in words": [
-        ("volts per (rad/s)\n", "volts for a velocity of 1 rad/s\n"),
-        ("volts per (rad/s^2)", "volts for 1 rad/s every second"),
-    ],
-    "a loop's kP": [
-        ("{kP} / (2 * Math.PI)", "{kP}"),
-        (
-            "  SimpleMotor",
-            "  PID pid = new PID(TURN * CharacterizationConstants.kP);\n  SimpleMotor",
-        ),
-        ("  SimpleMotor", "  double TURN = 0.5 / Math.PI;\n  SimpleMotor"),
-    ],
-    "through a variable": [
-        ("  SimpleMotor", "  double gain = CharacterizationConstants.kV;\n  SimpleMotor"),
-        (
-            "      CharacterizationConstants.kS, CharacterizationConstants.kV",
-            "      CharacterizationConstants.kS, gain",
-        ),
-    ],
-    "made in the constructor": [
-        ("  SimpleMotorFeedforward ff = new", "  SimpleMotorFeedforward ff;\n  A() {{ ff = new"),
-        ("Constants.kA);\n", "Constants.kA); }}\n"),
-    ],
-}
-
-
 @pytest.mark.parametrize("style", STYLES)
 def test_java_is_read_in_many_styles(checked, turret, style):
     student, shown = turret
@@ -188,44 +128,6 @@ def test_java_is_read_in_many_styles(checked, turret, style):
     found = checked(text, student=student)
 
     assert {one.id: (one.seen, one.hint) for one in found.values() if one.status != "passed"} == {}
-
-
-PYTHON_BODY = """import math
-from wpimath.controller import SimpleMotorFeedforwardRadians
-
-class CharacterizationConstants:
-    kS = {kS}  # V
-    kV = {kV} / math.tau  # V·s/rad
-    kA = {kA} / math.tau  # V·s²/rad
-    kP = {kP} / math.tau  # a first guess
-
-class Turret(Subsystem):
-    def __init__(self):
-        C = CharacterizationConstants
-        self.ff = SimpleMotorFeedforwardRadians(C.kS, C.kV, C.kA)
-"""
-PYTHON_STYLES = {
-    "plain": [],
-    "a number in the class": [
-        ("    kS =", "    TURN = 2 * math.pi\n    kS ="),
-        ("{kV} / math.tau", "{kV} / TURN"),
-    ],
-    "typed": [("    kS =", "    kS: float ="), ("    kV =", "    kV: Final[float] =")],
-    "by word": [("C.kS, C.kV, C.kA", "kA=C.kA, kV=C.kV, kS=C.kS")],
-    "from math": [("import math\n", "from math import pi\n"), ("math.tau", "(2 * pi)")],
-    "wpimath": [("{kV} / math.tau", "{kV} * radiansToRotations(1)")],
-    "2027": [("{kV} / math.tau", "{kV} * radians_to_rotations(1)")],
-    "an object of it": [
-        ("class Turret", "GAINS = CharacterizationConstants()\n\nclass Turret"),
-        ("C.k", "GAINS.k"),
-    ],
-    "a module's names": [
-        ("class CharacterizationConstants:\n", ""),
-        ("    k", "k"),
-        ("        C = CharacterizationConstants\n", ""),
-        ("C.k", "k"),
-    ],
-}
 
 
 @pytest.mark.parametrize("style", PYTHON_STYLES)
