@@ -63,6 +63,16 @@ def test_fifty_students_get_five_logs_each_that_the_authored_function_fits():
                 assert asked.right(found[name]), f"{number}, {log.recipe.kind}: {name}"
 
 
+def test_the_tests_of_a_log_stand_one_after_another_with_pauses_between():
+    for log in logs_of("ann"):
+        test, time = log.data["test"], log.data["time"]
+        between = np.flatnonzero(test[1:] != test[:-1])
+
+        assert len(between) == len(np.unique(test)) - 1
+        assert np.diff(time).min() > 0.0
+        assert np.diff(time)[between].min() > 0.5
+
+
 def test_the_five_logs_differ_as_the_task_says():
     logs = logs_of("ann")
     periods = [float(f"{np.median(np.diff(log.data['time'])):.3f}") for log in logs]

@@ -14,7 +14,7 @@ def fit(time, voltage, position, velocity, test):
     Every argument is a column, a numpy array with one value for each row of the log.
 
     Args:
-        time: [s]; it begins anew with each test.
+        time: [s]; between two tests there is a pause.
         voltage: [V], what the motor got.
         position: in meters or rotations, for example.
         velocity: in the same unit per second.
