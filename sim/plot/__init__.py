@@ -9,8 +9,11 @@ Nothing here needs a screen, and nothing here keeps a state: a picture is made, 
 
 from sim.plot.acceleration import acceleration_velocity
 from sim.plot.analyzer import velocity_time
+from sim.plot.budget import budget
 from sim.plot.charts import choices, curves, misses
+from sim.plot.chase import chase, miss
 from sim.plot.clock import timesteps
+from sim.plot.gauge import gauge
 from sim.plot.live import live
 from sim.plot.logs import time_series
 from sim.plot.marks import heat, spread
@@ -23,10 +26,14 @@ __all__ = [
     "Picture",
     "Table",
     "acceleration_velocity",
+    "budget",
+    "chase",
     "choices",
     "curves",
+    "gauge",
     "heat",
     "live",
+    "miss",
     "misses",
     "spread",
     "time_series",

@@ -1,0 +1,98 @@
+"""A gauge: where a number lies among bands that say what to do about it."""
+
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+
+from sim.errors import BadRequest
+from sim.plot.picture import COLORS, INK, MARKERS, PAPER, Picture, legend, panels
+from sim.plot.table import Table, shown
+
+GOOD = COLORS[2]
+REST = ((COLORS[4], "//"), (COLORS[3], ".."))  # a texture beside each color
+WORST = (COLORS[1], "xx")
+MOST = len(REST) + 2  # bands: the rest, the good one and the worst
+
+
+def gauge(
+    values: Mapping[str, float],
+    bands: Mapping[str, float],
+    *,
+    label: str,
+    good: str,
+    least: float = 0.0,
+) -> Picture:
+    """Numbers as marks on a scale of bands.
+
+    Args:
+        values: name -> number.
+        bands: name -> where it ends, rising; the last one has no end of its own, and the scale
+            stops there or at the largest number.
+        label: of the scale, with unit.
+        good: the name of the band that asks for nothing.
+        least: where the scale begins.
+
+    Raises:
+        BadRequest: there is nothing to show, the ends do not rise, or no band is the good one.
+    """
+    ends = list(bands.values())
+    if not values or good not in bands or ends != sorted(set(ends)) or len(ends) > MOST:
+        raise BadRequest(
+            f"a gauge needs numbers, and up to {MOST} bands that rise, one of them good",
+            advice="Give each band a larger end than the one before it.",
+        )
+    low, high = min(least, *values.values()), max(ends[-1], *values.values())
+    figure, ((axes,),) = panels(1, 1, height=1.5 + 0.3 * len(values))
+    _draw(axes, values, bands, good=good, span=(low, high))
+    axes.set_xlim(low, high)
+    axes.set_yticks([])
+    axes.set_xlabel(label, color=INK)
+    legend(figure, (axes,), columns=len(bands) + len(values))
+    rows = tuple((name, value, band_of(value, bands)) for name, value in values.items())
+    return Picture(figure, _words(rows, bands, label, low), Table(("which", label, "band"), rows))
+
+
+def _draw(
+    axes: Axes,
+    values: Mapping[str, float],
+    bands: Mapping[str, float],
+    *,
+    good: str,
+    span: tuple[float, float],
+) -> None:
+    """Draw the bands, and the marks on them."""
+    low, high = span
+    rest, start, last = iter(REST), low, list(bands)[-1]
+    for name, end in bands.items():
+        color, hatch = (GOOD, "") if name == good else WORST if name == last else next(rest)
+        stop = high if name == last else end
+        axes.barh(0, stop - start, left=start, height=1.0, color=color, hatch=hatch, alpha=0.45,
+                  edgecolor=PAPER, linewidth=0.0, label=name)  # fmt: skip
+        start = stop
+    for index, (name, value) in enumerate(values.items()):
+        axes.plot(value, 0, MARKERS[index % len(MARKERS)], color=INK, markersize=9, clip_on=False,
+                  label=name, zorder=5)  # fmt: skip
+        axes.annotate(shown(value), (value, 0), xytext=(0, 9 + 12 * index), ha="center",
+                      textcoords="offset points", fontsize=9, color=INK, zorder=6,
+                      bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8})  # fmt: skip
+
+
+def band_of(value: float, bands: Mapping[str, float]) -> str:
+    """The name of the band that a number lies in; an end belongs to the band that it ends."""
+    names = list(bands)
+    return next((name for name in names[:-1] if value <= bands[name]), names[-1])
+
+
+def _words(
+    rows: tuple[tuple[str, float, str], ...], bands: Mapping[str, float], label: str, low: float
+) -> str:
+    said = f"A scale of {label} with bands: "
+    names, start, parts = list(bands), low, []
+    for name in names[:-1]:
+        parts.append(f"{name} from {shown(start)} to {shown(bands[name])}")
+        start = bands[name]
+    parts.append(f"{names[-1]} above {shown(start)}")
+    said += ", ".join(parts) + "."
+    for name, value, band in rows:
+        said += f" {name} is {shown(value)}: {band}."
+    return said

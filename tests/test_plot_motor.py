@@ -1,0 +1,86 @@
+"""Pictures of the first lessons: a chase, a voltage budget, a gauge."""
+
+import numpy as np
+import pytest
+from html_tags import Tags
+
+from sim.errors import BadRequest
+from sim.plot import budget, chase, gauge, miss
+from sim.plot.gauge import band_of
+
+TIME = np.linspace(0.0, 2.0, 41)
+BANDS = {"fine": 0.5, "watch": 5.0, "stop": 6.0}
+TERMS = {"kS": np.full(41, 0.2), "kV·v": 2.0 * TIME, "kA·a": np.linspace(1.0, -1.0, 41)}
+APPLIED = sum(TERMS.values())
+PICTURES = {
+    "chase": lambda: chase(TIME, TIME, {"a": TIME + 0.1, "b": TIME}, title="A race"),
+    "budget": lambda: budget(TIME, TERMS, applied=APPLIED),
+    "budget at a moment": lambda: budget(TIME, TERMS, applied=APPLIED, moment=1.5),
+    "gauge": lambda: gauge({"left": 0.2, "right": 0.9}, BANDS, label="kS [V]", good="fine"),
+}
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_a_picture_says_in_words_and_numbers_what_it_shows(name):
+    picture = PICTURES[name]()
+    assert len(picture.alt) > 40
+    assert picture.alt.endswith(".")
+    (image,) = Tags(picture.html).all("img")
+    assert image["alt"] == picture.alt
+    assert picture.table.rows
+    assert PICTURES[name]().svg == PICTURES[name]().svg
+
+
+def test_a_miss_is_the_root_mean_square_and_the_largest():
+    off = miss(np.zeros(4), np.array([0.0, 3.0, -4.0, 0.0]))
+    assert off.typical == pytest.approx(2.5)  # √((9 + 16) / 4)
+    assert off.largest == 4.0
+
+
+def test_a_chase_tells_who_misses_by_how_much():
+    rows = {name: numbers for name, *numbers in PICTURES["chase"]().table.rows}
+    assert rows["a"] == pytest.approx([0.1, 0.1])
+    assert rows["b"] == [0.0, 0.0]
+
+
+def test_a_budget_tells_its_moment():
+    picture = PICTURES["budget at a moment"]()
+    (row,) = picture.table.rows
+    assert row[1:] == pytest.approx((0.2, 3.0, -0.5, 2.7))
+    assert "of 2.70 V: kS 0.200 V, kV·v 3.00 V, kA·a −0.500 V." in picture.alt
+
+
+def test_terms_that_take_volts_stand_on_each_other_and_those_that_give_hang_below():
+    axes = PICTURES["budget"]().figure.axes[0]
+    tops = [area.get_datalim(axes.transData).ymax for area in axes.collections[::2]]
+    assert tops == pytest.approx([0.2, 4.2, 4.2])  # 0.2, + 2·2, + what kA·a takes when it is 0
+    assert axes.collections[-1].get_datalim(axes.transData).ymin == pytest.approx(-1.0)
+
+
+@pytest.mark.parametrize(
+    ("value", "band"),
+    [(0.0, "fine"), (0.5, "fine"), (0.51, "watch"), (5.1, "stop"), (99.0, "stop")],
+)
+def test_a_number_lies_in_its_band(value, band):
+    assert band_of(value, BANDS) == band
+    assert gauge({"x": value}, BANDS, label="kS [V]", good="fine").table.rows == (
+        ("x", value, band),
+    )
+
+
+@pytest.mark.parametrize(
+    ("draw", "advice"),
+    [
+        (lambda: chase(TIME, TIME, {}), "Give one or more"),
+        (lambda: chase(TIME, TIME, {"a": TIME[1:]}), "of equal length"),
+        (lambda: budget(TIME, {}, applied=APPLIED), "Give one or more"),
+        (lambda: budget(TIME, TERMS, applied=APPLIED[1:]), "of equal length"),
+        (lambda: gauge({}, BANDS, label="", good="fine"), "a larger end"),
+        (lambda: gauge({"x": 1.0}, BANDS, label="", good="best"), "a larger end"),
+        (lambda: gauge({"x": 1.0}, {"a": 2.0, "b": 1.0}, label="", good="a"), "a larger end"),
+    ],
+    ids=["nobody", "a short one", "no terms", "a short sum", "no number", "no good", "falling"],
+)
+def test_what_cannot_be_drawn_is_refused_with_advice(draw, advice):
+    with pytest.raises(BadRequest, match=advice):
+        draw()
