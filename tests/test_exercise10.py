@@ -1,5 +1,6 @@
 """Exercise 10: gains written down in many ways, and what goes wrong on their way to the robot."""
 
+import importlib.util
 import math
 import re
 import shutil
@@ -328,3 +329,27 @@ def test_nothing_a_learner_reads_holds_a_converted_number(copy, student, capsys)
         value = variant.needed(gain)
 
         assert [one for one in numbers if abs(one - value) < 0.001 * value] == []
+
+
+def load(name):
+    path = ROOT / "solutions" / "exercise10" / name
+    spec = importlib.util.spec_from_file_location(f"_exercise10_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("kind", ["arm", "drivetrain", "elevator", "shooter", "turret"])
+@pytest.mark.parametrize("duty", [False, True])
+def test_every_mistake_is_named_whatever_the_mechanism(checked, tmp_path, kind, duty):
+    student = of(kind=kind, duty=duty)
+    (tmp_path / "given.toml").write_text(OWN.module.told(OWN.module.draw(student)), "utf-8")
+    answers = load("solve.py").solve(OWN.folder, tmp_path)
+
+    for mistake in load("mistakes.py").MISTAKES:
+        text = mistake.make(answers[mistake.file])
+        found = checked(text, student=student, name=mistake.file)[mistake.check]
+
+        assert (mistake.name, found.status) == (mistake.name, "failed")
+        assert mistake.says in f"{found.seen} {found.hint}"
+        assert (mistake.name, found.misconception) == (mistake.name, mistake.misconception)
