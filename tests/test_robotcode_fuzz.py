@@ -13,8 +13,8 @@ from robotcode_readings import READERS, Reading, among_neighbors, faults, flaws
 from grader.robotcode.facts import Known, Problem, Quantity, RoutineFacts
 from sim.errors import Refusal
 
-MUTANTS = 500
-FEWER = 10  # mutants of each change at least, so that none is forgotten
+MUTANTS = 300
+FEWER = 5  # mutants of each change at least, so that none is forgotten
 SECONDS = 2.0  # of one mutant and reader
 
 

@@ -25,7 +25,7 @@ SECONDS = 2.0  # that no mutant may take
 def main(count: int, first: int) -> int:
     """Read so many mutants, print the figures."""
     files = sources()
-    found, bad = [], 0
+    found, traces, bad = [], set(), 0
     with tempfile.TemporaryDirectory() as folder, among_neighbors(Path(folder)) as readings:
         for number in range(first, first + count):
             one = mutant(number, files)
@@ -34,7 +34,9 @@ def main(count: int, first: int) -> int:
                 several = readings(one)
             except Exception:  # noqa: BLE001 - a crash is what is looked for
                 bad += 1
-                print(f"CRASH {said}\n{traceback.format_exc(limit=-4)}")
+                trace = traceback.format_exc(limit=-4)
+                print(f"CRASH {said}", "as before" if trace in traces else f"\n{trace}")
+                traces.add(trace)
                 continue
             for reading in several:
                 wrong = faults(reading, one, most=SECONDS)
