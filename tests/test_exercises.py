@@ -75,7 +75,7 @@ def test_an_exercise_has_a_task_hints_checks_and_mistakes(name):
     one = EXERCISES[name]
     readme = (one.folder / "README.md").read_text(encoding="utf-8")
 
-    assert re.search(r"^# Exercise \d+: \w", readme, re.MULTILINE)
+    assert re.search(r"^# (?:Exercise \d+|Practice): \w", readme, re.MULTILINE)
     assert f"grade {name}" in readme
     assert len(one.hints) == len(HINTS) == 3
     assert all(len(hint) > 40 for hint in one.hints)

@@ -1,0 +1,213 @@
+"""Practice: the five steps of the lesson on one mechanism, by the checks of their exercises."""
+
+import math
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from grader.answer import Asked, Band, judge, number
+from grader.check import Check, NotReached, Wrong, check
+from grader.course import find_course
+from grader.exercise import Exercise
+from grader.given import hand_out
+from grader.submission import read_answers
+from grader.word import word
+from sim.errors import Refusal
+
+from .measured import ANALYSES, Measured, noted, of_bench, of_robot, team_of
+
+HERE = Path(__file__).resolve().parent
+FILES = ("answers.toml",)
+BESIDE = (
+    "ExampleSubsystem.java", "RobotContainer.java", "ExampleMechanism.java",
+    "example_subsystem.py", "robotcontainer.py", "example_mechanism.py",
+)  # fmt: skip
+LANGUAGES = {"java": BESIDE[:3], "python": BESIDE[3:]}
+PLACES = ("subsystem", "container", "constants")
+GOOD = 0.9  # simulated velocity R² below which something is wrong with the data
+LITTLE = 12  # [characters] shorter than which nothing is said
+NEAR_BOUND = 1.5  # [%] that a verdict's bound is known to
+BELOW = -3.0  # [%] under theory that a good motor may still be
+
+
+def _room(name: str) -> ModuleType:
+    """The checks of another exercise."""
+    return Exercise(name, find_course(HERE) / "exercises" / name).module
+
+
+FOURTH, FIFTH, NINTH, TENTH, SECOND = (_room(f"exercise{number}") for number in (4, 5, 9, 10, 2))
+TEAM = sys.modules[f"{SECOND.__name__}.team"]
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at: the answers, and the folder with everything that belongs to them."""
+
+    given: Mapping[str, object]
+    folder: Path
+    student: str
+
+    def _file(self, place: str) -> Path:
+        """A file of the learner's language, or one that they named."""
+        tongue = word(self.given.get("language"), tuple(LANGUAGES))
+        named = self.given.get(place)
+        usual = LANGUAGES[tongue][PLACES.index(place)]
+        name = Path(named.replace("\\", "/")).name if isinstance(named, str) and named else usual
+        return self.folder / name
+
+    def _read(self, place: str, room: ModuleType) -> object:
+        try:
+            return room.read(self._file(place), student=self.student)
+        except Refusal as refusal:
+            raise NotReached(str(refusal)) from None
+        except Wrong as wrong:
+            raise NotReached(f"language: {wrong.seen}. {wrong.hint}") from None
+
+    @cached_property
+    def routine(self) -> object:
+        """As exercise 4 reads it."""
+        return self._read("subsystem", FOURTH)
+
+    @cached_property
+    def bindings(self) -> object:
+        """As exercise 5 reads it."""
+        return self._read("container", FIFTH)
+
+    @cached_property
+    def measured(self) -> Measured:
+        """The mechanism: with a robot, that of its log; without, that of exercise 9."""
+        log = self.given.get("log")
+        if isinstance(log, str) and log.strip():
+            return of_robot(self.folder / Path(log.replace("\\", "/")).name, self.given)
+        return of_bench(NINTH.draw(self.student))
+
+    @cached_property
+    def constants(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
+        """As exercise 10 reads it, with this mechanism's gains for the analyzer's."""
+        code = self._read("constants", TENTH)
+        one = self.measured
+        shown = {name: noted(name, self.given, one) for name in one.key.asked}
+        kind = ANALYSES[one.fit.type]
+        variant = TENTH.Variant("own", kind, shown, one.units, one.units, False)  # noqa: FBT003 - a loop in volts
+        return replace(code, variant=variant)  # type: ignore[type-var]  # loaded by path
+
+    @cached_property
+    def theory(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
+        """As exercise 2 looks at it."""
+        return SECOND.Answers(self.given, team_of(self.measured, self.given, TEAM))
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Make the log of exercise 9, and write down the parts of its mechanism."""
+    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
+
+    variant = NINTH.draw(student)
+    parts = of_bench(variant).parts
+    if parts is None:
+        raise RuntimeError("the bench's own mechanism has parts")
+    rpm = parts.motor.free_speed * 30.0 / math.pi
+    wheel = f"wheel_diameter = {parts.diameter:g}  # [m]\n" if parts.diameter else ""
+    told = f"""\
+# The mechanism of log.wpilog, for whoever has no robot at hand. It is that of exercise 9.
+mechanism = "{variant.mechanism.name}"
+motor = "{parts.motor.name}"
+free_speed = {rpm:.0f}  # [rpm] of the motor at 12 V, by its data sheet
+ratio = {parts.ratio:.6g}  # turns of the motor for one of the mechanism
+{wheel}"""
+    made = {"given.toml": told, "log.wpilog": partial(write, variant.log)}
+    hand_out(made, exercise=HERE, student=student, what="log", say=say)
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and where the rest of them stands.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    return Answers(given, path.resolve().parent, student)
+
+
+def _borrowed(room: ModuleType, part: str, *, step: str, leave: tuple[str, ...] = ()) -> None:
+    """Let the checks of another exercise look at a part of the answers."""
+    ours: dict[str, Check[Answers]] = {}
+    for one in [value for value in vars(room).values() if isinstance(value, Check)]:
+        if one.id in leave:
+            continue
+
+        def look(answers: Answers, theirs: Check[Any] = one) -> str | None:
+            return theirs.look(getattr(answers, part))
+
+        before = tuple(ours[first.id] for first in one.after)
+        name = f"{step}-{one.id}"
+        ours[one.id] = Check(name, one.description, one.points, before, look)
+        globals()[name.replace("-", "_")] = ours[one.id]
+
+
+_borrowed(FOURTH, "routine", step="routine")
+_borrowed(FIFTH, "bindings", step="buttons")
+
+
+def _gain(name: str, *, points: float) -> None:
+    """A check of a gain that was written down."""
+
+    def look(answers: Answers) -> str | None:
+        key = answers.measured.key
+        if name not in key.asked:
+            raise NotReached(f"your fit suggests no {name}")
+        given = {one: answers.given.get(one.lower()) for one in key.asked}
+        return judge(name, given, key, points=points)
+
+    look.__name__, look.__doc__ = f"gains_{name.lower()}", f"{name}, as your log has it."
+    globals()[look.__name__] = check(points=points)(look)
+
+
+for _name in ("kS", "kV", "kA", "kP"):
+    _gain(_name, points=1.0)
+
+
+@check(points=1)
+def r2(answers: Answers) -> None:
+    """The simulated velocity R² of your fit."""
+    found = float(answers.measured.fit.simulated_velocity_r2)
+    asked = Asked("simulated_velocity_r2", found, "", Band(0.0, 0.0, 0.02, 0.02))
+    value = number(answers.given.get("simulated_velocity_r2"), asked)
+    if not asked.right(value):
+        hint = "There are two R². Asked for is the simulated velocity's, a share of 1."
+        raise Wrong(f"{value:.4g}", hint=hint, misconception="M-R2")
+
+
+@check(points=1, after=r2)
+def hypothesis(answers: Answers) -> str | None:
+    """What you suspect where R² is below 0.9, and what you would look at first."""
+    from sim.faults import FAULTS  # noqa: PLC0415 - numpy only where it is needed
+
+    if float(answers.measured.fit.simulated_velocity_r2) >= GOOD:
+        return "Your R² is at least 0.9, so nothing has to be suspected."
+    word(answers.given.get("hypothesis"), tuple(FAULTS))
+    first = answers.given.get("first_check")
+    if not isinstance(first, str) or len(first.strip()) < LITTLE:
+        raise Wrong("no first_check", hint="In a sentence: what would you look at first?")
+    return None
+
+
+_borrowed(TENTH, "constants", step="constants")
+_borrowed(SECOND, "theory", step="theory", leave=("verdict", "inspection", "ks-flag"))
+
+
+@check(points=2)
+def theory_verdict(answers: Answers) -> None:
+    """What your kV says, held against theory."""
+    variant = answers.theory.variant
+    percents = [variant.percent(one) for one in variant.theories]
+    right = {TEAM.verdict(one + off) for one in percents for off in (-NEAR_BOUND, NEAR_BOUND)}
+    if BELOW < max(percents) <= 0.0:
+        right.add("ok")
+    found = word(answers.given.get("verdict"), TEAM.VERDICTS)
+    if found not in right:
+        hint = "find your difference in the table of exercise 2, sign and all"
+        raise Wrong(f'"{found}"', hint=hint)

@@ -1,0 +1,21 @@
+"""A mechanism that was characterized, and that shall follow a velocity."""
+
+from commands2 import Subsystem
+
+# TODO: 1. Import your feedforward. wpimath.controller has one for each kind of mechanism.
+
+
+class CharacterizationConstants:
+    """What SysId found out. Measured with a fresh battery; again when the mechanism changes."""
+
+    # TODO: 2. One constant for each gain that the analyzer shows, kP among them. Beside each, a
+    #       comment with its unit. Beside kP, also say how far this number can be trusted.
+
+
+class ExampleMechanism(Subsystem):
+    """Follows a velocity."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        # TODO: 3. self.feedforward, made of these constants. Its velocities come in the unit that
+        #       given.toml tells under [robot].

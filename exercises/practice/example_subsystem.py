@@ -1,0 +1,33 @@
+"""A drivetrain with one motor on each side, ready to be characterized."""
+
+from commands2 import Subsystem
+
+# TODO: 1. Import SysIdRoutine; it lives in commands2.sysid.
+from wpilib import Encoder, PWMSparkMax
+from wpilib.sysid import SysIdRoutineLog
+
+METERS_PER_PULSE = 0.000156  # wheel circumference over the encoder's pulses per turn
+
+
+class ExampleSubsystem(Subsystem):
+    """Two motors, two encoders that count meters, and a routine to test them with."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.left = PWMSparkMax(0)
+        self.right = PWMSparkMax(1)
+        self.left_encoder = Encoder(0, 1)
+        self.right_encoder = Encoder(2, 3)
+        self.left_encoder.setDistancePerPulse(METERS_PER_PULSE)
+        self.right_encoder.setDistancePerPulse(METERS_PER_PULSE)
+        # TODO: 2. Make self.routine, a SysIdRoutine. Its Config says 0.5 V/s, 3.5 V and
+        #       10 s; its Mechanism knows the two methods below, drive and record, and self.
+
+    def drive(self, voltage: float) -> None:
+        """Called in every loop of a test with the voltage the test wants [V]."""
+        # TODO: 3. Send this voltage to both motors.
+
+    def record(self, log: SysIdRoutineLog) -> None:
+        """Called right after drive: write down what the motors did."""
+        # TODO: 4. For each motor: its name, the voltage it got, its position [m] and its
+        #       velocity [m/s]. The motor knows getVoltage(), the encoder getDistance(), getRate().

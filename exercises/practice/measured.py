@@ -1,0 +1,140 @@
+"""The mechanism that was measured: a bench's, or one's own robot with a log and its parts."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from grader.answer import Asked, Band, Key, gains_asked, number
+from grader.check import NotReached, Wrong
+from grader.word import plain
+from sim.errors import Refusal
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+    from sim.fit import Fit
+    from sim.motors import Motor
+
+UNITS = {"Meters": "m", "Rotations": "rot", "Radians": "rad"}
+ANALYSES = {"simple": "Simple", "elevator": "Elevator", "arm": "Arm"}
+KP = Band(0.05, 0.15)
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What is built in: motor, how many, turns of it for one of the output, [m] of the wheel."""
+
+    motor: "Motor"
+    motors: int
+    ratio: float
+    diameter: float
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A mechanism's fit, what it is asked for, and its parts; ``why`` says what is missing."""
+
+    fit: "Fit"
+    key: Key
+    units: str
+    parts: Parts | None
+    why: str = ""
+
+    @property
+    def symbol(self) -> str:
+        """Of its unit of position."""
+        return UNITS[self.units]
+
+
+def of_bench(variant: object) -> Measured:
+    """The mechanism of exercise 9: whoever has no robot at hand uses its log."""
+    built, fit = variant.mechanism, variant.fit  # type: ignore[attr-defined]  # loaded by path
+    turns = built.radius == 1.0
+    parts = Parts(built.motor, built.motor_count, built.ratio, 0.0 if turns else 2 * built.radius)
+    return _measured(fit, "Rotations" if turns else "Meters", parts, "")
+
+
+def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
+    """A mechanism of the learner's own, from its log.
+
+    Raises:
+        NotReached: the log cannot be read or fitted.
+    """
+    from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.formats import read  # noqa: PLC0415 - the same
+    from sim.units import unit  # noqa: PLC0415 - the same
+
+    if not path.is_file():
+        raise NotReached(f"there is no {path.name} beside your answers.toml")
+    try:
+        log = read(path)
+        kind = log.type or "simple"
+        units = "Meters" if not unit(log.units).angular else "Rotations"
+        units = "Radians" if kind == "arm" else units
+        found = fit(log, type=kind, method="sysid").in_units(units.lower())
+    except Refusal as refusal:
+        raise NotReached(str(refusal)) from None
+    try:
+        return _measured(found, units, _parts(given, units), "")
+    except Wrong as wrong:
+        return _measured(found, units, None, f"{wrong.seen}. {wrong.hint}")
+
+
+def _measured(found: "Fit", units: str, parts: Parts | None, why: str) -> Measured:
+    symbol = UNITS[units]
+    names = [name for name in ("kS", "kV", "kA", "kG") if name in found.gains]
+    asked = gains_asked({name: found.gains[name] for name in names}, position=symbol)
+    suggested = found.feedback().get("velocity")
+    if suggested is not None:
+        asked["kP"] = Asked("kP", suggested.kp, f"V·s/{symbol}", KP)
+    return Measured(found, Key(asked), units, parts, why)
+
+
+def _parts(given: Mapping[str, object], units: str) -> Parts:
+    from sim.motors import MOTORS  # noqa: PLC0415 - only where it is needed
+
+    named = given.get("motor")
+    known = {plain(name): motor for name, motor in MOTORS.items()}
+    motor = known.get(plain(named)) if isinstance(named, str) else None
+    if motor is None:
+        raise Wrong("no motor that is known", hint=f"Write motor = one of: {', '.join(MOTORS)}.")
+    free = Band(0.0, 0.0)
+    ratio = number(given.get("ratio"), Asked("ratio", 1.0, "", free))
+    size = Asked("wheel_diameter", 1.0, "m", free)
+    diameter = number(given.get("wheel_diameter"), size) if units == "Meters" else 0.0
+    if ratio <= 0.0 or diameter < 0.0 or (units == "Meters" and not diameter):
+        raise Wrong("a ratio or a diameter that cannot be", hint="Both are larger than zero.")
+    return Parts(motor, 1, ratio, diameter)
+
+
+def team_of(measured: Measured, given: Mapping[str, object], team: "ModuleType") -> object:
+    """This mechanism as exercise 2 looks at one.
+
+    Args:
+        measured: the mechanism.
+        given: the answers.
+        team: the module of exercise 2 that says what a team's mechanism is.
+
+    Raises:
+        NotReached: it takes the parts first.
+    """
+    if measured.parts is None:
+        raise NotReached(measured.why)
+    one = measured.parts
+    kv = noted("kV", given, measured) * (2.0 * math.pi if measured.units == "Radians" else 1.0)
+    rpm = one.motor.free_speed * 30.0 / math.pi
+    built = team.Parts(one.motor.name, rpm, one.motor.back_emf, one.motors, one.ratio, one.diameter)
+    told = {"code": {"ratio": repr(one.ratio)}}
+    return team.Variant("own", built, kv, measured.fit.gains["kS"], 0.0, (), told)
+
+
+def noted(name: str, given: Mapping[str, object], measured: Measured) -> float:
+    """A gain as the learner wrote it down, where it is right; else as the fit has it."""
+    asked = measured.key.asked[name]
+    try:
+        value = number(given.get(name.lower()), asked)
+    except Wrong:
+        return asked.expected
+    return value if asked.right(value) else asked.expected

@@ -1,0 +1,196 @@
+"""Practice: five steps on one mechanism, with a robot of one's own or without."""
+
+import importlib.util
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from grader.exercise import Exercise, find
+from grader.mistake import put, scaled
+from grader.variant import folder_name
+from sim.fit import fit
+from sim.formats import read, write
+from sim.mechanisms import MECHANISMS
+from sim.routine import Routine
+from sim.simulate import simulate
+
+ROOT = Path(__file__).resolve().parents[1]
+OWN = Exercise("practice", ROOT / "exercises" / "practice")
+POINTS = {"routine": 15, "buttons": 10, "gains": 4, "r2": 1, "hypothesis": 1, "constants": 11,
+          "theory": 7}  # fmt: skip
+
+
+def solver():
+    path = ROOT / "solutions" / "practice" / "solve.py"
+    spec = importlib.util.spec_from_file_location("_solve_practice", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def solved(tmp_path_factory):
+    """The solution of a learner without a robot: file name -> text."""
+    room = tmp_path_factory.mktemp("data")
+    variant = OWN.module.NINTH.draw("ann")
+    built = variant.mechanism
+    diameter = f"wheel_diameter = {2 * built.radius}\n" if built.radius != 1.0 else ""
+    write(variant.log, room / "log.wpilog")
+    given = f"free_speed = {built.motor.free_speed * 30 / np.pi}\nratio = {built.ratio}\n{diameter}"
+    (room / "given.toml").write_text(given, encoding="utf-8")
+    return solver().solve(OWN.folder, room)
+
+
+def graded(folder, texts, *, student="ann", **answers):
+    """The results of an answer, by check."""
+    for name, text in texts.items():
+        if name == "answers.toml":
+            for key, value in answers.items():
+                text = put(key, value)(text)  # noqa: PLW2901 - each answer in its turn
+        (folder / name).write_text(text, encoding="utf-8")
+    found = OWN.grade(folder / "answers.toml", student=student)
+    return {check.id: check for check in found.checks}
+
+
+def robot(folder, *, noise=0.0):
+    """A drivetrain of one's own: its log in a folder, and what its owner writes about it."""
+    built = replace(MECHANISMS["drivetrain"], drag=0.05)
+    log = simulate(built, Routine(0.5, 3.5, 8.0), rng=np.random.default_rng(5))
+    rng = np.random.default_rng(6)
+    runs = tuple(
+        replace(run, velocity=run.velocity + noise * rng.standard_normal(len(run)))
+        for run in log.runs
+    )
+    write(replace(log, runs=runs), folder / "mine.wpilog")
+    found = fit(read(folder / "mine.wpilog"), method="sysid").in_units("meters")
+    paper = 12 / (6000 / 60 / 6.75 * np.pi * 0.1016)  # a Kraken X60 turns at 6000 rpm
+    above = 100 * (found.gains["kV"] / paper - 1)
+    answers = {
+        "log": '"mine.wpilog"',
+        "motor": '"Kraken X60"',
+        "ratio": "6.75",
+        "wheel_diameter": '"101.6 mm"',
+        **{name: f"{value:.5g}" for name, value in found.gains.items()},
+        "kP": f"{found.feedback()['velocity'].kp:.5g}",
+        "simulated_velocity_r2": f"{found.simulated_velocity_r2:.4f}",
+        "kV_theory": f"{paper:.4g}",
+        "difference": f"{above:.4g}",
+        "verdict": '"ok"' if above <= 8 else '"watch"' if above <= 20 else '"inspect"',
+    }
+    return answers, found
+
+
+def constants(found):
+    """The code with these gains, as the solution writes it."""
+    gains = {**found.gains, "kP": found.feedback()["velocity"].kp}
+    return solver()._constants(gains, "m")
+
+
+def lacking(results):
+    return {name: (one.status, one.seen) for name, one in results.items() if one.status != "passed"}
+
+
+def test_the_command_finds_it_by_its_name():
+    assert find("practice", ROOT).folder == OWN.folder
+
+
+def test_five_steps_are_checked_as_in_their_exercises():
+    points = dict.fromkeys(POINTS, 0.0)
+    for check in OWN.checks:
+        points[check.id.partition("-")[0]] += check.points
+
+    assert points == POINTS
+
+
+@pytest.mark.parametrize("language", ["java", "Python"])
+def test_without_a_robot_everything_can_be_earned_in_either_language(tmp_path, solved, language):
+    results = graded(tmp_path, solved, language=f'"{language}"')
+
+    assert lacking(results) == {}
+
+
+def test_with_a_robot_everything_can_be_earned(tmp_path, solved):
+    answers, found = robot(tmp_path)
+    results = graded(tmp_path, {**solved, **constants(found)}, **answers)
+
+    assert lacking(results) == {}
+
+
+def test_a_poor_fit_asks_what_is_suspected(tmp_path, solved):
+    answers, found = robot(tmp_path, noise=0.6)
+    texts = {**solved, **constants(found)}
+    silent = graded(tmp_path, texts, **answers)["hypothesis"]
+    vague = graded(tmp_path, texts, **answers, hypothesis='"wheel-slip"')["hypothesis"]
+    strange = graded(tmp_path, texts, **answers, hypothesis='"bad luck"')["hypothesis"]
+    said = '"The wheels: chalk on the floor shows where they slip."'
+    whole = graded(tmp_path, texts, **answers, hypothesis='"wheel-slip"', first_check=said)
+
+    assert found.simulated_velocity_r2 < 0.9
+    assert "Choose one of" in silent.hint
+    assert "what would you look at first" in vague.hint
+    assert "none of them" in strange.seen
+    assert whole["hypothesis"].status == "passed"
+
+
+@pytest.mark.parametrize(
+    ("changed", "check", "says"),
+    [
+        ({"log": '"other.wpilog"'}, "gains-kv", "there is no other.wpilog"),
+        ({"log": '"../../../etc/passwd"'}, "gains-kv", "there is no passwd beside"),
+        ({"log": '"answers.toml"'}, "gains-kv", "answers.toml"),
+        ({"motor": '"a big one"'}, "theory-kv-theory", "no motor that is known"),
+        ({"ratio": "0"}, "theory-kv-theory", "cannot be"),
+        ({"language": '"C++"'}, "routine-ramp", "language"),
+        ({"language": '""'}, "constants-named", "language"),
+    ],
+)
+def test_what_is_missing_is_told_and_no_crash(tmp_path, solved, changed, check, says):
+    answers, found = robot(tmp_path)
+    results = graded(tmp_path, {**solved, **constants(found)}, **{**answers, **changed})
+    first = next(one for one in results.values() if one.id.startswith(check.partition("-")[0]))
+
+    assert {one.status for one in results.values()} <= {"passed", "failed", "not-reached"}
+    assert says in f"{results[check].seen} {first.seen}"
+
+
+def test_files_may_have_names_of_their_own(tmp_path, solved):
+    texts = {**solved, "Arm.java": solved["ExampleSubsystem.java"]}
+    texts["ExampleSubsystem.java"] = "public class Empty {}\n"
+    texts["answers.toml"] += 'subsystem = "Arm.java"\n'
+    own = graded(tmp_path, texts)
+
+    assert own["routine-step"].status == "passed"
+
+
+def test_constants_are_held_against_what_was_measured(tmp_path, solved):
+    texts = dict(solved)
+    texts["ExampleMechanism.java"] = texts["ExampleMechanism.java"].replace("kV = ", "kV = 3 * ")
+    results = graded(tmp_path, texts)
+
+    assert results["constants-kv"].status == "failed"
+    assert results["gains-kv"].status == "passed"
+
+
+def test_a_wrong_gain_does_not_cost_the_constants_too(tmp_path, solved):
+    texts = {**solved, "answers.toml": scaled(2.0, "kV")(solved["answers.toml"])}
+    results = graded(tmp_path, texts)
+
+    assert results["gains-kv"].status == "failed"
+    assert results["constants-kv"].status == "passed"
+
+
+def test_the_learner_gets_a_log_and_its_parts(tmp_path):
+    copy = tmp_path / "exercises" / "practice"
+    copy.mkdir(parents=True)
+    for name in (*OWN.files, *OWN.beside, "checks.py", "measured.py"):
+        (copy / name).write_bytes((OWN.folder / name).read_bytes())
+    said = []
+    Exercise("practice", copy).prepare("zoë", say=said.append)
+
+    assert len(said) == 1
+    assert {one.name for one in (copy / "data" / folder_name("zoë")).iterdir()} == {
+        "given.toml",
+        "log.wpilog",
+    }
