@@ -68,7 +68,7 @@ def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float =
     for column, run in enumerate(runs):
         since = run.time - run.time[0]
         kept = (since >= begin) & (since <= end)
-        step = np.diff(run.time, prepend=run.time[0]) * 1e3
+        step = np.diff(run.time, prepend=np.nan) * 1e3  # the first sample has none before it
         signals = (run.voltage, run.velocity / per.si, run.position / per.si, step)
         style = "o-" if kept.sum() <= DOTS else "-"
         for row, signal in enumerate(signals):

@@ -10,7 +10,7 @@ from grader.given import hand_out
 from grader.submission import read_answers
 
 from .blame import blame
-from .drawn import Variant, draw
+from .drawn import NOTHING, Variant, draw
 from .left import Left, left
 from .preparation import POINTS, TESTS, Preparation, earned, fitted, read_preparation
 
@@ -116,7 +116,11 @@ def _preparation(answers: Answers) -> Preparation:
 
 
 def _left(answers: Answers) -> tuple[Left, ...]:
-    return left(answers.variant, _preparation(answers))
+    """What is left of each test; who does nothing at all keeps everything, and earns nothing."""
+    preparation = _preparation(answers)
+    if preparation == NOTHING:
+        raise NotReached("looked at once you cut or filter something")
+    return left(answers.variant, preparation)
 
 
 def _gain(name: str, answers: Answers) -> None:

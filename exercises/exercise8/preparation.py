@@ -59,10 +59,14 @@ def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> 
     threshold = _number(given.get("threshold"), asked)
     if threshold < 0.0:
         raise Wrong(f"threshold {threshold:g}", hint="A speed has no sign here. 0 drops nothing.")
-    window = _number(given.get("median"), Asked("median", 1.0, "", ANY))
+    whole = f"Give a whole number of samples from 1, which filters nothing, to {LONGEST}."
+    try:
+        window = _number(given.get("median"), Asked("median", 1.0, "", ANY))
+    except Wrong as wrong:
+        wrong.hint = whole
+        raise
     if window != round(window) or not 1 <= window <= LONGEST:
-        hint = f"Give a whole number of samples from 1, which filters nothing, to {LONGEST}."
-        raise Wrong(f"median {window:g}", hint=hint)
+        raise Wrong(f"median {window:g}", hint=whole)
     return Preparation(
         {test: span for test, span in keep.items() if span is not None},
         threshold * si,
