@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 MODULES = {
     "class": "classroom",
     "doctor": "doctor",
+    "edition": "edition",
     "release": "release",
     "serve": "serve",
     "watch": "watch",

@@ -1,0 +1,27 @@
+"""``grade edition``."""
+
+from pathlib import Path
+
+import click
+
+from grader.terminal import complain, line, show
+from sim.command import DONE
+
+
+@click.command()
+@click.option("-o", "--output", type=click.Path(path_type=Path), required=True, help="Folder.")
+@click.option("--lesson", "only", multiple=True, metavar="NN", help="Only this; may be repeated.")
+def edition(output: Path, only: tuple[str, ...]) -> int:
+    """Run all lessons and write them as pages: to read without installing, as slides, to print."""
+    from grader.course import find_course  # noqa: PLC0415 - --help must not wait for it
+    from grader.edition import build  # noqa: PLC0415 - the same
+
+    notebooks = sorted((find_course(Path.cwd()) / "lessons").glob("*.ipynb"))
+    asked = tuple(one.zfill(2) for one in only)
+    chosen = [path for path in notebooks if not asked or path.name.startswith(asked)]
+    index = build(chosen, output, say=lambda name: complain(f"running {name}"))
+    show([line(f"{index}: {len(chosen)} lessons, their slides, and handout.html to print")])
+    return DONE
+
+
+COMMAND = edition

@@ -1,0 +1,49 @@
+"""A lesson's notebook, run from top to bottom in the folder it stands in."""
+
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from sim.errors import BadRequest
+
+LONGEST_CELL = 120  # [s] after which a cell counts as hung
+
+
+def execute(path: Path) -> Any:  # noqa: ANN401 - nbformat has no types
+    """Run a notebook; what it shows, and the state of its widgets, is in what comes back.
+
+    Raises:
+        BadRequest: it cannot be read, or one of its cells fails.
+    """
+    import nbformat  # noqa: PLC0415 - only who builds pages needs it
+    from nbclient import NotebookClient  # noqa: PLC0415 - the same
+    from nbclient.exceptions import CellExecutionError, CellTimeoutError  # noqa: PLC0415 - the same
+
+    notebook = nbformat.read(path, 4)  # type: ignore[no-untyped-call] # nbformat has no types
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as home:
+        client = NotebookClient(
+            notebook,
+            timeout=LONGEST_CELL,
+            kernel_name="python3",
+            resources={"metadata": {"path": str(path.parent)}},
+        )
+        course = str(path.parents[1])
+        paths = (course, os.environ.get("PYTHONPATH", ""))
+        environment = {
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+            "PYTHONIOENCODING": "utf-8",
+            "IPYTHONDIR": home,
+        }
+        try:
+            client.execute(env=environment, stderr=subprocess.DEVNULL)  # the kernel's own remarks
+        except (CellExecutionError, CellTimeoutError) as error:
+            last = str(error).strip().splitlines()[-1]
+            raise BadRequest(
+                f"a cell of {path.name} fails: {last}",
+                where=str(path),
+                advice="Run the lesson in JupyterLab to see which.",
+            ) from None
+    return notebook

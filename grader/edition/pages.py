@@ -1,0 +1,101 @@
+"""Pages of executed lessons: one each, slides, an index, and a handout."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.classroom.written import written
+from grader.edition.executed import execute
+from grader.edition.rendered import Part, parts
+from sim.errors import BadRequest
+from sim.report.written import templates
+
+FOLDER = Path(__file__).parent
+SYSTEM_CHECK = "System check"
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """An executed lesson.
+
+    Args:
+        name: of its notebook: ``04_wire_sysidroutine``.
+        parts: its title and its sections.
+    """
+
+    name: str
+    parts: tuple[Part, ...]
+
+    @property
+    def title(self) -> str:
+        """Its first heading."""
+        return self.parts[0].heading
+
+    @property
+    def page(self) -> str:
+        """The name of its page."""
+        return f"{self.name}.html"
+
+    @property
+    def slides(self) -> str:
+        """The name of its slides."""
+        return f"{self.name}-slides.html"
+
+
+def build(
+    notebooks: Sequence[Path], folder: Path, *, say: Callable[[str], None] = lambda _: None
+) -> Path:
+    """Run lessons and write their pages.
+
+    Args:
+        notebooks: in order.
+        folder: where the pages go.
+        say: called with each lesson's name when it is run.
+
+    Returns:
+        The index.
+
+    Raises:
+        BadRequest: there are none, one fails, or a page cannot be written.
+    """
+    if not notebooks:
+        raise BadRequest("there are no lessons", advice="Run this in the course folder.")
+    lessons = []
+    for path in notebooks:
+        say(path.stem)
+        lessons.append(Lesson(path.stem, parts(execute(path))))
+    for place, lesson in enumerate(lessons):
+        before = lessons[place - 1].page if place else ""
+        after = lessons[place + 1].page if place + 1 < len(lessons) else ""
+        for slides in (False, True):
+            text = _page(lesson, before=before, after=after, slides=slides)
+            written(folder / (lesson.slides if slides else lesson.page), text)
+    written(folder / "handout.html", _handout(lessons))
+    text = _fill("index.html.jinja", lessons=lessons)
+    return written(folder / "index.html", text)
+
+
+def _page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str:
+    return _fill(
+        "lesson.html.jinja",
+        title=lesson.title,
+        parts=lesson.parts,
+        before=before,
+        after=after,
+        slides=slides,
+        other=lesson.page if slides else lesson.slides,
+    )
+
+
+def _handout(lessons: Sequence[Lesson]) -> str:
+    checks = [
+        {"title": lesson.title, "html": part.html}
+        for lesson in lessons
+        for part in lesson.parts
+        if part.heading.endswith(SYSTEM_CHECK)
+    ]
+    return _fill("handout.html.jinja", checks=checks)
+
+
+def _fill(name: str, **what: object) -> str:
+    return templates(FOLDER).get_template(name).render(what)

@@ -1,0 +1,117 @@
+"""The cells of an executed notebook as HTML that needs no script."""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+STATE = "application/vnd.jupyter.widget-state+json"
+VIEW = "application/vnd.jupyter.widget-view+json"
+NOTE = "<p class='quiet'>In the notebook this can be turned and clicked; here is how it starts.</p>"
+
+
+@dataclass(frozen=True)
+class Part:
+    """What stands under one heading.
+
+    Args:
+        heading: its text; the first part's is the title.
+        level: 1 for the title, 2 for a section.
+        html: everything below, headings of lower rank included.
+    """
+
+    heading: str
+    level: int
+    html: str
+
+    @property
+    def anchor(self) -> str:
+        """What a link to it ends with."""
+        return re.sub(r"[^a-z0-9]+", "-", self.heading.lower()).strip("-")
+
+
+def parts(notebook: Any) -> tuple[Part, ...]:  # noqa: ANN401 - nbformat has no types
+    """An executed notebook, cut at its title and its sections."""
+    widgets = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
+    found: list[tuple[str, int, list[str]]] = []
+    for cell in notebook.cells:
+        if cell.cell_type == "code":
+            found[-1][2].append(_code(cell, widgets))
+            continue
+        for level, heading, text in _cut(cell.source):
+            if level:
+                found.append((heading, level, []))
+            found[-1][2].append(_markdown(text))
+    return tuple(Part(heading, level, "\n".join(html)) for heading, level, html in found)
+
+
+def _cut(source: str) -> Iterator[tuple[int, str, str]]:
+    """A markdown cell cut before each heading of rank 1 or 2: rank, heading, text below."""
+    rows: list[str] = []
+    level, heading, fenced = 0, "", False
+    for row in source.splitlines():
+        fenced ^= row.lstrip().startswith("```")
+        found = None if fenced else re.match(r"(#{1,2}) (.+)", row)
+        if found is None:
+            rows.append(row)
+            continue
+        if level or any(rows):
+            yield level, heading, "\n".join(rows)
+        level, heading, rows = len(found[1]), found[2].strip(), []
+    yield level, heading, "\n".join(rows)
+
+
+def _markdown(text: str) -> str:
+    from nbconvert.filters.markdown_mistune import (  # noqa: PLC0415 - only who builds pages
+        markdown2html_mistune,
+    )
+
+    html: str = markdown2html_mistune(text).replace(" disabled/>", " disabled>")  # as HTML has it
+    return re.sub(r'<a class="anchor-link"[^>]*>.*?</a>', "", html)
+
+
+def _code(cell: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types
+    shown = "".join(_output(one, widgets) for one in cell.get("outputs", []))
+    source = highlighted(cell.source)
+    return f"<details><summary>Code</summary>{source}</details>{shown}"
+
+
+def highlighted(source: str) -> str:
+    """Python code with bold keywords: legible on light and on dark pages alike."""
+    from pygments import highlight  # type: ignore[import-untyped]  # noqa: PLC0415 - as above
+    from pygments.formatters import (  # type: ignore[import-untyped]  # noqa: PLC0415 - no types
+        HtmlFormatter,
+    )
+    from pygments.lexers import (  # type: ignore[import-untyped]  # noqa: PLC0415 - no types
+        PythonLexer,
+    )
+
+    return str(highlight(source, PythonLexer(), HtmlFormatter(cssclass="code")))
+
+
+def _output(output: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types
+    if output.output_type == "stream":
+        return f"<pre>{escape(output.text)}</pre>"
+    data = output.get("data", {})
+    if VIEW in data:
+        return NOTE + _widget(data[VIEW]["model_id"], widgets)
+    if "text/html" in data:
+        return f"<div class='wide'>{data['text/html']}</div>"
+    return f"<pre>{escape(data.get('text/plain', ''))}</pre>"
+
+
+def _widget(model: str, widgets: Mapping[str, Any]) -> str:
+    """A widget as it is first shown: its words, its choices, what it drew."""
+    model = model.removeprefix("IPY_MODEL_")
+    state = widgets.get(model, {}).get("state", {})
+    inside = "".join(_widget(child, widgets) for child in state.get("children", ()))
+    kind = state.get("_model_name", "")
+    if kind == "HTMLModel":
+        return f"<div class='wide'>{state.get('value', '')}</div>"
+    if "_options_labels" in state:
+        listed = "".join(f"<li>{escape(one)}</li>" for one in state["_options_labels"])
+        return f"<p>{escape(state.get('description', ''))}</p><ul>{listed}</ul>"
+    if "value" in state and state.get("description"):
+        return f"<p>{escape(state['description'])}: {escape(str(state['value']))}</p>"
+    return inside

@@ -1,0 +1,91 @@
+"""The lessons as pages: run, whole, readable without installing anything."""
+
+import re
+
+import nbformat
+import pytest
+from page_flaws import page_flaws
+
+from grader.cli import run
+from grader.edition import build
+from grader.edition.rendered import highlighted
+from sim.errors import BadRequest
+
+MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell
+CELLS = (
+    MARKDOWN("# Lesson 1: Measure\n\n*Ten minutes.*"),
+    MARKDOWN("## 1 Why: it is short\n\n```python\n# ## no heading\n```\n\n**V = kS**"),
+    CODE("from sim.plot import Table\nprint('1 < 2')\nTable(('gain',), ((0.25,),))"),
+    CODE(
+        "import ipywidgets\nfrom sim.guess import Guess\n"
+        "display(Guess('Which way?', 'up & left', 'down'))\n"
+        "ipywidgets.VBox([ipywidgets.IntSlider(3, description='ramp'), "
+        "ipywidgets.HTML('<b>as drawn</b>')])"
+    ),
+    MARKDOWN("## System check\n\n- [ ] the robot has room\n\n### Details\n\nmore"),
+)
+
+
+@pytest.fixture
+def lesson(tmp_path):
+    """Writes a lesson's notebook into a course of its own."""
+
+    def write(name, *cells):
+        path = tmp_path / "lessons" / f"{name}.ipynb"
+        path.parent.mkdir(exist_ok=True)
+        nbformat.write(nbformat.v4.new_notebook(cells=list(cells)), path)
+        return path
+
+    return write
+
+
+def test_a_lesson_becomes_a_page_slides_and_a_part_of_the_handout(lesson, tmp_path):
+    first = lesson("01_measure", *CELLS)
+    second = lesson("02_more", MARKDOWN("# Lesson 2: More\n\n## System check\n\nagain"))
+    index = build([first, second], tmp_path / "out")
+    pages = {path.name: path.read_text("utf-8") for path in (tmp_path / "out").iterdir()}
+
+    assert index.name == "index.html"
+    assert set(pages) == {
+        "index.html", "handout.html", "01_measure.html", "01_measure-slides.html", "02_more.html",
+        "02_more-slides.html",
+    }  # fmt: skip
+    page = pages["01_measure.html"]
+    assert [
+        found
+        for text in pages.values()
+        for found in page_flaws(text)
+        if not re.search(r"\d\d_\w+(-slides)?\.html|handout\.html|index\.html", found)
+    ] == []
+    assert re.findall(r"<h2>(.*?)</h2>", page) == ["1 Why: it is short", "System check"]
+    assert "# ## no heading" in page
+    assert "1 &lt; 2" in page
+    assert "<b>as drawn</b>" in page
+    assert "ramp: 3" in page
+    assert "up &amp; left" in page
+    assert "In the notebook this can be turned" in page
+    assert 'href="02_more.html">Next' in page
+    handout = pages["handout.html"]
+    assert handout.count("<section>") == 2
+    assert "the robot has room" in handout
+    for name in re.findall(r'href="([\w-]+\.html)"', "".join(pages.values())):
+        assert name in pages
+
+
+def test_a_lesson_that_fails_is_one_line_and_leaves_no_page(lesson, tmp_path, monkeypatch, capsys):
+    lesson("01_broken", MARKDOWN("# Lesson 1"), CODE("1 / 0"))
+    (tmp_path / "exercises").mkdir()
+    monkeypatch.chdir(tmp_path)
+
+    assert run(["edition", "-o", "out"]) == 2
+    assert "a cell of 01_broken.ipynb fails: ZeroDivisionError" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_no_lessons_are_refused(tmp_path):
+    with pytest.raises(BadRequest, match="no lessons"):
+        build([], tmp_path)
+
+
+def test_code_is_escaped():
+    assert "&lt;b&gt;" in highlighted("x = '<b>'")
