@@ -130,7 +130,10 @@ def all_effects(answers: Answers) -> None:
     if named > hidden:
         hint = "what is missing is among them, and more. Which of them narrows no gap?"
     elif not named < hidden:
-        hint = "not all of those are there. Leave one out at a time: which does nobody miss?"
+        hint = (
+            "not all of those are there. One that helps a little may stand in for another that "
+            "looks like it: try its look-alikes in its place, and keep what the validation prefers"
+        )
     some = named > hidden or named < hidden
     raise Wrong(", ".join(answers.names), hint=hint, earned=1.0 if some else 0.0)
 

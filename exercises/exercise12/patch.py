@@ -28,7 +28,7 @@ def names_of(raw: object) -> tuple[str, ...]:
     """
     some = raw.split(",") if isinstance(raw, str) else raw
     if not isinstance(some, list) or not all(isinstance(one, str) for one in some):
-        raise Wrong("not a list of names", hint=f'Write effects = ["drag", "delay"]; {LIST}.')
+        raise Wrong("not a list of names", hint=f'Write effects = ["delay", "backlash"]; {LIST}.')
     names = [one.strip().lower().replace("_", "-").replace(" ", "-") for one in some]
     names = [one for one in names if one]
     if not names:

@@ -1,6 +1,6 @@
 """Try effects on your own logs.
 
-    python exercises/exercise12/try_it.py drag delay
+    python exercises/exercise12/try_it.py delay backlash
 
 Their parameters are fitted to your log. What counts is the gap of the validation.
 """
@@ -52,8 +52,11 @@ def main() -> int:
     shown = logs["validation"]
     tracks = [np.column_stack((one.position, one.seen)) for one in replay(model, shown)]
     found = map_of(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
-    for place in found.places(TOLD, signal="velocity") if found else ():
+    places = found.places(TOLD, signal="velocity") if found else ()
+    for place in places:
         _say(f"  {place.sentence}")
+    if not places:
+        _say("  nowhere beyond doubt")
     return 0
 
 

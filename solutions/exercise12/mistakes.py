@@ -83,6 +83,13 @@ MISTAKES = (
         "worse than none",
     ),
     Mistake(
+        "a look-alike",
+        ANSWERS,
+        named(lambda _: '"delay"', "delay.lag = 0.04\n"),
+        "all-effects",
+        "stand in for another",
+    ),
+    Mistake(
         "an effect of nothing",
         ANSWERS,
         named(lambda names: f'{names}, "delay"', "delay.lag = 0.0\n"),
