@@ -13,7 +13,9 @@ from sim.plot.budget import budget
 from sim.plot.charts import choices, curves, misses
 from sim.plot.chase import chase, miss
 from sim.plot.clock import timesteps
+from sim.plot.ellipse import ellipses, information_map
 from sim.plot.gauge import gauge
+from sim.plot.hold import hold_angles, hold_window
 from sim.plot.live import live
 from sim.plot.logs import time_series
 from sim.plot.marks import heat, spread
@@ -30,8 +32,12 @@ __all__ = [
     "chase",
     "choices",
     "curves",
+    "ellipses",
     "gauge",
     "heat",
+    "hold_angles",
+    "hold_window",
+    "information_map",
     "live",
     "miss",
     "misses",

@@ -1,0 +1,187 @@
+"""How well two gains are known: an ellipse of all pairs that the rows cannot tell apart.
+
+Where rows know nothing of some combination, the ellipse has no end along it: it is two parallel
+lines, and with little noise one line.
+"""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from sim.errors import BadRequest
+from sim.log import Array
+from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.table import Table, shown
+from sim.plot.thin import cloud
+from sim.prepare import Rows
+
+LEVEL = 5.991  # of chi square with two degrees of freedom: 95 of 100 fits fall inside
+FLAT = 1e-9  # share of the better known combination; what is below is rounding errors
+ALONG = 1e-6  # share of a gain in the unknown combination; below it, the gain is known
+ENDLESS = 100.0  # [times the panel] an axis is drawn that long where it has no end
+MOST = 250  # samples of a test that are drawn
+
+
+def ellipses(
+    told: Mapping[str, Array],
+    *,
+    names: tuple[str, str],
+    truth: tuple[float, float],
+    reach: tuple[float, float],
+) -> Picture:
+    """Where 95 of 100 fits of two gains fall, for several sets of rows.
+
+    Args:
+        told: set of rows -> (2, 2) what it tells of both gains [1/unit²], see ``sim.fit.known``.
+        names: of the two gains, with their units: ``kS [V]``.
+        truth: about which the ellipses are drawn.
+        reach: how far from the truth the panel goes, each way.
+
+    Raises:
+        BadRequest: there is nothing to draw.
+    """
+    if not told:
+        raise BadRequest("there is nothing to draw", advice="Give at least one set of rows.")
+    figure, ((axes,),) = panels(1, 1, height=4.0)
+    for index, (name, information) in enumerate(told.items()):
+        _draw(axes, information, index, truth=truth, reach=reach, name=name)
+    _finish(axes, names=names, truth=truth, reach=reach)
+    axes.legend(fontsize=8)
+    alt = f"How well {names[0]} and {names[1]} are known together: 95 of 100 fits fall inside. "
+    alt += " ".join(f"{name}: {_words(info, names)}" for name, info in told.items())
+    return Picture(figure, alt, _table(told, names))
+
+
+def information_map(
+    rows: Mapping[str, Rows],
+    information: Array,
+    *,
+    names: tuple[str, str],
+    truth: tuple[float, float],
+    reach: tuple[float, float],
+    symbol: str = "m",
+) -> Picture:
+    """Where in velocity and acceleration the rows lie, and how well two gains follow from them.
+
+    Args:
+        rows: test -> its rows.
+        information: (2, 2) what they tell of both gains, see ``sim.fit.known``.
+        names: of the two gains, with their units.
+        truth: about which the ellipse is drawn.
+        reach: how far from the truth its panel goes, each way.
+        symbol: of the unit of position.
+    """
+    figure, ((left, right),) = panels(1, 2, height=3.8)
+    for index, (test, part) in enumerate(rows.items()):
+        kept = cloud(part.velocity, part.acceleration, most=MOST)
+        left.plot(
+            part.velocity[kept],
+            part.acceleration[kept],
+            MARKERS[index],
+            color=COLORS[index],
+            markersize=5,
+            alpha=0.7,
+            label=test,
+        )
+    left.set_xlabel(f"velocity [{symbol}/s]", color=INK)
+    left.set_ylabel(f"acceleration [{symbol}/s²]", color=INK)
+    left.set_title("where the rows lie", fontsize=10, color=INK)
+    _draw(right, information, 0, truth=truth, reach=reach, name="95 of 100 fits")
+    _finish(right, names=names, truth=truth, reach=reach)
+    right.set_title("how well two gains are known", fontsize=10, color=INK)
+    legend(figure, [left, right])
+    alt = "Two panels. Left, acceleration over velocity: "
+    alt += " ".join(
+        f"{test}, {len(part)} rows, {_span(part.velocity)} {symbol}/s and "
+        f"{_span(part.acceleration)} {symbol}/s²;"
+        for test, part in rows.items()
+    )
+    alt += f" right, {names[0]} against {names[1]}: {_words(information, names)}"
+    return Picture(figure, alt, _table({"these tests": information}, names))
+
+
+def _span(values: Array) -> str:
+    return f"{shown(float(values.min()))} to {shown(float(values.max()))}"
+
+
+def _axes(information: Array) -> tuple[Array, Array]:
+    """(2,) half axes, infinite where there is no end, and (2, 2) their directions in columns."""
+    size = np.sqrt(np.diag(information))
+    size = np.where(size > 0.0, size, 1.0)
+    scaled = information / np.outer(size, size)
+    if np.linalg.eigvalsh(scaled)[0] < FLAT:
+        values, vectors = np.linalg.eigh(information)
+        return np.array([math.inf, math.sqrt(LEVEL / max(float(values[1]), 1e-300))]), vectors
+    values, vectors = np.linalg.eigh(information)
+    return np.sqrt(LEVEL / values), vectors
+
+
+def _draw(
+    axes: Axes,
+    information: Array,
+    index: int,
+    *,
+    truth: tuple[float, float],
+    reach: tuple[float, float],
+    name: str,
+) -> None:
+    half, directions = _axes(information)
+    half = np.minimum(half, ENDLESS * math.hypot(*reach))
+    turn = np.linspace(0.0, 2.0 * math.pi, 721)
+    edge = directions @ (half[:, None] * np.stack([np.cos(turn), np.sin(turn)]))
+    color = COLORS[index % len(COLORS)]
+    axes.fill(truth[0] + edge[0], truth[1] + edge[1], color=color, alpha=0.2, linewidth=0)
+    axes.plot(
+        truth[0] + edge[0],
+        truth[1] + edge[1],
+        linestyle=LINES[index % len(LINES)],
+        linewidth=1.8,
+        label=name,
+        color=color,
+    )
+
+
+def _finish(
+    axes: Axes, *, names: tuple[str, str], truth: tuple[float, float], reach: tuple[float, float]
+) -> None:
+    axes.plot(*truth, "x", color=REFERENCE, markersize=8, label="the truth", zorder=3)
+    axes.set_xlim(truth[0] - reach[0], truth[0] + reach[0])
+    axes.set_ylim(truth[1] - reach[1], truth[1] + reach[1])
+    axes.set_xlabel(names[0], color=INK)
+    axes.set_ylabel(names[1], color=INK)
+
+
+def _errors(information: Array) -> tuple[float, float]:
+    """One standard error of each of the two; infinite where nothing is known of it."""
+    half, directions = _axes(information)
+    if math.isinf(half[0]):
+        along = np.abs(directions[:, 0])
+        each = np.where(along > ALONG, math.inf, half[1] / math.sqrt(LEVEL))
+        return float(each[0]), float(each[1])
+    spread = np.linalg.inv(information)
+    return math.sqrt(float(spread[0, 0])), math.sqrt(float(spread[1, 1]))
+
+
+def _words(information: Array, names: tuple[str, str]) -> str:
+    half, directions = _axes(information)
+    if math.isinf(half[0]):
+        along = directions[:, 0] / directions[0, 0] if directions[0, 0] else directions[:, 0]
+        return (
+            f"a straight strip without end; {names[1]} changes by {shown(float(along[1]))} where "
+            f"{names[0]} changes by 1, and nobody can say where on it the truth is."
+        )
+    first, second = _errors(information)
+    return f"an ellipse; one standard error is {shown(first)} and {shown(second)}."
+
+
+def _table(told: Mapping[str, Array], names: tuple[str, str]) -> Table:
+    def cell(error: float) -> str:
+        return shown(error) if math.isfinite(error) else "anything"
+
+    return Table(
+        ("rows of", *(f"± {name}" for name in names)),
+        tuple((name, *map(cell, _errors(info))) for name, info in told.items()),
+        caption="One standard error of each gain",
+    )

@@ -1,0 +1,103 @@
+"""Pictures of gravity and of what tests tell: windows, bands and ellipses, in words and numbers."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from html_tags import Tags
+
+import sim
+from sim.errors import BadRequest
+from sim.fit.known import known
+from sim.plot import ellipses, hold_angles, hold_window, information_map
+from sim.prepare import prepare
+from sim.simulate import simulate
+
+VOLTS, SPEEDS = [1.0, 1.5, 2.0, 2.5, 3.0], [-0.17, -0.06, 0.0, 0.05, 0.17]
+NAMES, TRUTH, REACH = ("kS [V]", "kG [V]"), (0.25, 2.01), (0.3, 0.3)
+HOLDS = [(-30.0, 1.06, 1.56), (0.0, 1.26, 1.76), (60.0, 0.50, 1.00)]
+
+
+@cache
+def rows():
+    """An elevator's four tests, as a fit sees them."""
+    log = simulate(sim.MECHANISMS["elevator"], sim.Routine(step=4.5), rng=np.random.default_rng(1))
+    return prepare(log).rows
+
+
+def some(way):
+    return {test: part for test, part in rows().items() if test.endswith(way)}
+
+
+def about(part):
+    return known(part, type="elevator", noise=0.05).about("kS", "kG")
+
+
+PICTURES = {
+    "window": lambda: hold_window(
+        VOLTS, SPEEDS, window=(1.76, 2.26), marks={"recipe": 1.77}, here=(2.5, 0.05)
+    ),
+    "window without marks": lambda: hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={}),
+    "angles": lambda: hold_angles(HOLDS, kg=1.51, ks=0.25, here=60.0),
+    "angles of an encoder askew": lambda: hold_angles(HOLDS, kg=1.51, ks=0.25, offset=35.0),
+    "ellipses": lambda: ellipses(
+        {"up": about(some("forward")), "both": about(rows())},
+        names=NAMES, truth=TRUTH, reach=REACH,
+    ),
+    "map": lambda: information_map(
+        rows(), about(rows()), names=NAMES, truth=TRUTH, reach=REACH
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_a_picture_is_drawn_says_what_it_shows_and_is_the_same_again(name):
+    picture, again = PICTURES[name](), PICTURES[name]()
+    assert len(picture.alt) > 40
+    assert picture.alt.endswith(".")
+    assert picture.svg == again.svg
+    tags = Tags(picture.html)
+    assert tags.open == []
+    assert [image["alt"] for image in tags.all("img")] == [picture.alt]
+
+
+@pytest.mark.parametrize(
+    ("volts", "said"),
+    [(1.76, "lower edge"), (2.265, "upper edge"), (2.01, "middle"), (2.1, "inside"),
+     (1.5, "below it"), (2.4, "above it")],
+)  # fmt: skip
+def test_a_mark_is_told_where_in_the_window_it_lies(volts, said):
+    table = hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={"mark": volts}).table
+    assert table.rows == (("mark", volts, said),)
+
+
+def test_the_table_of_a_band_has_its_middles_and_half_its_widths():
+    table = hold_angles(HOLDS, kg=1.51, ks=0.25).table
+    assert [row[3] for row in table.rows] == pytest.approx([1.31, 1.51, 0.75])
+    assert [row[4] for row in table.rows] == pytest.approx([0.25, 0.25, 0.25])
+
+
+def test_up_only_is_a_strip_on_which_one_gain_falls_as_the_other_rises():
+    picture = PICTURES["ellipses"]()
+    assert "kG [V] changes by −1.00 where kS [V] changes by 1" in picture.alt
+    assert picture.table.rows[0] == ("up", "anything", "anything")
+
+
+def test_the_errors_of_a_whole_log_are_those_of_the_rows():
+    errors = known(rows(), type="elevator", noise=0.05).errors
+    said = [float(cell) for cell in PICTURES["map"]().table.rows[0][1:]]
+    assert said == pytest.approx([errors["kS"], errors["kG"]], rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("draw", "advice"),
+    [
+        (lambda: hold_window([1.0], [], window=(1.0, 2.0), marks={}), "as many of both"),
+        (lambda: hold_window([1.0], [0.0], window=(2.0, 1.0), marks={}), "the lower one first"),
+        (lambda: ellipses({}, names=NAMES, truth=TRUTH, reach=REACH), "at least one set"),
+    ],
+    ids=["a missing speed", "edges swapped", "no rows"],
+)
+def test_what_cannot_be_drawn_is_refused_with_advice(draw, advice):
+    with pytest.raises(BadRequest, match=advice):
+        draw()
