@@ -1,0 +1,66 @@
+"""The drivetrains and routines whose logs are compared: four motors, 60 kg, each set up its way."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from sim.battery import Battery
+from sim.log import Log
+from sim.mechanism import Mechanism
+from sim.mechanisms import MECHANISMS
+from sim.model import Part
+from sim.motors import motor
+from sim.routine import Routine
+from sim.simulate import simulate
+
+NOISE = 0.01  # [m/s] of the velocity while it moves
+ROUTINE = Routine(ramp=1.0, step=3.5, timeout=7.0)
+AVERAGED = 0.224  # [s] a mean over so long is 112 ms late, as a NEO's own velocity is
+FORWARD, REVERSE = 0.15, 0.45  # [V] friction that differs
+
+
+@dataclass(frozen=True)
+class Setup:
+    """A mechanism and the routine that is run on it."""
+
+    mechanism: Mechanism
+    routine: Routine = ROUTINE
+
+    def log(self, *, rng: np.random.Generator) -> Log:
+        """What a sound robot program records of it."""
+        return simulate(self.mechanism, self.routine, rng=rng)
+
+
+def _built() -> Mechanism:
+    plain = MECHANISMS["drivetrain"]
+    sensor = replace(plain.sensor, velocity_noise=NOISE)
+    return replace(plain, sensor=sensor, travel=None, supply=math.inf, brownout=0.0)
+
+
+DRIVETRAIN = _built()
+UNLIMITED = replace(DRIVETRAIN, stator=math.inf, battery=Battery(resistance=0.0))
+
+PLAIN = Setup(DRIVETRAIN)
+GOOD_BATTERY = Setup(
+    replace(DRIVETRAIN, battery=Battery(resistance=0.020)), replace(ROUTINE, step=7.0)
+)
+WEAK_BATTERY = Setup(
+    replace(DRIVETRAIN, battery=Battery(resistance=0.035)), replace(ROUTINE, step=10.0)
+)
+LIMITED = Setup(replace(DRIVETRAIN, stator=40.0))
+SLOW_FILTER = Setup(
+    replace(
+        DRIVETRAIN,
+        motor=motor("neo"),
+        sensor=replace(DRIVETRAIN.sensor, filter=AVERAGED),
+    )
+)
+GRIPPING = tuple(Setup(UNLIMITED, replace(ROUTINE, step=step)) for step in (3.5, 4.0, 7.0))
+LEANING = Setup(
+    replace(
+        DRIVETRAIN,
+        friction=0.5 * (FORWARD + REVERSE),
+        hidden=(Part("asymmetric-friction", {"lean": 0.5 * (FORWARD - REVERSE)}),),
+    )
+)
