@@ -8,17 +8,23 @@ own, which only whoever grades the class holds (`of_class`).
 
 import hashlib
 import hmac
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import TYPE_CHECKING
+from functools import lru_cache
+from typing import TYPE_CHECKING, TypeVar
 
 from sim.student import folder_name, same, student_name
 
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = ["SELF_STUDY", "folder_name", "generator", "of_class", "same", "seed", "student_name"]
+__all__ = [
+    "SELF_STUDY", "folder_name", "generator", "of_class", "once_each", "same", "seed",
+    "student_name",
+]  # fmt: skip
+
+Drawn = TypeVar("Drawn")
 
 # Everybody who studies alone shares this: it keeps numbers apart, it keeps nothing secret.
 SELF_STUDY = b"sysid-course: studying alone"
@@ -64,3 +70,19 @@ def generator(
 
     name = f"{exercise}#{draw}" if draw else exercise
     return np.random.Generator(np.random.PCG64(seed(student, name, secret=secret)))
+
+
+def once_each(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
+    """Remember what was drawn for the last few students, each class's apart.
+
+    What a learner works on is drawn when it is handed out and again when it is graded.
+
+    Args:
+        draw: a student -> what is theirs.
+    """
+
+    @lru_cache(maxsize=8)
+    def kept(student: str, _secret: bytes) -> Drawn:
+        return draw(student)
+
+    return lambda student: kept(same(student), _SECRET.get())

@@ -12,6 +12,7 @@ from grader.course import find_course
 from grader.exercise import HINTS, exercises
 from grader.misconception import MISCONCEPTIONS
 from grader.starter import blank
+from grader.variant import of_class
 
 ROOT = find_course(Path(__file__).resolve().parent)
 EXERCISES = {one.name: one for one in exercises(ROOT)}
@@ -142,3 +143,20 @@ def test_answers_are_taken_out_in_both_languages():
 
     assert blank(java) == "a;\n  // TODO: Add\n  //       them up.\nc;\n"
     assert blank(python) == "a\n    # TODO: Add.\nc\n"
+
+
+@pytest.mark.parametrize("name", [name for name, one in EXERCISES.items() if one.personal])
+def test_a_class_has_numbers_of_its_own_even_in_one_process(name, tmp_path):
+    copy = tmp_path / "exercises" / name
+    shutil.copytree(ROOT / "exercises", copy.parent, ignore=shutil.ignore_patterns("data"))
+    moved = type(EXERCISES[name])(name, copy)
+    made = []
+    for secret in (b"east", b"west", b"east"):
+        with of_class(secret):
+            moved.prepare("ann", say=lambda _: None)
+        made.append(
+            {path.name: path.read_bytes() for path in sorted((copy / "data" / "ann").iterdir())}
+        )
+
+    assert made[0] == made[2]
+    assert made[0] != made[1]

@@ -2,10 +2,9 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 
 from grader.answer import Asked, Band
-from grader.variant import generator
+from grader.variant import generator, once_each
 
 from .knowledge import CHECKS
 from .question import LETTERS, Option, lettered
@@ -63,7 +62,7 @@ class Variant:
         )
 
 
-@lru_cache(maxsize=8)  # it is asked for when the questions are written, and when they are graded
+@once_each
 def draw(student: str) -> Variant:
     """A learner's questions, always the same."""
     rng = generator(student, "exercise11")

@@ -1,10 +1,9 @@
 """A learner's own mechanism and what is hidden in it: three logs, and the truth about them."""
 
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from grader.variant import generator
+from grader.variant import generator, once_each
 
 if TYPE_CHECKING:
     from sim.log import Log
@@ -59,7 +58,7 @@ class Variant:
         return tuple(part.effect for part in self.mechanism.hidden)
 
 
-@lru_cache(maxsize=4)  # it is asked for when the logs are made, and when an answer is graded
+@once_each
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one."""
     from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed

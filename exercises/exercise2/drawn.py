@@ -1,10 +1,9 @@
 """A team for each learner, with one thing that went wrong, or none."""
 
-from functools import lru_cache
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from grader.variant import generator
+from grader.variant import generator, once_each
 
 from .slips import lookalikes
 from .team import NEAR, Parts, Variant, verdict
@@ -42,7 +41,7 @@ APART = 0.045  # [share] two slips, and a slip and the key, are apart
 MOST_DRAWS = 2000  # a few are enough; so many would be our fault
 
 
-@lru_cache(maxsize=8)  # it is asked for when the numbers are made, and when they are graded
+@once_each
 def draw(student: str) -> Variant:
     """A learner's team, always the same one; drawn again until every verdict is clear."""
     for attempt in range(MOST_DRAWS):

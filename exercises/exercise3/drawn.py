@@ -1,11 +1,10 @@
 """A learner's own elevator and arm, drawn so that nobody's are harder than another's."""
 
 import math
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from grader.answer import BANDS, Asked, Band
-from grader.variant import generator
+from grader.variant import generator, once_each
 
 from .held import Hold, Variant
 from .slips import telling
@@ -25,7 +24,7 @@ MOST_DRAWS = 2000  # so many in a row whose slips cannot be told apart would be 
 OFFSET_BAND = Band(0.0, 0.0, full_size=2.0, partial_size=5.0)
 
 
-@lru_cache(maxsize=8)  # it is asked for when the numbers are made, and when they are graded
+@once_each
 def draw(student: str) -> Variant:
     """A learner's numbers, always the same; drawn again until each slip shows as what it is."""
     for attempt in range(MOST_DRAWS):

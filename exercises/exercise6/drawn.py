@@ -3,10 +3,9 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from grader.variant import generator
+from grader.variant import generator, once_each
 
 from .morning import Morning, morning
 from .plan import Machine, Plan, dynamic, quasistatic
@@ -55,7 +54,7 @@ class Variant:
     morning: Morning
 
 
-@lru_cache(maxsize=8)  # it is asked for when the numbers are made, and when they are graded
+@once_each
 def draw(student: str) -> Variant:
     """A learner's mechanisms, always the same; each drawn again until a plan can be made for it."""
     machines, built = {}, {}

@@ -1,10 +1,9 @@
 """Twelve logs for each learner: some sound, most damaged, each so that its damage can be found."""
 
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.variant import generator, seed
+from grader.variant import generator, once_each
 
 if TYPE_CHECKING:
     import numpy as np
@@ -15,6 +14,7 @@ if TYPE_CHECKING:
 LOGS = 12
 SOUND = (2, 3)  # this many of them are sound: two or three, so that nobody can count them off
 RAMP, STEP, TIMEOUT, PERIOD = 1.0, 4.0, 5.0, 0.02  # [V/s], [V], [s], [s]: short logs
+TICKS = 1e6  # [1/s] a .wpilog counts microseconds
 SEVERITY = (0.6, 2.0)  # [1] 1 is an ordinary bad day; equally likely per factor
 KINDS = ("drivetrain", "shooter", "intake", "turret")  # gravity would look like a fault to many
 LESSON = ("encoder-slip", "brownout", "hard-stop", "loop-overrun")  # the four that the lesson names
@@ -61,13 +61,9 @@ class Case:
     damage: tuple[Damaged, ...]
 
 
+@once_each
 def draw(student: str) -> tuple[Case, ...]:
     """A learner's logs, always the same ones."""
-    return _drawn(student, seed(student, "exercise7"))
-
-
-@lru_cache(maxsize=4)  # they are asked for when the logs are made, and when they are graded
-def _drawn(student: str, _seed: int) -> tuple[Case, ...]:
     rng = generator(student, "exercise7")
     return tuple(_case(faults, rng) for faults in _plan(rng))
 
@@ -118,7 +114,15 @@ def _one(faults: tuple[str, ...], rng: "np.random.Generator") -> Case | None:
     struck = [{part.run for part in one.where} for one in damage]
     if len(struck) > 1 and set.intersection(*struck):
         return None
-    return Case(log, tuple(damage))
+    return Case(_as_written(log), tuple(damage))
+
+
+def _as_written(log: "Log") -> "Log":
+    """The log with the times that a file holds: what is found in it must be found in the file."""
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    runs = (replace(run, time=np.round(run.time * TICKS) / TICKS) for run in log.runs)
+    return replace(log, runs=tuple(runs))
 
 
 def _solvable(case: Case) -> bool:

@@ -1,11 +1,10 @@
 """A log for each learner, damaged so that it can be mended, and in no other way than by looking."""
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from grader.answer import Asked, gains_asked
-from grader.variant import generator, seed
+from grader.variant import generator, once_each
 
 from .left import left
 from .preparation import LONGEST, POINTS, Preparation, points
@@ -62,13 +61,9 @@ class Variant:
     reference: Preparation
 
 
+@once_each
 def draw(student: str) -> Variant:
     """A learner's log, always the same one."""
-    return _drawn(student, seed(student, "exercise8"))
-
-
-@lru_cache(maxsize=8)  # it is asked for when the log is made, and when it is graded
-def _drawn(student: str, _seed: int) -> Variant:
     rng = generator(student, "exercise8")
     kind = str(rng.choice(tuple(TREMBLES)))
     for _ in range(MOST_DRAWS):
