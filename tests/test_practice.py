@@ -194,3 +194,20 @@ def test_the_learner_gets_a_log_and_its_parts(tmp_path):
         "given.toml",
         "log.wpilog",
     }
+
+
+@pytest.mark.parametrize(
+    ("name", "file"),
+    [
+        ("exercise4", "ExampleSubsystem.java"),
+        ("exercise4", "example_subsystem.py"),
+        ("exercise5", "RobotContainer.java"),
+        ("exercise5", "robotcontainer.py"),
+        ("exercise10", "ExampleMechanism.java"),
+        ("exercise10", "example_mechanism.py"),
+    ],
+)
+def test_the_same_task_begins_with_the_same_file(name, file):
+    there = ROOT / "exercises"
+
+    assert (there / "practice" / file).read_bytes() == (there / name / file).read_bytes()

@@ -1,0 +1,72 @@
+"""What INSTRUCTORS.md says can be typed, and what it lists is what there is."""
+
+import re
+import shlex
+
+import click
+import pytest
+
+from grader.cli import grade
+from grader.course import find_course
+from grader.exercise import exercises
+from grader.misconception import MISCONCEPTIONS
+from sim.cli import sysid
+
+COMMANDS = {"grade": grade, "sysid": sysid}
+
+
+@pytest.fixture(scope="module")
+def text(root):
+    return (root / "INSTRUCTORS.md").read_text(encoding="utf-8")
+
+
+def typed(text):
+    """Every command with an argument, from blocks and from running text."""
+    plain = re.sub(r"\s*\n\s*", " ", text)
+    blocks = re.findall(r"```shell (.*?) ```", plain)
+    lines = [line for block in blocks for line in re.split(r" (?=sysid |grade )", block)]
+    spans = re.findall(r"`((?:grade|sysid) [^`]+)`", re.sub(r"```shell .*? ```", "", plain))
+    return [*lines, *spans]
+
+
+def test_every_command_parses(text):
+    found = typed(text)
+    for line in found:
+        name, *words = shlex.split(line.replace("…", "X"))
+        context = click.Context(COMMANDS[name], info_name=name)
+        if name == "grade" and words[0] not in grade.list_commands(context):
+            words = ["exercise", *words]
+        command = COMMANDS[name].get_command(context, words[0])
+        assert command, line
+        if words[1:]:  # else it is only named
+            command.make_context(words[0], words[1:], parent=context)
+
+    assert len(found) >= 10
+    assert {line.split()[1] for line in found} >= {
+        "release",
+        "serve",
+        "class",
+        "edition",
+        "dataset",
+    }
+
+
+def test_a_command_that_is_wrong_would_be_seen():
+    context = click.Context(grade, info_name="grade")
+    with pytest.raises(click.NoSuchOption):
+        grade.get_command(context, "class").make_context("class", ["x", "--exports", "y"])
+
+
+def test_it_lists_the_misconceptions_the_examiner_names(text):
+    rows = dict(re.findall(r"^\| (M-[A-Z0-9-]+) \|[^|]*\| (.*) \|$", text, re.MULTILINE))
+
+    assert rows == MISCONCEPTIONS
+
+
+def test_every_exercise_has_a_place_in_the_plans(text, root):
+    told = text.partition("Which exercise belongs to which lesson:")[2].partition("\n\n")[0]
+    named = {int(number) for number in re.findall(r"\d+", told)}
+
+    assert "practice" in told
+    for one in exercises(find_course(root)):
+        assert one.name == "practice" or int(one.name.removeprefix("exercise")) in named
