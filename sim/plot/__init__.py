@@ -9,6 +9,7 @@ Nothing here needs a screen, and nothing here keeps a state: a picture is made, 
 
 from sim.plot.acceleration import acceleration_velocity
 from sim.plot.analyzer import velocity_time
+from sim.plot.badges import badges
 from sim.plot.budget import budget
 from sim.plot.charts import choices, curves, misses
 from sim.plot.chase import chase, miss
@@ -21,6 +22,7 @@ from sim.plot.logs import time_series
 from sim.plot.marks import heat, spread
 from sim.plot.picture import Picture
 from sim.plot.ramp import Line, voltage_velocity
+from sim.plot.runway import runway
 from sim.plot.table import Table
 
 __all__ = [
@@ -28,6 +30,7 @@ __all__ = [
     "Picture",
     "Table",
     "acceleration_velocity",
+    "badges",
     "budget",
     "chase",
     "choices",
@@ -41,6 +44,7 @@ __all__ = [
     "live",
     "miss",
     "misses",
+    "runway",
     "spread",
     "time_series",
     "timesteps",

@@ -1,0 +1,157 @@
+"""A robot on a floor with a mark: where it is, when the motors are off, what the battery does."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Rectangle
+
+from sim.errors import BadRequest
+from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
+from sim.plot.table import Table
+from sim.runway import Drive
+
+LONG, WIDE = 0.8, 0.8  # [m] of a robot with its bumpers, as drawn
+BEHIND = 1.2  # [m] of floor behind the start
+SEEN, TAPE, BUMP = COLORS[0], COLORS[3], COLORS[1]
+LIT = "#F5C2A3"  # a paler vermilion: words over it stay legible
+
+
+def runway(drive: Drive, *, moment: float = 1.0) -> Picture:
+    """A test on its floor from above, and below it speed and battery over time.
+
+    Args:
+        drive: the test, in meters.
+        moment: [share of the test's time] at which the robot is drawn.
+
+    Raises:
+        BadRequest: the moment is not within the test.
+    """
+    if not 0.0 <= moment <= 1.0:
+        raise BadRequest(f"a moment of {moment:g}", advice="Choose 0 (start) to 1 (end).")
+    now = round(moment * (drive.time.size - 1))
+    figure, ((floor,), (speed,), (battery,)) = panels(3, 1, height=5.0)
+    _floor(floor, drive, now)
+    _over_time(speed, drive, drive.velocity, now)
+    speed.set_ylabel("speed [m/s]", color=INK)
+    _over_time(battery, drive, drive.battery, now)
+    battery.axhline(drive.brownout, color=REFERENCE, linestyle="--", linewidth=1.0)
+    battery.annotate(
+        "brownout below", (0.0, drive.brownout), xytext=(2, 2), textcoords="offset points",
+        fontsize=8, color=INK, bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.6},
+    )  # fmt: skip
+    battery.set_ylim(0.0, 1.12 * float(drive.battery.max()))
+    battery.set_ylabel("battery [V]", color=INK)
+    battery.set_xlabel("time since the button was pressed [s]", color=INK)
+    _lamp(floor, drive)
+    table = _table(drive)
+    return Picture(figure, _words(drive, now), table)
+
+
+def _floor(axes: Axes, drive: Drive, now: int) -> None:
+    """The floor from above: start, tape, wall, and the robot's front where it is."""
+    wall, rests = drive.floor.wall, drive.rests
+    axes.set_xlim(-BEHIND, wall + 0.06 * (wall + BEHIND))
+    axes.set_ylim(-1.0, 1.0)
+    axes.set_yticks([])
+    axes.set_xlabel("way from the start [m]", color=INK)
+    axes.axvspan(wall, wall + 10.0, facecolor="#DDDDDD", edgecolor=INK, hatch="xxx", linewidth=1.0)
+    _sign(axes, wall, "wall", ha="right", below=True)
+    axes.axvline(0.0, color=INK, linewidth=1.0, linestyle=":")
+    if drive.floor.tape is not None:
+        axes.axvline(drive.floor.tape, color=TAPE, linewidth=5.0)
+        _sign(axes, drive.floor.tape, "tape", ha="left")
+    if drive.hit is None:
+        there = float(np.interp(drive.released, drive.time, drive.position))
+        axes.axvline(there, color=INK, linewidth=1.2, linestyle=":")
+        _sign(axes, there, "motors off", ha="right", below=True)
+    _robot(axes, rests, fill=False)
+    _robot(axes, float(drive.position[now]), fill=True)
+    if drive.hit is not None:
+        axes.plot(wall, 0.0, "*", color=BUMP, markersize=22, markeredgecolor=INK)
+
+
+def _sign(axes: Axes, x: float, text: str, *, ha: str, below: bool = False) -> None:
+    offset = {"left": 5, "right": -5, "center": 0}[ha]
+    axes.annotate(
+        text,
+        (x, -0.98 if below else 0.98),
+        xytext=(offset, 2 if below else -2),
+        textcoords="offset points",
+        ha=ha,
+        va="bottom" if below else "top",
+        fontsize=8,
+        color=INK,
+        bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},
+    )
+
+
+def _robot(axes: Axes, front: float, *, fill: bool) -> None:
+    """A robot whose front bumper is at a place; as a mere outline where it will stand."""
+    face, edge, line = (SEEN, INK, "-") if fill else ("none", SEEN, "--")
+    axes.add_patch(
+        Rectangle(
+            (front - LONG, -WIDE / 2), LONG, WIDE, facecolor=face, edgecolor=edge, linestyle=line,
+            linewidth=1.4, zorder=3,
+        )
+    )  # fmt: skip
+
+
+def _over_time(axes: Axes, drive: Drive, signal: "np.typing.NDArray[np.float64]", now: int) -> None:
+    """A signal, the moment shown, and when the motors were off."""
+    axes.plot(drive.time, signal, color=SEEN, linewidth=1.6)
+    axes.plot(drive.time[now], signal[now], "o", color=SEEN, markeredgecolor=INK, markersize=8)
+    if drive.hit is None:
+        axes.axvline(drive.released, color=INK, linestyle=":", linewidth=1.2)
+    axes.set_xlim(0.0, float(drive.time[-1]) * 1.02)
+
+
+def _lamp(axes: Axes, drive: Drive) -> None:
+    """A lamp above the floor that says by color, sign and word whether the battery gave in."""
+    out = drive.browned_out
+    axes.set_title("the floor from above", fontsize=10, color=INK, loc="left")
+    axes.set_title(
+        "✗ BROWNOUT" if out else "✓ battery holds",
+        fontsize=10,
+        color=INK,
+        loc="right",
+        bbox={"facecolor": LIT if out else PAPER, "edgecolor": INK, "boxstyle": "round,pad=0.3"},
+    )
+
+
+def _passed(drive: Drive) -> float | None:
+    """[s] when the tape was passed."""
+    tape = drive.floor.tape
+    if tape is None or drive.rests < tape:
+        return None
+    return float(drive.time[int(np.argmax(drive.position >= tape))])
+
+
+def _table(drive: Drive) -> Table:
+    passed, top = _passed(drive), float(drive.velocity.max())
+    rows: list[tuple[str, str | float]] = [
+        ("passes the tape at [s]", "never" if passed is None else passed),
+        ("motors off at [s]", drive.released),
+        ("pushes the wall for [s]", "never" if drive.hit is None else drive.released - drive.hit),
+        ("fastest [m/s]", top),
+        ("stands at [m]", drive.rests),
+        ("room left [m]", "none: it hit the wall" if drive.hit else drive.floor.wall - drive.rests),
+        ("lowest battery [V]", float(drive.battery.min())),
+    ]
+    return Table(("this test", ""), tuple(rows))
+
+
+def _words(drive: Drive, now: int) -> str:
+    tape, passed = drive.floor.tape, _passed(drive)
+    said = f"A floor from above with a wall at {drive.floor.wall:.1f} m. "
+    said += "There is no tape. " if tape is None else f"A strip of tape lies at {tape:.1f} m. "
+    if passed is not None:
+        said += f"The robot passes it after {passed:.2f} s. "
+    said += f"The motors are off after {drive.released:.2f} s. "
+    if drive.hit is not None:
+        said += f"It hits the wall after {drive.hit:.2f} s. "
+    else:
+        said += f"It stands at {drive.rests:.2f} m, {drive.floor.wall - drive.rests:.2f} m before "
+        said += "the wall. "
+    said += f"It is drawn at {drive.time[now]:.2f} s, {drive.position[now]:.2f} m from the start. "
+    said += "Below, over time: the speed, at most "
+    said += f"{drive.velocity.max():.2f} m/s, and the battery, at least {drive.battery.min():.1f} V"
+    return said + (", which is a brownout." if drive.browned_out else ", which holds.")
