@@ -118,6 +118,18 @@ def test_code_that_leads_back_to_itself_is_followed_once(case: str, tmp_path: Pa
     assert [call.motor for call in read(tmp_path / "A.java").drive] == ["m"]
 
 
+@pytest.mark.parametrize(
+    "phrase",
+    ["x" + "-" * 1500, "a[" * 90 + "0" + "] += 1" * 90, "f(" * 90 + "x" + ").y += 1" * 90],
+    ids=["less and less", "elements", "members"],
+)
+def test_what_changes_what_it_changes_is_read_once(phrase: str, tmp_path: Path) -> None:
+    text = f"class A {{ void f() {{ {phrase}; }} double k = 1; }}"
+    (tmp_path / "A.java").write_text(text, encoding="utf-8")
+
+    assert read(tmp_path / "A.java").routine_line == 0
+
+
 def test_what_is_too_deep_to_follow_is_said(tmp_path: Path) -> None:
     methods = " ".join(f"void f{n}(double v) {{ f{n + 1}(v); }}" for n in range(9))
     (tmp_path / "A.java").write_text(

@@ -135,7 +135,7 @@ def _assignment(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     place, sign = lowering.place(tree), lowering.said(tree.child_by_field_name("operator"))
     target, value = lowering.field(tree, "left"), lowering.field(tree, "right")
     if sign != "=":
-        value = syntax.Operation(place, sign.removesuffix("="), target, value)
+        value = syntax.Operation(place, sign.removesuffix("="), _again(target), value)
     return (syntax.Assign(place, target, value),)
 
 
@@ -143,7 +143,14 @@ def _update(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     place, inside = lowering.place(tree), lowering.many(tree.children)
     if len(inside) != 1:
         return inside
-    return (syntax.Assign(place, inside[0], syntax.Opaque(place, inside)),)
+    return (syntax.Assign(place, inside[0], syntax.Opaque(place, ())),)
+
+
+def _again(target: syntax.Node) -> syntax.Node:
+    """A target as a value; only short ones: twice all that is in it, level by level, has no end."""
+    owner = target.owner if isinstance(target, syntax.Member) else target
+    short = isinstance(owner, syntax.Name | syntax.Self)
+    return target if short else syntax.Opaque(target.place, ())
 
 
 EXPRESSIONS: dict[str, Maker] = {
