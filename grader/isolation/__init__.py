@@ -7,9 +7,13 @@ own, the data and an empty folder (``landlock.py``), no network, no processes, n
 (``seccomp.py``), so much time, memory and disk (``limits.py``). What it says is judged outside
 (``received.py``), where nothing it made is ever imported or unpickled. Where a system has no such
 confinement there are limits only, and ``level`` says so.
+
+What has to run as a whole program, as a robot does, is confined in the same way by ``run_program``
+(``program.py`` outside, ``inside.py`` in the child); it leaves files for others to judge.
 """
 
 from grader.isolation.apart import Call, Limits, Outcome, level, run
-from grader.isolation.received import Answer
+from grader.isolation.program import run_program
+from grader.isolation.received import Answer, one_line
 
-__all__ = ["Answer", "Call", "Limits", "Outcome", "level", "run"]
+__all__ = ["Answer", "Call", "Limits", "Outcome", "level", "one_line", "run", "run_program"]

@@ -26,6 +26,7 @@ START = (
     f"import sys; sys.path.insert(0, {str(ROOT)!r}); "
     "from grader.isolation.child import main; main()"
 )
+PYTHON = (sys.executable, "-I", "-S", "-B", "-X", "utf8", "-c")  # none of a user's own settings
 CONFINED = True  # False leaves only limits, as where a system has no more: to see that they do
 KEPT = ("SYSTEMROOT", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH")  # without them no Python may start
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
@@ -112,7 +113,7 @@ def run(
             "nonce": nonce,
             "root": str(ROOT),
             "confined": CONFINED,
-            "packages": _folders(packages),
+            "packages": places(packages),
             **_hand_over(source, calls, given),
             "limits": {
                 "seconds": int(limits.seconds) + 1,
@@ -134,14 +135,16 @@ def level() -> str:
         return run(probe, calls=[Call("probe")]).level
 
 
-def _folders(packages: Sequence[str]) -> dict[str, str]:
-    """Package -> its folder, of those that are installed."""
+def places(packages: Sequence[str]) -> dict[str, str]:
+    """Package -> its folder, or its only file, of those that are installed."""
     specs = {name: importlib.util.find_spec(name) for name in packages}
-    return {
-        name: spec.submodule_search_locations[0]
-        for name, spec in specs.items()
-        if spec is not None and spec.submodule_search_locations
-    }
+    found: dict[str, str] = {}
+    for name, spec in specs.items():
+        if spec is not None and spec.submodule_search_locations:
+            found[name] = next(iter(spec.submodule_search_locations))
+        elif spec is not None and spec.has_location and spec.origin:
+            found[name] = spec.origin
+    return found
 
 
 def _hand_over(source: Path, calls: Sequence[Call], given: Path) -> dict[str, object]:
@@ -190,12 +193,12 @@ class _Child:
 
     def __init__(self, orders: Mapping[str, object], *, work: Path, limits: Limits) -> None:
         self.process = subprocess.Popen(  # noqa: S603 - our own Python and our own program
-            [sys.executable, "-I", "-S", "-B", "-X", "utf8", "-c", START],
+            [*PYTHON, START],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             cwd=work,
-            env=_environment(work),
+            env=environment(work),
             start_new_session=True,
         )
         into, said, printed = (
@@ -223,22 +226,28 @@ class _Child:
 
     def _end(self) -> None:
         """End it and all that it started, and take what is left in the pipes."""
-        if sys.platform != "win32":
-            with contextlib.suppress(ProcessLookupError, PermissionError):
-                os.killpg(self.process.pid, signal.SIGKILL)
-        self.process.kill()
-        self.process.wait()
+        end(self.process)
         for pipe in (self.said, self.printed):
             pipe.thread.join(LAST_WORDS)
             if not pipe.thread.is_alive():
                 pipe.stream.close()
 
 
+def end(process: "subprocess.Popen[bytes]") -> None:
+    """End a process that was started in a session of its own, and all that it started."""
+    if sys.platform != "win32":
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
+    process.kill()
+    process.wait()
+
+
 def _nothing() -> None:
     pass
 
 
-def _environment(work: Path) -> dict[str, str]:
+def environment(work: Path) -> dict[str, str]:
+    """The few variables a child gets; what is temporary or at home is in its own folder."""
     kept = {name: os.environ[name] for name in KEPT if name in os.environ}
     own = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), str(work))
     return {**kept, **own, **dict.fromkeys(THREADS, "1")}

@@ -30,10 +30,9 @@ def main() -> None:
     orders = json.load(sys.stdin)
     say = _speaker(orders["nonce"])
     sys.path[:] = [path for path in sys.path if Path(path) != Path(orders["root"])]
-    sys.meta_path.append(_Packages(orders["packages"]))
-    force = _confine(orders)
-    for name in [name for name in sys.modules if name.partition(".")[0] == "grader"]:
-        del sys.modules[name]
+    sys.meta_path.append(Packages(orders["packages"]))
+    force = confine(orders)
+    forget()
     if orders["arrays"]:
         import numpy as np  # noqa: F401, PLC0415 - before the clock starts; only where it is needed
     say({"ready": force})
@@ -55,9 +54,7 @@ def _speaker(nonce: str) -> Callable[[Mapping[str, object]], None]:
     """Keep what was standard output for what is said; prints go to standard error."""
     out = os.dup(1)
     os.dup2(2, 1)
-    empty = os.open(os.devnull, os.O_RDONLY)
-    os.dup2(empty, 0)
-    os.close(empty)
+    close_input()
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(line_buffering=True, errors="replace")  # type: ignore[union-attr]  # they are text
 
@@ -69,25 +66,39 @@ def _speaker(nonce: str) -> Callable[[Mapping[str, object]], None]:
     return say
 
 
-class _Packages:
+def close_input() -> None:
+    """Leave nothing to read where the orders came from."""
+    empty = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(empty, 0)
+    os.close(empty)
+
+
+class Packages:
     """Finds the packages a learner may import, and no others that happen to be installed."""
 
-    def __init__(self, folders: Mapping[str, str]) -> None:
-        self.folders = folders
+    def __init__(self, places: Mapping[str, str]) -> None:
+        self.places = {name: Path(place) for name, place in places.items()}
 
     def find_spec(
         self, name: str, _path: object = None, _target: object = None
     ) -> ModuleSpec | None:
-        folder = self.folders.get(name)
-        if folder is None:
+        """Where a package is, for Python's own import."""
+        place = self.places.get(name)
+        if place is None:
             return None
-        start = Path(folder) / "__init__.py"
-        return importlib.util.spec_from_file_location(
-            name, start, submodule_search_locations=[folder]
-        )
+        if place.is_file():
+            return importlib.util.spec_from_file_location(name, place)
+        start = place / "__init__.py"
+        if start.is_file():
+            return importlib.util.spec_from_file_location(
+                name, start, submodule_search_locations=[str(place)]
+            )
+        spec = ModuleSpec(name, None, is_package=True)  # a folder of packages
+        spec.submodule_search_locations = [str(place)]
+        return spec
 
 
-def _confine(orders: Mapping[str, Any]) -> dict[str, object]:
+def confine(orders: Mapping[str, Any]) -> dict[str, object]:
     """Give up what the learner's code does not need, and say what that was."""
     readable = [Path(orders["given"])]
     for folder in map(Path, orders["packages"].values()):
@@ -100,6 +111,12 @@ def _confine(orders: Mapping[str, Any]) -> dict[str, object]:
     if not seccomp:  # a filter lets no process start; without it the limit does what it can
         limit(**asked, processes=False)
     return {"landlock": landlock if _closed() else 0, "seccomp": seccomp, "limited": limited}
+
+
+def forget() -> None:
+    """Leave nothing of the course among the modules that are loaded."""
+    for name in [name for name in sys.modules if name.partition(".")[0] == "grader"]:
+        del sys.modules[name]
 
 
 def _closed() -> bool:

@@ -84,7 +84,7 @@ def _answer(said: Mapping[str, object], file: str) -> Answer:
     for pair in pairs:
         if not (isinstance(pair, list) and len(pair) == 2 and isinstance(pair[0], str)):  # noqa: PLR2004 - a name and what it stands for
             continue
-        name, value = _line(pair[0]), pair[1]
+        name, value = one_line(pair[0]), pair[1]
         if type(value) in {int, float} and _finite(value):
             numbers[name] = float(value)
         else:
@@ -114,11 +114,11 @@ def _kind(value: object) -> str:
 
 def _type(told: Mapping[str, object]) -> str:
     """What the child says of the type of something, in words."""
-    name, of = _line(told.get("is")), told.get("of")
+    name, of = one_line(told.get("is")), told.get("of")
     if name == "ndarray":
-        return f"an array of shape {_line(of)}"
+        return f"an array of shape {one_line(of)}"
     if name == "str":
-        return f'the text "{_line(of)}"'
+        return f'the text "{one_line(of)}"'
     poses = isinstance(of, list) and ("int" in of or "float" in of)
     return f"a {name}, which only poses as a number" if poses else f"a {name}"
 
@@ -129,10 +129,10 @@ def _crash(told: object, file: str) -> str:
         return f"{file} stopped"
     line = told.get("line")
     where = f"{file}, line {line}" if type(line) is int else file
-    return f"{where}: {_line(told.get('says'))}"
+    return f"{where}: {one_line(told.get('says'))}"
 
 
-def _line(text: object) -> str:
+def one_line(text: object) -> str:
     """One line of what can be printed, and not too much of it."""
     kept = "".join(sign if sign.isprintable() else " " for sign in str(text)[: 2 * LONGEST])
     return kept if len(kept) <= LONGEST else f"{kept[:LONGEST]}…"

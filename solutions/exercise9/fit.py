@@ -49,5 +49,3 @@ if __name__ == "__main__":  # your own log, if you start this file yourself
     rows = np.genfromtxt(log, delimiter=",", names=True, dtype=None, encoding="utf-8")
     names = ("time_s", "voltage", "position", "velocity", "test")
     print(fit(*(rows[name] for name in names)))
-
-# ruff: noqa: ANN001, ANN201, ARG001, T201 - a learner's file has no types, and prints

@@ -8,15 +8,17 @@ holds the log that the robot wrote against what the bench saw. ``season`` knows 
 written for another year than the RobotPy that is installed, ``contradiction`` puts what the run
 showed into words.
 
-A run takes about a second, needs the extra ``robot``, and executes what the learner wrote; whoever
-only wants to read never comes here.
+A run takes about a second, needs the extra ``robot``, and executes what the learner wrote: a copy
+of it (``given``), shut in as far as the system can (``apart.confined``). Whoever only wants to read
+never comes here.
 """
 
 import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
-from grader.robotcode.bench.apart import GRACE, Start, alone, command
+from grader.robotcode.bench.apart import GIVEN, GRACE, Start, command, confined
+from grader.robotcode.bench.given import handed_over
 from grader.robotcode.bench.ran import Driven, Outcome, Ran, Recorded
 
 __all__ = ["SECONDS", "Driven", "Outcome", "Ran", "Recorded", "installed", "run"]
@@ -29,13 +31,13 @@ def installed() -> bool:
     return all(find_spec(name) is not None for name in ("wpilib", "commands2"))
 
 
-def run(path: Path, name: str, *, start: Start = alone, seconds: float = SECONDS) -> Ran:
+def run(path: Path, name: str, *, start: Start = confined, seconds: float = SECONDS) -> Ran:
     """Run the SysIdRoutine of a RobotPy file.
 
     Args:
         path: the learner's file.
         name: the class of its subsystem.
-        start: starts the child; another one may put it under more limits.
+        start: starts the child.
         seconds: after which a program that does not end is given up.
 
     Returns:
@@ -46,6 +48,8 @@ def run(path: Path, name: str, *, start: Start = alone, seconds: float = SECONDS
     from grader.robotcode.bench.logged import told  # noqa: PLC0415 - needs NumPy
 
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
-        folder = Path(place)
-        ended = start(command(path, name, folder, seconds=seconds), folder, seconds + GRACE)
+        folder = Path(place).resolve() / "left"
+        folder.mkdir()
+        copy = handed_over(path, folder.with_name(GIVEN))
+        ended = start(command(copy, name, folder, seconds=seconds), folder, seconds + GRACE)
         return told(folder, path, ended=ended, seconds=seconds)

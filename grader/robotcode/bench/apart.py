@@ -6,11 +6,18 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from grader.isolation import Limits, run_program
 from grader.robotcode.bench import on_bench
 
 # Starts a program in a folder, for at most so many seconds; whether it ended by itself.
 Start = Callable[[Sequence[str], Path, float], bool]
 
+LARGEST = 4 * 1024**2  # [bytes] of one file a run leaves; an ordinary log has a fortieth of it
+GIVEN = "given"  # the folder that may be read, beside the one that may be written
+PACKAGES = (  # wpilib and commands2, and what they are made of
+    *("wpilib", "commands2", "hal", "ntcore", "wpimath", "wpinet", "wpiutil", "native"),
+    *("numpy", "typing_extensions"),
+)
 KEPT = ("PATH", "SYSTEMROOT", "SYSTEMDRIVE", "TEMP", "TMP", "HOME", "USERPROFILE", "LANG")
 GRACE = 2.0  # [s] the child gives up by itself, and says where it was; after that it is ended
 
@@ -47,3 +54,22 @@ def alone(program: Sequence[str], folder: Path, seconds: float) -> bool:
     except subprocess.TimeoutExpired:
         return False
     return True
+
+
+def confined(program: Sequence[str], folder: Path, seconds: float) -> bool:
+    """Start a program that reaches nothing but Python, WPILib, its folder and ``GIVEN`` beside it.
+
+    WPILib's simulation needs no network, so there is none. Where the system has no confinement,
+    there are limits of time, memory and files; on Windows of time only.
+    """
+    if sys.platform == "win32":
+        return alone(program, folder, seconds)
+    script = next(at for at, word in enumerate(program) if at and not word.startswith("-"))
+    return run_program(
+        Path(program[script]),
+        program[script + 1 :],
+        folder=folder,
+        given=folder.with_name(GIVEN),
+        packages=PACKAGES,
+        limits=Limits(seconds=seconds, file=LARGEST),
+    )

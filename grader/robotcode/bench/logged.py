@@ -1,8 +1,13 @@
-"""What the child left behind, in facts: the robot's own log held against what the bench saw."""
+"""What the child left behind, in facts: the robot's own log held against what the bench saw.
+
+A learner's code may have written all of it: it is read as JSON and as a WPILOG, from plain files of
+an ordinary size, and what is told on is one line.
+"""
 
 import json
 import math
 import re
+import stat
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,6 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from grader.isolation import one_line
+from grader.robotcode.bench.apart import LARGEST
 from grader.robotcode.bench.on_bench import LONGEST
 from grader.robotcode.bench.ran import Driven, Outcome, Ran, Recorded
 from grader.robotcode.bench.season import of_another
@@ -22,11 +29,14 @@ from sim.units import unit
 
 STATE = "sysid-test-state-"
 NEEDED = {"voltage", "position", "velocity"}
+MOST_MOTORS = 20  # in a log: a roboRIO has so many PWM channels
 MOVED = 0.2  # [any unit] less motion than this tells nothing
 AWAKE = 0.5  # [V] below this the steps of a PWM signal, 20 mV, count too much
 WHOLE = 10.0  # [V] above this the battery has no more to give
 FOLLOWS = 0.02  # relative misfit up to which a position follows an encoder
 LOW = (0.85, 1.15)  # [s] of a dynamic test: the battery is low, and nothing jumps
+
+NOT_OURS = (ValueError, KeyError, TypeError, IndexError, AttributeError, ArithmeticError)
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,18 +79,33 @@ def told(folder: Path, file: Path, *, ended: bool, seconds: float) -> Ran:
         seconds: how long it was given.
     """
     try:
-        seen = json.loads((folder / "seen.json").read_text(encoding="utf-8"))
+        seen = json.loads(_left(folder / "seen.json").read_text(encoding="utf-8"))
         return _facts(seen, folder, file)
     except FileNotFoundError:
         return _gone(folder, file, ended=ended, seconds=seconds)
-    except (ValueError, KeyError, TypeError, IndexError, AttributeError):
+    except (*NOT_OURS, RecursionError):
         return Ran(Outcome.CANNOT, "the run left nothing that can be read")
+
+
+def _left(path: Path) -> Path:
+    """A file that was left behind, if it is a plain one of an ordinary size.
+
+    Raises:
+        FileNotFoundError: there is none.
+        ValueError: it is something else.
+    """
+    about = path.lstat()
+    if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
+        raise ValueError(f"{path.name} is none of ours")
+    return path
 
 
 def _gone(folder: Path, file: Path, *, ended: bool, seconds: float) -> Ran:
     """The child left no word: it hung, or ended itself."""
-    hung = folder / "endless.txt"
-    where = hung.read_text(encoding="utf-8", errors="replace") if hung.is_file() else ""
+    try:
+        where = _left(folder / "endless.txt").read_text(encoding="utf-8", errors="replace")
+    except (FileNotFoundError, ValueError):
+        where = ""
     if ended and not where:
         return Ran(Outcome.CRASHED, "your code ended the robot program in the middle of a test")
     stack = re.findall(r'File "(.*)", line (\d+) in (\w+)', where)
@@ -97,7 +122,7 @@ def _gone(folder: Path, file: Path, *, ended: bool, seconds: float) -> Ran:
 
 def _facts(seen: dict[str, Any], folder: Path, file: Path) -> Ran:
     if "cannot" in seen:
-        return Ran(Outcome.CANNOT, str(seen["cannot"]))
+        return Ran(Outcome.CANNOT, one_line(seen["cannot"]))
     if "crash" in seen:
         return _crash(seen["crash"], file)
     columns = list(zip(*seen["rows"], strict=True))
@@ -121,26 +146,26 @@ def _facts(seen: dict[str, Any], folder: Path, file: Path) -> Ran:
 
 def _crash(crash: dict[str, Any], file: Path) -> Ran:
     """One line of a learner's traceback; the other season's names are nobody's mistake."""
-    error, line = str(crash["error"]), int(crash["line"])
+    error, line = one_line(crash["error"]), int(crash["line"])
     other = of_another(error, file.read_text(encoding="utf-8", errors="replace"))
     if other:
         return Ran(Outcome.CANNOT, other)
-    place = f"{crash['file']}, line {line}: " if line else ""
-    return Ran(Outcome.CRASHED, f"{place}{error}", line, str(crash["where"]))
+    place = f"{one_line(crash['file'])}, line {line}: " if line else ""
+    return Ran(Outcome.CRASHED, f"{place}{error}", line, one_line(crash["where"]))
 
 
 def _driven(names: list[str], trace: Seen) -> tuple[Driven, ...]:
     asked = np.abs(trace.asked)
     rows = np.flatnonzero((asked > AWAKE) & (asked < WHOLE))
     if not rows.size:
-        return tuple(Driven(str(name), _own(name), None, 0.0, 0.0) for name in names)
+        return tuple(Driven(one_line(name), _own(name), None, 0.0, 0.0) for name in names)
     late = rows[: np.count_nonzero(trace.test[rows] == trace.test[rows[0]])]  # of its first test
     example = late[late.size * 4 // 5]
     driven = []
     for number, name in enumerate(names):
         share = float(np.median(trace.applied[rows, number] / trace.asked[rows]))
         at = float(trace.applied[example, number]), float(trace.asked[example])
-        driven.append(Driven(str(name), _own(name), round(share, 4), *at))
+        driven.append(Driven(one_line(name), _own(name), round(share, 4), *at))
     return tuple(driven)
 
 
@@ -150,10 +175,12 @@ def _own(name: str) -> bool:
 
 def _with_log(path: Path, trace: Seen, facts: dict[str, Any]) -> Ran:
     try:
-        names = _names(path)
+        names = _names(_left(path))
         logs = {name: read(path, motor=name) for name in names or ()}
+    except FileNotFoundError:
+        return Ran(Outcome.RAN, **facts, lacking="it is gone")
     except Refusal as refusal:
-        return Ran(Outcome.RAN, **facts, lacking=refusal.what)
+        return Ran(Outcome.RAN, **facts, lacking=one_line(refusal.what))
     if names is None:
         return Ran(Outcome.RAN, **facts)
     if not names:
@@ -176,7 +203,7 @@ def _names(path: Path) -> list[str] | None:
         signal, _, rest = one.name.partition("-")
         if rest.endswith(end) and signal in NEEDED:
             there.setdefault(rest.removesuffix(end), set()).add(signal)
-    return [name for name, signals in there.items() if signals == NEEDED]
+    return [name for name, signals in there.items() if signals == NEEDED][:MOST_MOTORS]
 
 
 def _recorded(name: str, log: Log, trace: Seen) -> Recorded:
@@ -191,7 +218,7 @@ def _recorded(name: str, log: Log, trace: Seen) -> Recorded:
     encoder, scale = _followed(pairs, size=unit(log.units).si)
     as_asked = bool(np.ptp(voltage) > 0 and np.allclose(voltage, asked, rtol=0, atol=1e-9))
     return Recorded(
-        name,
+        one_line(name),
         _share(voltage[awake], got[awake]),
         as_asked and not np.allclose(got, asked, rtol=0, atol=1e-9),
         kept,

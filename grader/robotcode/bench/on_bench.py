@@ -4,9 +4,8 @@
 
 The real scheduler runs the four tests of the routine that CLASS in FILE makes; what its motor
 controllers put out moves a motor model each, whose motion its encoders see. FOLDER gets
-``robot.wpilog``, what the robot itself wrote down, and ``seen.json``, what the bench saw. This
-file imports nothing of the course: it runs beside a stranger's code. The log
-is whole only after the interpreter has ended by itself.
+``robot.wpilog``, what the robot itself wrote down, whole only after the interpreter has ended by
+itself, and ``seen.json``, what the bench saw. This file imports nothing of the course.
 """
 
 import faulthandler
@@ -272,9 +271,8 @@ def enable(folder: Path) -> None:
     named(DataLogManager, "logNetworkTables")(False)  # noqa: FBT003 - RobotPy takes it by position
     named(simulation, "pauseTiming")()
     named(simulation, "restartTiming")()
-    station = simulation.DriverStationSim
     for switch in ("setDsAttached", "setTest", "setEnabled"):
-        named(station, switch)(True)  # noqa: FBT003 - the same
+        named(simulation.DriverStationSim, switch)(True)  # noqa: FBT003 - the same
 
 
 def main(file: Path, name: str, folder: Path) -> dict[str, object]:
@@ -288,6 +286,8 @@ def main(file: Path, name: str, folder: Path) -> dict[str, object]:
         return {"cannot": str(lacking)}
     except BaseException as error:  # noqa: BLE001 - a learner's code may raise whatever it likes
         what = crash(error, file)
+        if isinstance(error, (FileNotFoundError, PermissionError)):
+            return {"cannot": f"it asks for what it cannot have here: {what['error']}"}
         return {"crash": what} if bench or what["line"] else {"cannot": what["error"]}
     return {**told, "per_pulse": bench.per_pulse, "required": bench.required}
 

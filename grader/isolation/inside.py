@@ -1,0 +1,25 @@
+"""Inside the child, for a whole program of ours that runs a learner's code: confine, then run it.
+
+What to do comes as one JSON object on standard input. The program is read before the course's own
+files are out of reach; what it finds out, it leaves in the folder it is started in.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+from grader.isolation.child import Packages, close_input, confine, forget
+
+
+def main() -> None:
+    """Run the program that standard input asks for, as if it had been started itself."""
+    orders = json.load(sys.stdin)
+    close_input()
+    script = Path(orders["script"])
+    code = compile(script.read_text(encoding="utf-8"), str(script), "exec")
+    sys.path[:] = [path for path in sys.path if Path(path) != Path(orders["root"])]
+    sys.meta_path.append(Packages(orders["packages"]))
+    sys.argv[:] = [str(script), *orders["arguments"]]
+    confine(orders)
+    forget()
+    exec(code, {"__name__": "__main__", "__file__": str(script)})  # noqa: S102 - ours, and the only way once its file is out of reach

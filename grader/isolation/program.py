@@ -1,0 +1,64 @@
+"""From outside: a whole program of ours that runs a learner's code, as confined as ``run`` is."""
+
+import json
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from grader.isolation import apart
+from grader.isolation.apart import Limits
+
+START = apart.START.replace("isolation.child", "isolation.inside")
+
+
+def run_program(
+    script: Path,
+    arguments: Sequence[str],
+    *,
+    folder: Path,
+    given: Path,
+    packages: Sequence[str],
+    limits: Limits,
+) -> bool:
+    """Run a Python program of ours that may read Python, some packages and what it is given.
+
+    Args:
+        script: the program; it may import Python's own library and ``packages``.
+        arguments: as on a command line.
+        folder: the only one it may write; empty, and what it leaves there may be a learner's work.
+        given: a file, or a folder, that it may read.
+        packages: which installed packages it may import.
+        limits: how much it may take; what it prints is dropped.
+
+    Returns:
+        Whether it ended by itself.
+    """
+    orders = {
+        "script": str(script),
+        "arguments": list(arguments),
+        "root": str(apart.ROOT),
+        "confined": apart.CONFINED,
+        "given": str(given),
+        "packages": apart.places(packages),
+        "limits": {
+            "seconds": int(limits.seconds) + 1,
+            "memory": limits.memory,
+            "file": limits.file,
+        },
+    }
+    process = subprocess.Popen(  # noqa: S603 - our own Python and our own program
+        [*apart.PYTHON, START],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        cwd=folder,
+        env=apart.environment(folder),
+        start_new_session=True,
+    )
+    try:
+        process.communicate(json.dumps(orders).encode(), timeout=limits.seconds)
+    except subprocess.TimeoutExpired:
+        return False
+    finally:
+        apart.end(process)
+    return True
