@@ -12,10 +12,11 @@ from grader.course import find_course
 from grader.exercise import HINTS, exercises
 from grader.misconception import MISCONCEPTIONS
 from grader.starter import blank
-from grader.variant import of_class
+from grader.variant import folder_name, of_class
 
 ROOT = find_course(Path(__file__).resolve().parent)
 EXERCISES = {one.name: one for one in exercises(ROOT)}
+FIFTY = 50
 STUDENTS = ("ann", "ben", "zoë")  # between them they get every kind of mechanism there is
 
 
@@ -160,3 +161,21 @@ def test_a_class_has_numbers_of_its_own_even_in_one_process(name, tmp_path):
 
     assert made[0] == made[2]
     assert made[0] != made[1]
+
+
+@pytest.mark.parametrize("name", [name for name, one in EXERCISES.items() if one.personal])
+def test_fifty_students_can_each_earn_everything(name, tmp_path):
+    """By the authored way, from what each is given: a variant that it cannot solve is none."""
+    copy = tmp_path / "exercises" / name
+    shutil.copytree(ROOT / "exercises" / name, copy, ignore=shutil.ignore_patterns("data"))
+    moved, solver = type(EXERCISES[name])(name, copy), load(ROOT / "solutions" / name / "solve.py")
+    short = {}
+    for number in range(FIFTY):
+        student = f"student {number}"
+        moved.prepare(student, say=lambda _: None)
+        texts = solver.solve(copy, copy / "data" / folder_name(student))
+        result = grade(name, texts, moved.files[0], student, tmp_path)
+        if result.status != "passed":
+            short[student] = [one.id for one in result.checks if one.status != "passed"]
+
+    assert short == {}
