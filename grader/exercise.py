@@ -4,7 +4,8 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
 ``concept``, ``pointer`` and ``step`` (one worked in part), and ``checks.py``, which offers
 
     FILES : tuple[str, ...]                    the files to fill in, the preferred one first
-    def read(path, *, student) -> Subject      what the checks look at; a Refusal if unreadable
+    def read(path, *, student) -> Subject      what the checks look at; a Refusal if unreadable;
+                                               one that runs robot code also takes ``run: bool``
     its checks                                 functions under @check, in the order they are shown
     def prepare(student, *, say) -> None       optional: makes what the learner works on
     BESIDE : tuple[str, ...]                   optional: files to fill in that belong to the one
@@ -14,6 +15,7 @@ What does not fit there stands in modules beside it: ``from .drawn import draw``
 """
 
 import importlib.util
+import inspect
 import re
 import sys
 import tomllib
@@ -121,6 +123,11 @@ class Exercise:
         return hasattr(self.module, "prepare")
 
     @property
+    def runs(self) -> bool:
+        """Whether it can run the code it is given, besides reading it."""
+        return "run" in inspect.signature(self.module.read).parameters
+
+    @property
     def solution(self) -> Path | None:
         """The folder with its solution, where there is one: a class's package has none."""
         folder = self.folder.parents[1] / "solutions" / self.name
@@ -137,23 +144,25 @@ class Exercise:
         if maker is not None:
             maker(student, say=say)
 
-    def grade(self, given: Path | None, *, student: str) -> Grade:
+    def grade(self, given: Path | None, *, student: str, run: bool = True) -> Grade:
         """Grade an answer; of several files, the one that earns most.
 
         Args:
             given: a file or a folder; None takes the exercise's own files.
             student: whose answer it is.
+            run: whether robot code may be run, where the exercise can; else it is only read.
         """
         try:
             whole = whole_answer(given, names=self.files, beside=self.beside)
             files = find_files(whole, folder=self.folder, names=self.files)
         except Refusal as refusal:
             return self._ungradable(str(refusal), student=student)
-        return best([self._grade_file(file, student=student) for file in files])
+        return best([self._grade_file(file, student=student, run=run) for file in files])
 
-    def _grade_file(self, file: Path, *, student: str) -> Grade:
+    def _grade_file(self, file: Path, *, student: str, run: bool) -> Grade:
+        asked = {"run": run} if self.runs else {}
         try:
-            subject = self.module.read(file, student=student)
+            subject = self.module.read(file, student=student, **asked)
         except Refusal as refusal:
             return replace(self._ungradable(str(refusal), student=student), file=file)
         results = run_all(self.checks, subject)

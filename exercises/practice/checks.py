@@ -50,6 +50,7 @@ class Answers:
     given: Mapping[str, object]
     folder: Path
     student: str
+    run: bool = True
 
     def _file(self, place: str) -> Path:
         """A file of the learner's language, or one that they named."""
@@ -60,8 +61,9 @@ class Answers:
         return self.folder / name
 
     def _read(self, place: str, room: ModuleType) -> object:
+        asked = {"run": self.run} if room is FOURTH else {}
         try:
-            return room.read(self._file(place), student=self.student)
+            return room.read(self._file(place), student=self.student, **asked)
         except Refusal as refusal:
             raise NotReached(str(refusal)) from None
         except Wrong as wrong:
@@ -122,14 +124,19 @@ ratio = {parts.ratio:.6g}  # turns of the motor for one of the mechanism
     hand_out(made, exercise=HERE, student=student, what="log", say=say)
 
 
-def read(path: Path, *, student: str) -> Answers:
+def read(path: Path, *, student: str, run: bool = True) -> Answers:
     """The answers, and where the rest of them stands.
+
+    Args:
+        path: the file with the answers.
+        student: whose they are.
+        run: whether robot code may be run, where it can be.
 
     Raises:
         UnreadableFile: the file cannot be read.
     """
     given = {name.lower(): value for name, value in read_answers(path).items()}
-    return Answers(given, path.resolve().parent, student)
+    return Answers(given, path.resolve().parent, student, run)
 
 
 def _borrowed(room: ModuleType, part: str, *, step: str, leave: tuple[str, ...] = ()) -> None:

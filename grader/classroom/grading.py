@@ -33,6 +33,7 @@ class Job:
         names: the exercises to grade.
         course: the course folder, or all of it that grading needs, for another machine.
         secret: of the class; None where everybody's numbers are those of self-study.
+        run: whether robot code is run, too.
     """
 
     student: str
@@ -41,6 +42,7 @@ class Job:
     names: tuple[str, ...]
     course: "Path | Bundle"
     secret: bytes | None
+    run: bool
 
     def __repr__(self) -> str:
         """Without the secret: a message may hold this."""
@@ -69,21 +71,19 @@ def grade_one(job: Job) -> Graded:
         tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder,
         of_class(job.secret) if job.secret is not None else nullcontext(),
     ):
-        records = tuple(
-            _grade(there[name], job.files.get(name, {}), job.student, Path(folder) / name)
-            for name in job.names
-        )
+        records = tuple(_grade(there[name], job, Path(folder) / name) for name in job.names)
     return Graded(job.student, job.digest, records)
 
 
-def _grade(exercise: Exercise, files: Files, student: str, folder: Path) -> Record:
+def _grade(exercise: Exercise, job: Job, folder: Path) -> Record:
+    files, student = job.files.get(exercise.name, {}), job.student
     if not files:
         return nothing(exercise, student, status=MISSING, reason=NOTHING)
     try:
         folder.mkdir()
         for name, content in files.items():
             (folder / name).write_bytes(content)
-        return record(exercise.grade(folder, student=student))
+        return record(exercise.grade(folder, student=student, run=job.run))
     except Exception as error:  # noqa: BLE001 - one student's file must not stop the class
         broken = f"our mistake ({type(error).__name__}: {error}); please report it, with the file"
         return nothing(exercise, student, status="ungradable", reason=broken)

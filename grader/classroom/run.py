@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from grader.classroom.bundle import bundle, fingerprint
@@ -26,12 +27,14 @@ class Class:
         exercises: those to grade.
         course: the course folder.
         secret: of the class; None where everybody's numbers are those of self-study.
+        run: whether robot code is run, too, where an exercise can; else it is only read.
     """
 
     handed_in: tuple[HandedIn, ...]
     exercises: tuple[Exercise, ...]
     course: Path
     secret: bytes | None = None
+    run: bool = False
 
     def jobs(self, *, travel: bool) -> tuple[Job, ...]:
         """One for each student whose files could be read.
@@ -39,7 +42,7 @@ class Class:
         Args:
             travel: whether another machine does them.
         """
-        made_by = fingerprint(self.course)
+        made_by = self._made_by()
         names = tuple(one.name for one in self.exercises)
         course = bundle(self.course) if travel else self.course
         return tuple(
@@ -50,10 +53,24 @@ class Class:
                 names,
                 course,
                 self.secret,
+                self.run,
             )
             for one in self.handed_in
             if not one.problem
         )
+
+    def _made_by(self) -> str:
+        """What decides the results besides what was handed in."""
+        course = fingerprint(self.course)
+        return f"{course} run by {_robotpy()}" if self.run else course
+
+
+def _robotpy() -> str:
+    """What robot code is run with here: without it, code is only read, and earns other results."""
+    try:
+        return f"RobotPy {version('wpilib')}"
+    except PackageNotFoundError:
+        return "nothing"
 
 
 @dataclass(frozen=True)

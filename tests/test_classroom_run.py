@@ -1,0 +1,135 @@
+"""A class's robot code is run where it can be shut in, or where whoever grades says so."""
+
+import json
+import shutil
+
+import pytest
+from robot_mistakes import RIGHT, ROOT, changed, needs_robot
+from small_course import lay_out
+
+import grader.isolation
+from grader.classroom.handed_in import find_all
+from grader.classroom.run import Class
+from grader.cli import run
+from grader.exercise import Exercise, exercises
+
+CHECKS = '''
+"""An exercise that says whether it was asked to run what it was given."""
+from grader.check import check
+from grader.submission import read_answers
+FILES = ("answers.toml",)
+
+def read(path, *, student, run=True):
+    read_answers(path)
+    return run
+
+@check(points=1)
+def there(run):
+    """Something is there."""
+    return f"run={run}"
+'''
+ISOLATED, LIMITED = "isolated (Landlock ABI 6)", "limited: time only"
+SAID = f"robot code is read, not run: this machine is {LIMITED}. --run runs it all the same."
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A small course whose exercise can run code, and what ann handed in."""
+    lay_out(tmp_path / "course")
+    (tmp_path / "course" / "exercises" / "exercise1" / "checks.py").write_text(CHECKS, "utf-8")
+    monkeypatch.chdir(tmp_path / "course")
+    monkeypatch.delenv("SYSID_SECRET", raising=False)
+    answer = tmp_path / "in" / "ann" / "exercise1" / "answers.toml"
+    answer.parent.mkdir(parents=True)
+    answer.write_text("a = 1\n", "utf-8")
+    return tmp_path / "course"
+
+
+def note(tmp_path):
+    text = (tmp_path / "in-graded" / "results" / "ann.json").read_text("utf-8")
+    return json.loads(text)["records"][0]["checks"][0]["hint"]
+
+
+@pytest.fixture
+def level(request, monkeypatch):
+    """What this machine can do, as the command is told."""
+    monkeypatch.setattr(grader.isolation, "level", lambda: request.param)
+    return request.param
+
+
+@pytest.mark.usefixtures("course")
+@pytest.mark.parametrize(
+    ("level", "options", "asked"),
+    [
+        (ISOLATED, [], True),
+        (LIMITED, [], False),
+        (ISOLATED, ["--no-run"], False),
+        (LIMITED, ["--run"], True),
+    ],
+    ids=["isolated", "limited", "isolated, but told not to", "limited, but told to"],
+    indirect=["level"],
+)
+def test_code_is_run_where_it_can_be_shut_in_or_as_told(tmp_path, capsys, level, options, asked):
+    assert run(["class", str(tmp_path / "in"), "--processes", "1", *options]) == 0
+    assert note(tmp_path) == f"run={asked}"
+
+    said = " ".join(capsys.readouterr().err.split())
+    assert (SAID in said) is (level == LIMITED and not options)
+
+
+@pytest.mark.usefixtures("course")
+def test_results_of_running_are_not_taken_for_results_of_reading(tmp_path):
+    for option, asked in (("--run", True), ("--no-run", False), ("--run", True)):
+        assert run(["class", str(tmp_path / "in"), "--processes", "1", option]) == 0
+        assert note(tmp_path) == f"run={asked}"
+
+
+def test_the_digest_says_whether_code_was_run_and_by_which_robotpy(course, tmp_path, monkeypatch):
+    def digest(*, run):
+        there = exercises(course)
+        work = Class(find_all(tmp_path / "in", there), there, course, run=run)
+        return work.jobs(travel=False)[0].digest
+
+    found = {digest(run=True), digest(run=False)}
+    monkeypatch.setattr("grader.classroom.run.version", lambda _: "2027.1.1")
+
+    assert digest(run=False) in found
+    assert len(found | {digest(run=True)}) == 3
+
+
+def test_an_exercise_that_only_reads_is_not_asked_to_run(tmp_path, monkeypatch, capsys):
+    lay_out(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(grader.isolation, "level", lambda: pytest.fail("nobody needs to know"))
+    shutil.copytree(tmp_path / "exercises", tmp_path / "in" / "ann")
+
+    assert exercises(tmp_path)[0].runs is False
+    assert run(["class", str(tmp_path / "in"), "--processes", "1"]) == 0
+    assert "robot code" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["exercise4", "practice"])
+def test_what_runs_robot_code_can_be_told_not_to(name):
+    assert Exercise(name, ROOT / "exercises" / name).runs
+
+
+@needs_robot
+@pytest.mark.parametrize(("may", "status"), [(True, "failed"), (False, "passed")])
+def test_what_only_a_run_shows_is_not_held_against_code_that_is_only_read(tmp_path, may, status):
+    path = tmp_path / "mine.py"
+    rate = ("self.left_encoder.getRate()", "60 * self.left_encoder.getRate()")
+    path.write_text(changed(rate), "utf-8")
+    fourth = Exercise("exercise4", ROOT / "exercises" / "exercise4")
+
+    assert fourth.grade(path, student="ann", run=may).status == status
+
+
+@needs_robot
+def test_practice_reads_robot_code_without_running_it_where_it_may_not(tmp_path, monkeypatch):
+    practice = Exercise("practice", ROOT / "exercises" / "practice")
+    monkeypatch.setattr("grader.robotcode.bench.run", lambda *_: pytest.fail("it was run"))
+    (tmp_path / "example_subsystem.py").write_text(RIGHT, "utf-8")
+    (tmp_path / "answers.toml").write_text('language = "python"\n', "utf-8")
+    answers = practice.module.read(tmp_path / "answers.toml", student="ann", run=False)
+
+    assert answers.routine.ran is None
