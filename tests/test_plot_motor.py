@@ -1,11 +1,11 @@
-"""Pictures of the first lessons: a chase, a voltage budget, a gauge."""
+"""Pictures of the first lessons: a chase, a voltage budget, a gauge, a change."""
 
 import numpy as np
 import pytest
 from html_tags import Tags
 
 from sim.errors import BadRequest
-from sim.plot import budget, chase, gauge, miss
+from sim.plot import budget, change, chase, gauge, miss
 from sim.plot.gauge import band_of
 
 TIME = np.linspace(0.0, 2.0, 41)
@@ -16,6 +16,7 @@ PICTURES = {
     "chase": lambda: chase(TIME, TIME, {"a": TIME + 0.1, "b": TIME}, title="A race"),
     "budget": lambda: budget(TIME, TERMS, applied=APPLIED),
     "budget at a moment": lambda: budget(TIME, TERMS, applied=APPLIED, moment=1.5),
+    "change": lambda: change({"kS": 0.829, "kV": 1.206, "kA": 1.001}),
     "gauge": lambda: gauge({"left": 0.2, "right": 0.9}, BANDS, label="kS [V]", good="fine"),
 }
 
@@ -68,6 +69,11 @@ def test_a_number_lies_in_its_band(value, band):
     )
 
 
+def test_a_change_says_what_grew_and_what_shrank():
+    words = [row[2] for row in PICTURES["change"]().table.rows]
+    assert words == ["less", "more", "the same"]
+
+
 @pytest.mark.parametrize(
     ("draw", "advice"),
     [
@@ -75,11 +81,23 @@ def test_a_number_lies_in_its_band(value, band):
         (lambda: chase(TIME, TIME, {"a": TIME[1:]}), "of equal length"),
         (lambda: budget(TIME, {}, applied=APPLIED), "Give one or more"),
         (lambda: budget(TIME, TERMS, applied=APPLIED[1:]), "of equal length"),
+        (lambda: change({}), "Divide what is now"),
+        (lambda: change({"x": -1.0}), "Divide what is now"),
         (lambda: gauge({}, BANDS, label="", good="fine"), "a larger end"),
         (lambda: gauge({"x": 1.0}, BANDS, label="", good="best"), "a larger end"),
         (lambda: gauge({"x": 1.0}, {"a": 2.0, "b": 1.0}, label="", good="a"), "a larger end"),
     ],
-    ids=["nobody", "a short one", "no terms", "a short sum", "no number", "no good", "falling"],
+    ids=[
+        "nobody",
+        "a short one",
+        "no terms",
+        "a short sum",
+        "no change",
+        "below zero",
+        "no number",
+        "no good",
+        "falling",
+    ],
 )
 def test_what_cannot_be_drawn_is_refused_with_advice(draw, advice):
     with pytest.raises(BadRequest, match=advice):

@@ -11,6 +11,7 @@ from sim.plot.acceleration import acceleration_velocity
 from sim.plot.analyzer import velocity_time
 from sim.plot.badges import badges
 from sim.plot.budget import budget
+from sim.plot.change import change
 from sim.plot.charts import choices, curves, misses
 from sim.plot.chase import chase, miss
 from sim.plot.clock import timesteps
@@ -32,6 +33,7 @@ __all__ = [
     "acceleration_velocity",
     "badges",
     "budget",
+    "change",
     "chase",
     "choices",
     "curves",

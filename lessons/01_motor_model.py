@@ -1,0 +1,837 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Lesson 1: The motor model
+#
+# *About 50 minutes. You need lesson 0. No physics class is needed, and no calculus.*
+#
+# **At the end you can**
+#
+# - say for each of kS, kV and kA what it pays for, in which unit, and when it pays nothing;
+# - split any voltage into three parts, and find the part that is wrong;
+# - compute the kV that a motor, its gears and its wheel promise, and say what to look at when the
+#   measured one is far above it, or below;
+# - say what kA/kV tells, in milliseconds;
+# - know when a kS is a reason to stop and look for a wrench;
+# - turn a gain per rotation into a gain per radian, and not the wrong way around.
+
+# %% [markdown]
+# ## 1 Why: a gain is a price
+#
+# In lesson 0 you chose kS and kV until a robot followed. They were just numbers on a knob. But each
+# of them means something, and has a unit. You can read a gain as a **price**: kV = 2.5 V·s/m says
+# that each m/s of speed costs 2.5 volts.
+#
+# Whoever knows the prices can check the bill. "The analyzer says kV = 0.4." Can that be? After this
+# lesson you answer in a minute, with the motor's data sheet and a pocket calculator.
+
+# %%
+import math
+from dataclasses import replace
+
+import ipywidgets as widgets
+import numpy as np
+from IPython.display import display
+
+import sim
+from sim.duty_cycle import Battery, by_duty_cycle
+from sim.fit import fit
+from sim.guess import Guess
+from sim.mechanism import Mechanism
+from sim.mechanisms import MECHANISMS
+from sim.motors import MOTORS, theoretical_kv
+from sim.plot import Picture, Table, budget, change, curves, gauge, live
+from sim.simulate import motion, simulate
+
+drivetrain = MECHANISMS["drivetrain"]
+gains = drivetrain.gains
+print(drivetrain.summary)
+
+# %% [markdown]
+# ## 2 The model: three prices
+#
+# > **V = kS·sgn(v) + kV·v + kA·a**
+#
+# V is the voltage at the motor, v the velocity, a the acceleration (by how much v grows each
+# second). sgn(v), the *sign* of v, is +1 forward and −1 backward.
+#
+# | term | pays for | unit of the gain | is zero when |
+# |---|---|---|---|
+# | kS·sgn(v) | friction in bearings, gears, belts | V | it stands still |
+# | kV·v | speed | V·s/m: volts for each m/s | it stands still |
+# | kA·a | *changing* the speed | V·s²/m: volts for each m/s² | the speed is steady |
+#
+# Each product comes out in volts: V·s/m times m/s is V. For something that turns, read rotations or
+# radians in place of meters (section 8). What moves up and down pays a fourth price, for gravity:
+# lesson 2.
+#
+# Friction takes the same voltage at any speed; all that changes is its direction. (That is a
+# simplification, and a good one. What grows with speed goes into kV.)
+#
+# Here are the three prices of the bench's drivetrain, and four bills. Cover the table with your
+# hand and work out the last row first: driving *backward* at 2 m/s.
+
+
+# %%
+def bill(v: float, a: float) -> dict[str, float]:
+    """What each term takes at a velocity and an acceleration [V]."""
+    return {"kS·sgn(v)": gains["kS"] * np.sign(v), "kV·v": gains["kV"] * v, "kA·a": gains["kA"] * a}
+
+
+MOMENTS = {
+    "2 m/s, steady": (2.0, 0.0),
+    "2 m/s, and 3 m/s faster every second": (2.0, 3.0),
+    "2 m/s, braking by 3 m/s every second": (2.0, -3.0),
+    "2 m/s backward, steady": (-2.0, 0.0),
+}
+print(f"kS = {gains['kS']:.3f} V   kV = {gains['kV']:.3f} V·s/m   kA = {gains['kA']:.3f} V·s²/m")
+rows = []
+for name, (v, a) in MOMENTS.items():
+    terms = bill(v, a)
+    rows.append((name, *(float(volts) for volts in terms.values()), float(sum(terms.values()))))
+Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "together [V]"), tuple(rows))
+
+# %% [markdown]
+# While it brakes, v is still positive (it still moves forward), but a is negative: the third term
+# *gives volts back*.
+#
+# Now a riddle. The log shows this drivetrain at 2 m/s, with **7 V** on its motors. The first row
+# of the table asks for less than 7 V.
+#
+# **Predict.** (No buttons? Type `guess_seven.value = "friction"` in a cell.)
+
+# %%
+guess_seven = Guess(
+    "Where do the other volts go?",
+    "friction",
+    "they turn into heat, and are lost",
+    "into speeding up: it is not steady at all",
+    "the log must be wrong",
+)
+guess_seven
+
+# %%
+left = 7.0 - sum(bill(2.0, 0.0).values())
+print(f"You said: {guess_seven}.")
+print(f"7 V − {gains['kS']:.2f} V − {gains['kV'] * 2:.2f} V = {left:.2f} V are left.")
+print(f"So it is gaining {left / gains['kA']:.1f} m/s every second: it is only passing 2 m/s.")
+print(f"A robot that is truly steady there has another kV: {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
+
+# %% [markdown]
+# Both are good answers to "7 V at 2 m/s": either it is not steady, or its kV is another one. You
+# decide by looking at whether the velocity still changes.
+
+# %% [markdown]
+# ## 3 Doing it: the voltage budget
+#
+# Now the same for every moment of a drive. The picture stacks the three terms on top of each other,
+# computed from how the robot *moved*. The black line is the voltage that was *applied*. If the
+# model is right, the stack reaches the line.
+#
+# Three drives are worth a look. Two of them are the tests that SysId uses:
+#
+# - a **slow ramp**: the voltage grows slowly (SysId's *quasistatic* test);
+# - a **sudden step**: all at once (SysId's *dynamic* test);
+# - **there and back**: 5 V, then nothing, then −3 V, then nothing.
+#
+# **Predict:**
+
+# %%
+guess_step = Guess(
+    "Right after the sudden step, which term takes the most volts?", "kS·sgn(v)", "kV·v", "kA·a"
+)
+guess_ramp = Guess(
+    "And halfway through the slow ramp?",
+    "kS·sgn(v)",
+    "kV·v",
+    "kA·a",
+)
+display(guess_step, guess_ramp)
+
+# %%
+FINE = 0.005  # [s] between two points of the picture
+TERMS = ("kS·sgn(v)", "kV·v", "kA·a")
+DRIVES = {"slow ramp": 6.0, "sudden step": 0.6, "there and back": 3.0}  # and how long [s]
+
+
+def voltage(which: str, time: np.ndarray) -> np.ndarray:
+    """The voltage of a drive at each time."""
+    if which == "slow ramp":
+        return 0.5 * time
+    if which == "sudden step":
+        return np.where(time < 0.1, 0.0, 3.5)
+    return np.select([time < 1.0, time < 1.5, time < 2.5], [5.0, 0.0, -3.0], 0.0)
+
+
+def spent(which: str, mass: float, friction: float) -> tuple[np.ndarray, dict, np.ndarray]:
+    """Time, the three terms, and the applied voltage of a drive."""
+    price = replace(drivetrain, load=mass, friction=friction).gains
+    time = np.arange(0.0, DRIVES[which], FINE)
+    applied = voltage(which, time)
+    _, v = motion(price, time=time, voltage=applied)
+    a = np.append(np.diff(v) / FINE, 0.0)
+    shares = (price["kS"] * np.sign(v), price["kV"] * v, price["kA"] * a)
+    return time, dict(zip(TERMS, shares, strict=True)), applied
+
+
+def voltage_budget(drive: str, mass: float, friction: float, look: float) -> Picture:
+    """Where the volts of a drive go; ``look`` is a moment, as a share of the drive."""
+    time, terms, applied = spent(drive, mass, friction)
+    moment = round(look * float(time[-1]), 2)
+    return budget(time, terms, applied=applied, moment=moment)
+
+
+live(
+    voltage_budget,
+    drive=widgets.Dropdown(options=list(DRIVES), description="drive"),
+    mass=widgets.FloatSlider(
+        min=20, max=80, step=5, value=60, description="mass [kg]", continuous_update=False
+    ),
+    friction=widgets.FloatSlider(
+        min=0.05, max=1.0, step=0.05, value=0.15, description="kS [V]", continuous_update=False
+    ),
+    look=widgets.FloatSlider(
+        min=0, max=1, step=0.01, value=0.5, description="look at", continuous_update=False
+    ),
+)
+
+# %% [markdown]
+# No menu on your screen? Change the words and numbers here:
+
+# %%
+voltage_budget("sudden step", mass=60.0, friction=0.15, look=0.2)
+
+# %%
+voltage_budget("there and back", mass=60.0, friction=0.15, look=0.4)
+
+# %%
+rows = []
+for words, name, when in (
+    ("right after the sudden step", "sudden step", 0.105),
+    ("half a second after it", "sudden step", 0.595),
+    ("halfway through the slow ramp", "slow ramp", 3.0),
+):
+    time, terms, applied = spent(name, 60.0, 0.15)
+    here = round(when / FINE)
+    volts = [float(one[here]) for one in terms.values()]
+    rows.append((words, *volts, float(applied[here])))
+print(f"You said: {guess_step} after the step, {guess_ramp} in the ramp.")
+Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tuple(rows))
+
+# %% [markdown]
+# ### Explain
+#
+# - **Sudden step.** At first there is no speed, so nearly everything goes into kA·a. As the robot
+#   gets faster, kV·v takes over, less is left, and the acceleration fades. That is why SysId needs
+#   this test: **only here does kA take many volts.**
+# - **Slow ramp.** The acceleration is small all along. What is left are kS and kV·v: this test
+#   tells **kS and kV**.
+# - **The gap at the start of the ramp.** Up to kS, nothing moves, and the stack is empty. Friction
+#   then takes whatever voltage there is, and its price is not reached yet.
+# - **There and back.** When the voltage drops to 0 V, kA·a hangs below the line: the robot pays for
+#   friction and speed out of its own motion, and gets slower.
+#
+# Make the robot heavy, then light. Which area changes? Then turn up kS.
+#
+# > **Lesson says:** in the quasistatic test, kS "shows up as the initial voltage intercept before
+# > velocity develops".
+# >
+# > **Source says:** nearly. kS is what it takes "to just barely get it moving", as WPILib puts it.
+# > But a ramp never stops accelerating altogether, so a thin strip of kA·a is in there, too.
+# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > **Try it:** how many volts does kA·a still take halfway through the slow ramp? The table above
+# > has the number. Lesson 3 shows what it does to a kS that is read off a line.
+
+# %% [markdown]
+# ## 4 Where the prices come from
+#
+# An electric motor does three things, and each is a simple product:
+#
+# 1. **It pushes back.** A motor that turns is also a generator. It makes a voltage against the one
+#    you apply, in step with its speed ω: **Ke·ω**. This is called *back-EMF*.
+# 2. **What is left drives a current** through the winding's resistance R: I = (V − Ke·ω) / R.
+# 3. **The current makes torque**: T = Kt·I.
+#
+# Gears of ratio G and a wheel of radius r turn the torque of n motors into a force, n·G·T/r. Part
+# of that force works against friction, the rest moves the mass m:
+#
+# > n·G·Kt·I / r = friction + m·a
+#
+# Put the three together, with ω = G·v/r, and solve for V:
+# > V = R·r/(n·G·Kt) · friction + Ke·G/r · v + R·r·m/(n·G·Kt) · a
+#
+# That *is* the model. Compare term by term:
+#
+# | gain | is | so it depends on |
+# |---|---|---|
+# | kS | R·r/(n·G·Kt) · friction | friction, motors, gears, wheel |
+# | kV | Ke·G/r | the kind of motor, gears, wheel |
+# | kA | R·r·m/(n·G·Kt) | mass, motors, gears, wheel |
+#
+# Look for the mass. It stands in kA and nowhere else: that is what you saw in week 3 of lesson 0.
+#
+# (Simplified: we leave out what turns along (rotors, gears, wheels), which adds a few percent to
+# kA, and losses in the gears.)
+#
+# Does it hold? By hand, from the data of the motor, against a log of the bench:
+
+# %%
+kraken = drivetrain.motor
+G, r, n, m = drivetrain.ratio, drivetrain.radius, drivetrain.motor_count, drivetrain.load
+volts_per_newton = kraken.resistance * r / (n * G * kraken.torque_constant)
+by_hand = {"kV": kraken.back_emf * G / r, "kA": volts_per_newton * m}
+
+log = simulate(drivetrain, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(1))
+measured = fit(log, method="sysid").gains
+print(f"R = {1000 * kraken.resistance:.1f} mΩ   Ke = {kraken.back_emf:.5f} V·s/rad")
+print(f"Kt = {kraken.torque_constant:.5f} N·m/A   G = {G}   r = {r} m   n = {n}   m = {m:g} kg")
+Table(
+    ("gain", "by hand", "from the log", "unit"),
+    (
+        ("kV", by_hand["kV"], measured["kV"], "V·s/m"),
+        ("kA", by_hand["kA"], measured["kA"], "V·s²/m"),
+    ),
+)
+
+# %% [markdown]
+# kS cannot be computed by hand: no data sheet knows your friction. It has to be measured.
+#
+# Now build another robot. **Predict:**
+
+# %%
+guess_gears = Guess(
+    "You swap the 6.75:1 gears for slower ones, 8.14:1. What happens to kV and kA?",
+    "both grow",
+    "kV grows, kA shrinks",
+    "kV shrinks, kA grows",
+    "both shrink",
+)
+guess_gears
+
+# %%
+FRICTION = gains["kS"] / volts_per_newton  # [N] the force of friction, which stays as it is
+
+
+def built(mass: float, ratio: float, motors: int, wheel: float) -> dict[str, float]:
+    """The gains of a drivetrain from its parts; the wheel is a diameter in inches."""
+    radius = wheel * 0.0254 / 2
+    volts = kraken.resistance * radius / (motors * ratio * kraken.torque_constant)
+    return {"kS": volts * FRICTION, "kV": kraken.back_emf * ratio / radius, "kA": volts * mass}
+
+
+def other_parts(mass: float, ratio: float, motors: int, wheel: float) -> Picture:
+    """The gains of another robot, divided by those of ours."""
+    now = built(mass, ratio, motors, wheel)
+    return change({name: now[name] / gains[name] for name in gains})
+
+
+live(
+    other_parts,
+    mass=widgets.FloatSlider(
+        min=20, max=80, step=1, value=60, description="mass [kg]", continuous_update=False
+    ),
+    ratio=widgets.Dropdown(options=[5.36, 6.75, 8.14], value=6.75, description="gears : 1"),
+    motors=widgets.Dropdown(options=[2, 4, 6], value=4, description="motors"),
+    wheel=widgets.Dropdown(options=[3.0, 4.0, 6.0], value=4.0, description="wheel [in]"),
+)
+
+# %% [markdown]
+# No menus on your screen? Change the numbers here:
+
+# %%
+other_parts(mass=60.0, ratio=8.14, motors=4, wheel=4.0)
+
+# %%
+others = {
+    "8.14:1 gears": built(60.0, 8.14, 4, 4.0),
+    "80 kg": built(80.0, 6.75, 4, 4.0),
+    "2 motors only": built(60.0, 6.75, 2, 4.0),
+    "3 inch wheels": built(60.0, 6.75, 4, 3.0),
+}
+print(f"You said: {guess_gears}.")
+Table(
+    ("change", "kS now ÷ before", "kV now ÷ before", "kA now ÷ before"),
+    tuple((name, *(now[gain] / gains[gain] for gain in gains)) for name, now in others.items()),
+)
+
+# %% [markdown]
+# Slower gears: the motor turns faster for each m/s, so speed costs **more** volts; but it has more
+# leverage, so pushing costs **fewer**. Half the motors: each has twice the load, kS and kA double,
+# and kV does not care.
+
+# %% [markdown]
+# ## 5 Is this kV possible?
+#
+# A data sheet gives the **free speed**: how fast the motor turns at 12 V with nothing to move. From
+# it comes the kV that you should expect:
+#
+# > kV on paper = 12 V / (free speed of the *mechanism*)
+#
+# The free speed of the motor is in rpm, before gears and wheel. So go one step at a time:
+
+# %%
+rpm = kraken.free_speed * 60 / (2 * math.pi)
+motor_turns = rpm / 60
+wheel_turns = motor_turns / G
+free_speed = wheel_turns * math.pi * 2 * r
+print(f"{rpm:.0f} rpm are {motor_turns:.2f} turns of the motor per second")
+print(f"... divided by the ratio {G}: {wheel_turns:.2f} turns of the wheel per second")
+print(f"... times the circumference {math.pi * 2 * r:.4f} m: {free_speed:.2f} m/s")
+print(f"kV on paper: 12 V / {free_speed:.2f} m/s = {12 / free_speed:.3f} V·s/m")
+
+# %% [markdown]
+# > **Lesson says:** "kV_theoretical = 12V ÷ free_speed_in_your_units."
+# >
+# > **Source says:** a good first check. Exactly, kV follows from the motor's own constant, which
+# > WPILib's `DCMotor` computes with the free current's small drop of voltage taken off. It comes
+# > out a little lower.
+# > ([WPILib Java docs: DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# > **Try it:** the last column says how much lower, for eight motors at 1:1. (FOC is a mode of the
+# > same Kraken, for which one buys a license. Its free speed is another one.)
+
+# %%
+NAMES = ["krakenX60", "krakenX60FOC", "krakenX44", "falcon500", "neo", "neoVortex", "minion", "cim"]
+TURN = 2 * math.pi  # [rad]
+rows = []
+for name in NAMES:
+    one = MOTORS[name]
+    paper, exact = theoretical_kv(one, ratio=1.0) * TURN, one.back_emf * TURN
+    lower = f"{100 * (1 - exact / paper):.1f} %"
+    rows.append((name, f"{one.free_speed * 60 / TURN:.0f}", paper, exact, lower))
+Table(
+    ("motor", "free speed [rpm]", "on paper [V·s/rot]", "exact [V·s/rot]", "lower by"), tuple(rows)
+)
+
+# %% [markdown]
+# ### Measured against paper
+#
+# A real kV lies a little **above** paper: grease and seals brake more, the faster they turn. Far
+# above means that something is wrong. And **below** paper? A motor does not turn faster than it
+# can. So somebody wrote down a wrong number.
+#
+# | measured kV | say | do |
+# |---|---|---|
+# | below paper | *bookkeeping* | find the wrong number |
+# | 0 to 8 % above | *ok* | nothing |
+# | 8 to 20 % above | *watch* | compare again next week |
+# | more than 20 % above | *inspect* | look before you test on |
+# (20 % is the source lesson's bound. The others are ours; they are rules of thumb, not laws. Data
+# sheets are rounded, so 1 or 2 % below paper proves nothing yet.)
+#
+# Here are seven robots. All have the same sound drivetrain, and all but the first have one thing
+# that is different. Which of them come out above 20 %?
+#
+# **Predict:**
+
+# %%
+guess_cause = Guess(
+    "Which of these can make kV much too large?",
+    "10 kg more on the robot",
+    "a part that rubs, with the same force at every speed",
+    "a belt that brakes more, the faster it runs",
+)
+guess_cause
+
+# %%
+sound = replace(drivetrain, drag=0.05)
+quick = sim.Routine(ramp=1.0, step=2.0)
+PAPER = 12 / free_speed
+
+
+def found(log: sim.Log) -> dict[str, float]:
+    """The gains of a log, by SysId's recipe."""
+    return fit(log, method="sysid").gains
+
+
+def seen(log: sim.Log, *, factor: float = 1.0, asked: bool = False) -> sim.Log:
+    """The same runs with another encoder factor, or with the voltage that was asked for."""
+    runs = []
+    for run in log.runs:
+        volts = 12 * run.voltage / run.bus_voltage if asked else run.voltage
+        position, velocity = factor * run.position, factor * run.velocity
+        runs.append(replace(run, voltage=volts, position=position, velocity=velocity))
+    return replace(log, runs=tuple(runs))
+
+
+def bench(robot: Mechanism, seed: int) -> sim.Log:
+    """The four tests of a robot."""
+    return simulate(robot, quick, rng=np.random.default_rng(seed))
+
+
+tired = Battery(rest=11.0, resistance=0.02)
+sagging = by_duty_cycle(sound, quick, battery=tired, rng=np.random.default_rng(6))
+STORIES = {
+    "sound": bench(sound, 1),
+    "10 kg more": bench(replace(sound, load=sound.load + 10), 2),
+    "a part that rubs": bench(replace(sound, friction=0.8), 3),
+    "a belt that is far too tight": bench(replace(sound, drag=0.30), 4),
+    "8.14 typed in, 6.75 built in": seen(bench(sound, 5), factor=6.75 / 8.14),
+    "diameter typed in as radius": seen(bench(sound, 7), factor=2.0),
+    "set(volts / 12), logs what was asked": seen(sagging, asked=True),
+}
+VERDICTS = {"bookkeeping": 0.0, "ok": 8.0, "watch": 20.0, "inspect": 40.0}
+
+
+def above(story: str) -> float:
+    """How far the measured kV is above paper [%]."""
+    return 100 * (found(STORIES[story])["kV"] / PAPER - 1)
+
+
+def verdict(story: str) -> Picture:
+    """Where the kV of a robot lies."""
+    marks = {story: above(story)}
+    return gauge(marks, VERDICTS, label="kV above paper [%]", good="ok", least=-20.0)
+
+
+live(
+    verdict,
+    story=widgets.Dropdown(options=list(STORIES), description="robot", layout={"width": "25em"}),
+)
+
+# %% [markdown]
+# No menu on your screen? Change the name here:
+
+# %%
+verdict("a belt that is far too tight")
+
+# %%
+print(f"You said: {guess_cause}.")
+rows = []
+for story, one in STORIES.items():
+    got = found(one)
+    rows.append((story, got["kS"], got["kV"], got["kA"], f"{above(story):+.0f} %"))
+Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above paper"), tuple(rows))
+
+# %% [markdown]
+# ### Explain
+#
+# - **Mass** goes into kA. **Constant friction** goes into kS. Neither can touch kV.
+# - **What brakes more, the faster it turns**, adds to kV: a belt or chain that is too tight, a dry
+#   bearing, thick grease.
+# - **Wrong numbers** scale kV *and* kA by the same factor, and leave kS alone. That is their
+#   fingerprint.
+# - **A voltage that never arrived** makes the robot look slower than it is. `set(volts / 12)` gives
+#   a share of the battery. A battery of 11 V gives 11/12 of what the log says, and less as soon as
+#   it has to work. Look at that row's kS and kA: all three gains are off.
+#
+# When kV is more than 20 % above paper, look where looking costs least:
+#
+# 1. **Numbers** (at a desk): gear ratio, wheel, units, the kind of motor.
+# 2. **Electrical** (in the log): was it the voltage that reached the motors? Are all motors
+#    powered? One that is not is dragged along.
+# 3. **Mechanical** (with a wrench): belt, chain, bearings, grease. Turn it by hand. Is it hot after
+#    a test?
+#
+# ### Audit the source lesson
+#
+# You can now check numbers that somebody else wrote. The source lesson gives a drivetrain:
+#
+# > **Lesson says:** "kV = 2.68", "GEAR_RATIO = 8.46" and a wheel of "4 in", with TalonFX motors.
+# >
+# > **Source says:** the free speeds of the motors that a TalonFX can be (the table above, which is
+# > WPILib's own).
+# > ([WPILib Java docs: DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# >
+# > **Try it:** which of these motors could have been in that robot?
+
+# %%
+rows = []
+for name in ("falcon500", "krakenX60", "krakenX44"):
+    paper = theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
+    rows.append((name, paper, f"{100 * (2.68 / paper - 1):+.0f} %"))
+Table(("motor", "kV on paper [V·s/m]", "2.68 is above paper by"), tuple(rows))
+
+# %% [markdown]
+# Two of them would have to turn faster than they can. Either that robot had the third one, or its
+# ratio is not the one that stands beside it. There it is only an example. In your own constants
+# file it would be a *bookkeeping* error, found without touching the robot.
+
+# %% [markdown]
+# ## 6 How fast is it: τ = kA/kV
+#
+# Divide kA by kV and look at the units: V·s²/m over V·s/m leaves **seconds**. This time is called
+# the **time constant**, τ ("tau"). SysId's window shows it as *Response Timescale*, in
+# milliseconds.
+#
+# After a step of voltage, the velocity does not rise in a straight line. It rises fast, then slower
+# and slower: in each τ it covers 63 % of what is still missing. (The curve is called
+# *exponential*.)
+
+# %%
+KINDS = ["drivetrain", "shooter", "intake", "turret"]
+
+
+def tau(kind: str) -> float:
+    """The time constant of a mechanism [s]."""
+    return MECHANISMS[kind].gains["kA"] / MECHANISMS[kind].gains["kV"]
+
+
+def rise(kind: str) -> Picture:
+    """How a mechanism gets up to speed after a step of 4 V."""
+    time = np.round(np.linspace(0.0, 5 * tau(kind), 251), 4)
+    price = MECHANISMS[kind].gains
+    _, velocity = motion(price, time=time, voltage=np.full(time.size, 4.0))
+    share = 100 * velocity / ((4.0 - price["kS"]) / price["kV"])
+    return curves(
+        1000 * time,
+        {kind: share},
+        xlabel="time since the step [ms]",
+        ylabel="of its final speed [%]",
+        levels={"63 %": 63.2},
+        marked=(1000 * tau(kind), 63.2),
+    )
+
+
+live(rise, kind=widgets.Dropdown(options=KINDS, description="mechanism"))
+
+# %% [markdown]
+# No menu on your screen? Change the name here:
+
+# %%
+rise("shooter")
+
+# %%
+Table(
+    ("mechanism", "τ [ms]", "rows of 20 ms in one τ", "95 % after [ms]"),
+    tuple((kind, 1000 * tau(kind), tau(kind) / 0.02, 3000 * tau(kind)) for kind in KINDS),
+)
+
+# %% [markdown]
+# The third column matters. A robot program writes one row every 20 ms. If τ is only two or three
+# rows long, the log has hardly seen the robot speed up, and kA hangs on a few numbers. Then log
+# faster, or do not trust kA to the last digit. (Lesson 7 counts the rows.)
+
+# %% [markdown]
+# ## 7 kS: when to get a wrench
+#
+# A low kS means that the mechanism turns easily. A high one means friction: a bearing that sits
+# askew, a belt that is too tight, a screw that rubs. Do not just put a high kS into the code. The
+# feedforward would then *hide* what is wearing out.
+#
+# But what is high?
+#
+# > **Lesson says:** a kS "that's much higher than kV × typical velocity suggests something is
+# > mechanically wrong".
+# >
+# > **Source says:** the units fit: kV·v is in volts, as kS is. WPILib calls kS the voltage to "just
+# > barely get it moving", and gives no bound. Compare for yourself what this one lets pass.
+# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# >
+# > **Try it:** how large may our drivetrain's kS get at 2 m/s before this flag goes up?
+
+# %%
+TYPICAL = 2.0  # [m/s] in a match
+flag = gains["kV"] * TYPICAL
+print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The flag goes up above that: {100 * flag / 12:.0f} %")
+print(f"of a 12 V battery, for friction alone. Ours has {gains['kS']:.2f} V.")
+
+# %% [markdown]
+# So it is a flag for emergencies: **stop now**. It is a good one, only very late. Put a second one
+# in front of it, **watch**: above 0.5 V, which is about 4 % of 12 V. (That number is our rule of
+# thumb. Some healthy mechanisms with much gearing are above it.)
+#
+# And two flags need no number at all:
+#
+# - **kS has grown since last week.** Write it down each time.
+# - **Left and right differ.** They are built the same, so they should feel the same.
+
+
+# %%
+def red_flag(left: float, right: float, typical: float) -> Picture:
+    """Where the kS of both sides lies, for a typical speed [m/s]."""
+    bands = {"fine": 0.5, "watch": gains["kV"] * typical, "stop": gains["kV"] * typical + 1.0}
+    return gauge({"left": left, "right": right}, bands, label="kS [V]", good="fine")
+
+
+live(
+    red_flag,
+    left=widgets.FloatSlider(
+        min=0, max=4, step=0.05, value=0.15, description="left [V]", continuous_update=False
+    ),
+    right=widgets.FloatSlider(
+        min=0, max=4, step=0.05, value=0.45, description="right [V]", continuous_update=False
+    ),
+    typical=widgets.FloatSlider(
+        min=0.5, max=3, step=0.1, value=1.0, description="typical m/s", continuous_update=False
+    ),
+)
+
+# %% [markdown]
+# No sliders on your screen? Change the numbers here. Both sides are *fine* in this example. Would
+# you leave it at that?
+
+# %%
+red_flag(left=0.15, right=0.45, typical=1.0)
+
+# %% [markdown]
+# No. The right side has three times the friction of the left. The gauge does not see it, because it
+# looks at one side at a time. You do.
+
+# %% [markdown]
+# ## 8 Units: per rotation, per radian, per meter
+#
+# A full turn is 1 rotation, or 2π = 6.28 radians, or 360 degrees. The wheel does not care how you
+# count, but the numbers do.
+#
+# **Predict:**
+
+# %%
+shooter = MECHANISMS["shooter"].gains
+per_rotation = shooter["kV"] * TURN
+guess_unit = Guess(
+    f"A shooter has kV = {per_rotation:.3f} V·s/rot. What is it in V·s/rad?",
+    "6.28 times larger",
+    "the same",
+    "6.28 times smaller",
+)
+guess_unit
+
+# %%
+print(f"You said: {guess_unit}.")
+rows = [
+    (name, f"{speed:.1f}", per_rotation * 50.0 / speed, per_rotation * 50.0)
+    for name, speed in (
+        ("rot/s", 50.0),
+        ("rad/s", 50.0 * TURN),
+        ("deg/s", 50.0 * 360.0),
+        ("rpm", 50.0 * 60.0),
+    )
+]
+Table(
+    ("counted in", "one and the same speed", "kV, volts for each of these", "kV·v [V]"), tuple(rows)
+)
+
+# %% [markdown]
+# One and the same speed must cost the same volts: look at the last column. 50 rot/s are many more
+# rad/s, so each single rad/s must be cheaper. **The number of the speed grows, the gain shrinks, by
+# the same factor.**
+#
+# - from V·s/rot to V·s/rad: **divide** by 2π. kA likewise. kS has no distance in it, and stays.
+# - from V·s/rot of a wheel to V·s/m: divide by its circumference.
+#
+# Two traps:
+#
+# - WPILib's `Units.rotationsToRadians(x)` *multiplies* by 2π. It is made for positions and speeds.
+#   Use it on a **gain**, and the gain goes the wrong way: off by 2π twice.
+# - kV and the velocity that you hand to the feedforward must be in the **same** unit. The code does
+#   not notice if they are not. The motor does.
+
+# %%
+per_radian = per_rotation / TURN
+wrong = per_rotation * TURN
+wheel = 4 * 0.0254  # [m] a 4 inch wheel
+print(f"right:  {per_rotation:.4f} V·s/rot / 2π = {per_radian:.5f} V·s/rad")
+print(f"wrong:  {per_rotation:.4f} · 2π = {wrong:.4f}: too large by {wrong / per_radian:.1f} times")
+print(f"A wheel with kV = 0.8 V·s/rot and 4 in: {0.8 / (math.pi * wheel):.3f} V·s/m")
+
+# %% [markdown]
+# ## 9 System check
+#
+# Before you believe a set of gains, yours or anybody's:
+#
+# - [ ] Each gain has its **unit** written beside it.
+# - [ ] kV is positive, and between 0 and 8 % above paper. If not, you know why.
+# - [ ] kS is below 0.5 V, the same left and right, and the same as last week.
+# - [ ] kA/kV in milliseconds sounds like the mechanism: tens for what is light, hundreds for what
+#   is heavy on its motors.
+# - [ ] The velocity that goes into the feedforward counts in the unit of kV.
+#
+# ## 10 Knowledge check
+#
+# **1.** A mechanism has kS = 0.2 V and kV = 3.4 V·s/m. It moves at a steady 2 m/s on 7 V. Where do
+# the volts go?
+#
+# <details><summary>Answer</summary>
+#
+# 0.2 V into friction, 3.4 · 2 = 6.8 V into speed, and nothing into acceleration: at a steady speed
+# there is none.
+# </details>
+#
+# **2.** Convert kV = 0.12 V·s/rot into V·s/rad.
+#
+# <details><summary>Answer</summary>
+#
+# Divide by 2π: 0.12 / 6.283 = 0.0191 V·s/rad. A rad/s is a small speed, and costs little.
+# </details>
+#
+# **3.** A drivetrain's kV is 25 % above paper. A teammate says: "It is the new bumpers, they are
+# heavy." What do you say, and where do you look first?
+#
+# <details><summary>Answer</summary>
+#
+# Mass goes into kA; it cannot touch kV. First the numbers: gear ratio, wheel, units, kind of motor.
+# Then the log: is it the voltage that reached the motors? Then belts and bearings.
+# </details>
+#
+# **4.** Another one's kV is 15 % *below* paper. "Great, our robot is better than theory." Is it?
+#
+# <details><summary>Answer</summary>
+#
+# No. A motor does not turn faster than its free speed at 12 V. A number is wrong: ratio, wheel,
+# unit, or the motor is another one.
+# </details>
+#
+# **5.** Last week the left side had kS = 0.15 V, today it has 0.40 V. Typical speed times kV is 5
+# V. Is it fine?
+#
+# <details><summary>Answer</summary>
+#
+# The gauge says so, and it is not. It has more than doubled in a week. Compare with the right side,
+# and look for what drags.
+# </details>
+#
+# **6.** An intake has τ = 15 ms, and the robot logs every 20 ms. What does that mean for kA?
+#
+# <details><summary>Answer</summary>
+#
+# It is nearly up to speed before the second row is written. The log has hardly seen it accelerate,
+# so kA is uncertain. kV is not affected. Log faster.
+# </details>
+
+# %% [markdown]
+# ## 11 Practice
+#
+# **Exercise 1: voltage budget** (`exercises/exercise1/README.md`). Your own mechanism, four
+# moments. Section 2 of this lesson has the worked table, section 8 the units. In a terminal:
+#
+# ```
+# grade exercise1
+# ```
+#
+# or in a notebook, with your own numbers in place of the dots:
+#
+# ```python
+# from grader import submit
+# submit("exercise1", forward=..., accelerating=..., braking=..., backward=...)
+# submit("exercise1", kV_unit="...", largest="...")
+# ```
+#
+# **Exercise 2: kV against theory** (`exercises/exercise2/README.md`). A team, a log, and something
+# that may be wrong. Section 5 is what you need, and section 7 for its kS.
+#
+# ```
+# grade exercise2
+# ```
+#
+# Hints cost nothing: `grade exercise1 --hint`. You may grade as often as you like.
+#
+# **On your own robot:** compute its kV on paper, today. Write it into your constants file as a
+# comment, so that whoever measures it later has something to compare with.
+#
+# **More, if you like.**
+#
+# - Find the drive in section 3 in which kA·a gives back the most volts.
+# - How heavy would our drivetrain have to be for a τ of 200 ms?
+# - Look up your robot's motors in `sim/motors.py`. Is its free speed that of the data sheet?
+#
+# Next: lesson 2, gravity.
