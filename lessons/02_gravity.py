@@ -221,14 +221,14 @@ window_picture(1.5)
 
 # %%
 rows = [
-    (name, volts, volts - truth["kG"], (volts - truth["kG"]) / truth["kV"])
+    (name, volts, round(volts - truth["kG"], 3), round((volts - truth["kG"]) / truth["kV"], 3))
     for name, volts in recipes.items()
 ]
 print(f"half the width: {(not_rising - not_falling) / 2:.3f} V. True kS: {truth['kS']:.3f} V.")
 Table(
-    ("recipe", "taken for kG [V]", "too much [V]", "so it moves faster than asked by [m/s]"),
+    ("recipe", "taken for kG [V]", "too much [V]", "speed, upward too much by [m/s]"),
     tuple(rows),
-    caption=f"True kG: {truth['kG']:.3f} V. Minus: too little, or slower.",
+    caption=f"True kG: {truth['kG']:.3f} V. Minus: too little, or downward.",
 )
 
 # %% [markdown]
@@ -288,7 +288,9 @@ guess_angle = Guess(
 guess_angle
 
 # %%
-cosines = [(f"{angle}°", float(np.cos(np.radians(angle)))) for angle in (0, 30, 45, 60, 90, 120)]
+cosines = [
+    (f"{angle}°", round(float(np.cos(np.radians(angle))), 3)) for angle in (0, 30, 45, 60, 90, 120)
+]
 print(f"You said: {guess_angle}.")
 print(f"np.cos(60) = {np.cos(60):.3f}. Careful: NumPy, Java and C++ count angles in radians.")
 Table(("angle from level", "share of kG"), tuple(cosines))
@@ -462,11 +464,14 @@ print(f"You said: {guess_type}.")
 Table(("log", "kS [V]", "kV", "kA", "kG [V]"), tuple(rows))
 
 # %% [markdown]
-# With the right type, all four gains are close to the truth. Read as Simple, the elevator's gains
-# are nonsense: kV is negative. The model has no term that is the same up and down, so the fit bends
-# the others. (Our `sysid fit` prints doubts about such gains.)
+# With the right type, the gains are close to the truth. (kS is the furthest off. It usually is.)
+# Read as Simple, the elevator's gains are nonsense: kV is negative. The model has no term that is
+# the same up and down, so the fit bends the others. (Our `sysid fit` prints doubts about such
+# gains.)
 #
-# The last row is the gentle case. A drivetrain that is read as Elevator only finds a kG near 0.
+# The arm that is read as Elevator is worse. Every gain is positive and looks possible, and every
+# one is wrong. The last row is the gentle case: a drivetrain that is read as Elevator only finds a
+# kG near 0.
 #
 # > **Lesson says:** "The DC motor model fitted by SysId does not include a gravity compensation
 # > term. For arms and elevators, kG must be determined separately".
@@ -484,7 +489,8 @@ Table(("log", "kS [V]", "kV", "kA", "kG [V]"), tuple(rows))
 # Look at it every time. In this course: `sysid fit log.wpilog --type elevator`.
 #
 # **Why does an arm's log need the position?** Velocity and voltage are enough for the other types.
-# An arm's gravity depends on the angle, so its fit needs the angle of every row.
+# An arm's gravity depends on the angle, so its fit needs the angle of every row. (SysId's
+# window asks for a position in any case.)
 
 # %% [markdown]
 # ## 6 Only up: two gains become one
