@@ -27,6 +27,7 @@ INSTALLED = "SYSID_COURSE_INSTALLED"  # the same for an installation that does n
 SIZE, SIZE_TO_TEST = "750 MB", "1.1 GB"  # on the disk, measured on Linux
 LAST = 6  # lines of pip's complaint that are worth reading
 COULD_NOT = 2
+EVERYTHING = ("-n", "logical", "--dist", "loadscope")  # all tests, a file at a time on each core
 
 
 def main(arguments: list[str]) -> int:
@@ -99,7 +100,7 @@ def in_environment() -> bool:
 def _go(arguments: list[str]) -> int:
     """Everything is there: run the command itself."""
     if arguments[:1] == ["test"]:
-        command = [sys.executable, "-m", "pytest", *arguments[1:]]
+        command = [sys.executable, "-m", "pytest", *(arguments[1:] or EVERYTHING)]
         return run(command, cwd=ROOT)
     from grader.cli import run as grade  # noqa: PLC0415 - needs what may not be installed yet
 

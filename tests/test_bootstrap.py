@@ -101,6 +101,14 @@ def test_test_runs_the_tests_in_the_project(world):
     assert cwd == world.root
 
 
+def test_all_tests_run_on_all_cores(world):
+    world.missing, world.code = [], 0
+
+    assert bootstrap.main(["test"]) == 0
+    (command, *_), *_ = world.foreground
+    assert command[2:] == ["pytest", "-n", "logical", "--dist", "loadscope"]
+
+
 def test_a_fresh_clone_gets_an_environment_and_goes_on_in_it(world, capsys):
     world.code = 1
 
