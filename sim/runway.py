@@ -106,7 +106,7 @@ def drive(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floor) ->
     if test not in routine.tests or not test.endswith("-forward"):
         forward = ", ".join(one for one in routine.tests if one.endswith("-forward"))
         raise BadRequest(f"{test!r} on a runway", advice=f"Choose one of: {forward}.")
-    asked = np.arange(0.0, min(routine.timeout, floor.watched), PERIOD)
+    asked = np.arange(0.0, min(routine.timeout, floor.watched) + PERIOD / 2, PERIOD)
     track = move(
         mechanism.model,
         time=asked,
@@ -130,18 +130,18 @@ def drive(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floor) ->
         np.minimum(position[:end], floor.wall),
         velocity[:end],
         battery[:end],
-        released=PERIOD * on,
+        released=PERIOD * (on - 1),
         hit=float(time[end - 1]) if beyond.size else None,
         brownout=mechanism.brownout,
     )
 
 
 def _until_released(position: Array, floor: Floor) -> int:
-    """How many loops the motors are on."""
+    """How many samples there are until the motors are off, that moment among them."""
     passed = np.flatnonzero(position >= floor.tape) if floor.tape is not None else np.array([])
     if not passed.size:
         return position.size
-    return min(int(passed[0]) + round(floor.thumb / PERIOD), position.size)
+    return min(int(passed[0]) + round(floor.thumb / PERIOD) + 1, position.size)
 
 
 def _braked(

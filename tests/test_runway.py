@@ -27,7 +27,7 @@ def gone(test, **floor):
 def test_a_slow_ramp_goes_as_far_as_the_formula_says():
     """With kS 0.15 V, kV 2.52 V·s/m, kA/kV 76 ms: 0.5·(9.7 - 0.076)²/(2·2.52)."""
     went = drive(ROBOT, sim.Routine(ramp=0.5), test=RAMP, floor=Floor(wall=50.0))
-    off = int(np.argmax(went.time >= went.released - PERIOD))
+    off = int(np.argmax(went.time >= went.released - PERIOD / 2))
 
     assert went.released == pytest.approx(10.0)
     assert went.position[off] == pytest.approx(0.5 * 9.624**2 / (2 * 2.524), rel=0.02)
@@ -37,7 +37,7 @@ def test_the_motors_are_off_a_thumb_after_the_tape():
     went = gone(RAMP, wall=12.0, tape=7.0, thumb=0.3)
     passed = went.time[np.argmax(went.position >= 7.0)]
 
-    assert went.released - passed == pytest.approx(0.3, abs=1.5 * PERIOD)
+    assert went.released - passed == pytest.approx(0.3)
     assert 7.0 < went.rests < 12.0
     assert went.hit is None
 
@@ -126,3 +126,12 @@ def test_the_moment_moves_the_robot():
     assert runway(went, moment=0.2).svg != runway(went, moment=0.8).svg
     with pytest.raises(BadRequest, match="Choose 0"):
         runway(went, moment=math.pi)
+
+
+def test_what_braking_takes_is_no_less_than_the_carpet_asks_for():
+    went = gone(RAMP, wall=12.0, tape=7.0)
+    off = int(np.argmax(went.time >= went.released - PERIOD / 2))
+    speed = went.velocity[off]
+
+    assert speed == went.velocity.max()
+    assert went.rests - went.position[off] > 0.97 * speed**2 / (2 * 1.1 * 9.81)
