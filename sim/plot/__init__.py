@@ -16,11 +16,13 @@ from sim.plot.charts import choices, curves, misses
 from sim.plot.chase import chase, miss
 from sim.plot.clock import timesteps
 from sim.plot.ellipse import ellipses, information_map
+from sim.plot.gap_bars import gap_bars
 from sim.plot.gauge import gauge
 from sim.plot.hold import hold_angles, hold_window
 from sim.plot.live import live
 from sim.plot.logs import time_series
 from sim.plot.marks import heat, spread
+from sim.plot.microscope import microscope, views
 from sim.plot.picture import Picture
 from sim.plot.ramp import Line, voltage_velocity
 from sim.plot.runway import runway
@@ -38,12 +40,14 @@ __all__ = [
     "choices",
     "curves",
     "ellipses",
+    "gap_bars",
     "gauge",
     "heat",
     "hold_angles",
     "hold_window",
     "information_map",
     "live",
+    "microscope",
     "miss",
     "misses",
     "runway",
@@ -51,5 +55,6 @@ __all__ = [
     "time_series",
     "timesteps",
     "velocity_time",
+    "views",
     "voltage_velocity",
 ]

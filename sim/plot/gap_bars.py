@@ -1,0 +1,64 @@
+"""Bars of gaps: how far models miss logs, in times the noise, side by side for each log."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from sim.errors import BadRequest
+from sim.plot.picture import COLORS, INK, REFERENCE, Picture, legend, panels
+from sim.plot.table import Cell, Table, shown
+
+HATCHES = ("", "///", "..")  # a log each: color never speaks alone
+THICK = 0.8  # [rows] that the bars of one model take together
+
+
+def gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
+    """How far each model misses each log.
+
+    Args:
+        gaps: model -> log -> gap [times the noise]; every model has the same logs.
+
+    Raises:
+        BadRequest: there is no model or no log, or the models have different logs.
+    """
+    logs = tuple(next(iter(gaps.values()), {}))
+    if not logs or len(logs) > len(HATCHES) or any(tuple(one) != logs for one in gaps.values()):
+        raise BadRequest(
+            "every model needs a gap for each log",
+            advice=f"Give each the same logs, at most {len(HATCHES)}.",
+        )
+    figure, ((axes,),) = panels(1, 1, height=1.2 + 0.24 * len(gaps) * len(logs))
+    size = THICK / len(logs)
+    for number, log in enumerate(logs):
+        values = [one[log] for one in gaps.values()]
+        places = np.arange(len(gaps)) + (number - 0.5 * (len(logs) - 1)) * size
+        axes.barh(
+            places, values, height=0.9 * size, color=COLORS[number], hatch=HATCHES[number],
+            edgecolor=INK, linewidth=0.5, label=log,
+        )  # fmt: skip
+        for place, value in zip(places, values, strict=True):
+            axes.annotate(
+                shown(float(value)), (value, place), xytext=(4, 0), textcoords="offset points",
+                va="center", fontsize=8, color=INK,
+            )  # fmt: skip
+    axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2, label="the noise")
+    axes.set_yticks(range(len(gaps)), list(gaps))
+    axes.set_ylim(len(gaps) - 0.5, -0.5)
+    axes.set_xlim(0.0, 1.12 * max(2.0, *(value for one in gaps.values() for value in one.values())))
+    axes.set_xlabel("gap [times the noise]", color=INK)
+    axes.grid(visible=False, axis="y")
+    axes.set_axisbelow(True)
+    legend(figure, (axes,), columns=4)
+    rows: list[tuple[Cell, ...]] = [
+        (model, *(one[log] for log in logs)) for model, one in gaps.items()
+    ]
+    told = "; ".join(
+        f"{model}: " + ", ".join(f"{log} {shown(one[log])}" for log in logs)
+        for model, one in gaps.items()
+    )
+    return Picture(
+        figure,
+        f"Bars show how far each model misses each log, in times the noise: {told}. A dashed line "
+        "marks the noise, 1.",
+        Table(("model", *(f"{log} [noises]" for log in logs)), tuple(rows)),
+    )

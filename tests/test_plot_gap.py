@@ -1,0 +1,107 @@
+"""The residual microscope, and bars of gaps."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from html_tags import Tags
+
+import sim
+from sim.duty_cycle import Battery, by_duty_cycle
+from sim.errors import BadRequest
+from sim.mechanisms import MECHANISMS
+from sim.model import Model
+from sim.plot import gap_bars, microscope, views
+from sim.plot.microscope import missing_volts
+from sim.replay import replay
+from sim.simulate import simulate
+
+DRIVETRAIN = MECHANISMS["drivetrain"]
+TRUTH = Model("simple", DRIVETRAIN.gains)
+ROUTINE = sim.Routine(
+    ramp=1.0, step=3.5, timeout=3.0, kinds=("quasistatic", "dynamic", "multistep")
+)
+TIRED = Battery(rest=12.2, resistance=0.035)
+HIDES = {  # what is hidden -> the side from which it is seen best
+    "velocity-filter": "time since the voltage jumped",
+    "asymmetric-friction": "direction",
+    "drag": "speed",
+}
+
+
+def simulated(log):
+    return [track.seen for track in replay(TRUTH, log)]
+
+
+def hiding(effect, *, noise=True):
+    robot = DRIVETRAIN.hiding(effect) if effect else DRIVETRAIN
+    if not noise:
+        robot = replace(robot, sensor=replace(robot.sensor, velocity_noise=0.0))
+    return simulate(robot, ROUTINE, rng=np.random.default_rng(1), electrical=True)
+
+
+@pytest.mark.parametrize("effect", HIDES)
+def test_each_effect_is_seen_best_from_its_own_side(effect):
+    log = hiding(effect)
+    found = views(log, simulated(log), TRUTH.gains)
+    assert max(found, key=lambda name: found[name].explains) == HIDES[effect]
+
+
+def test_a_battery_that_gives_way_is_seen_best_over_its_voltage():
+    hard = replace(ROUTINE, step=5.0)
+    log = by_duty_cycle(DRIVETRAIN, hard, battery=TIRED, rng=np.random.default_rng(1))
+    asked = replace(
+        log, runs=tuple(replace(r, voltage=12.0 * r.voltage / r.bus_voltage) for r in log.runs)
+    )
+    found = views(asked, simulated(asked), TRUTH.gains)
+    assert max(found, key=lambda name: found[name].explains) == "battery voltage"
+    lowest = found["battery voltage"].mean
+    assert lowest[np.isfinite(lowest)][0] < -0.2  # [V] the robot got less than the log says
+
+
+def test_nothing_is_seen_where_nothing_is_missing():
+    log = hiding("")
+    found = views(log, simulated(log), TRUTH.gains)
+    assert all(view.explains < 0.1 for view in found.values())
+
+
+def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
+    log = hiding("asymmetric-friction", noise=False)
+    (lean,) = DRIVETRAIN.hiding("asymmetric-friction").hidden[0].parameters.values()
+    ramp = log.of("quasistatic-forward")[0]
+    lacks = missing_volts(log, simulated(log), TRUTH.gains)[log.runs.index(ramp)]
+    fast = np.flatnonzero(ramp.velocity > 0.3)[:-1]
+    assert np.median(lacks[fast]) == pytest.approx(-lean, rel=0.05)
+
+
+def test_without_a_record_of_the_battery_there_are_three_sides():
+    log = simulate(DRIVETRAIN, ROUTINE, rng=np.random.default_rng(1))
+    assert "battery voltage" not in views(log, simulated(log), TRUTH.gains)
+    assert len(microscope(log, simulated(log), TRUTH.gains).table.rows) == 3
+
+
+def test_a_simulation_of_another_log_is_refused():
+    log = hiding("")
+    with pytest.raises(BadRequest, match="not of this log"):
+        views(log, simulated(log)[:-1], TRUTH.gains)
+
+
+def test_a_gap_bar_says_its_numbers():
+    picture = gap_bars({"base": {"log": 3.0, "held out": 12.0}, "+ x": {"log": 1, "held out": 2}})
+    assert "base: log 3.00, held out 12.0" in picture.alt
+    assert picture.table.rows[0] == ("base", 3.0, 12.0)
+
+
+@pytest.mark.parametrize("gaps", [{}, {"a": {}}, {"a": {"log": 1.0}, "b": {"other": 1.0}}])
+def test_gaps_of_different_logs_are_refused(gaps):
+    with pytest.raises(BadRequest, match="a gap for each log"):
+        gap_bars(gaps)
+
+
+def test_each_picture_has_words_and_a_table():
+    log = hiding("drag")
+    for picture in (microscope(log, simulated(log), TRUTH.gains), gap_bars({"a": {"log": 2.0}})):
+        (image,) = Tags(picture.html).all("img")
+        assert image["alt"] == picture.alt
+        assert len(picture.alt) > 40
+        assert picture.table.rows
