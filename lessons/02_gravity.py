@@ -99,10 +99,11 @@ guess_load = Guess(
 guess_load
 
 # %%
-heavy = replace(elevator, load=1.5 * elevator.load).gains
+TIMES = 1.5
+heavy = replace(elevator, load=TIMES * elevator.load).gains
 print(f"You said: {guess_load}.")
 Table(
-    ("gain", f"{elevator.load:.0f} kg", f"{1.5 * elevator.load:.0f} kg", "times"),
+    ("gain", f"{elevator.load:.0f} kg", f"{TIMES * elevator.load:.0f} kg", "times"),
     tuple((name, truth[name], heavy[name], heavy[name] / truth[name]) for name in truth),
 )
 
@@ -119,7 +120,7 @@ Table(
 # > kG is.
 # > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
-# > **Try it:** change the 1.5 above to 3. Which rows move?
+# > **Try it:** change `TIMES` above to 3. Which rows move?
 #
 # The advice to test with the load is still good: for kA and kG.
 #
@@ -221,7 +222,12 @@ window_picture(1.5)
 
 # %%
 rows = [
-    (name, volts, round(volts - truth["kG"], 3), round((volts - truth["kG"]) / truth["kV"], 3))
+    (
+        name,
+        volts,
+        round(volts - truth["kG"], 3) + 0.0,
+        round((volts - truth["kG"]) / truth["kV"], 3) + 0.0,
+    )
     for name, volts in recipes.items()
 ]
 print(f"half the width: {(not_rising - not_falling) / 2:.3f} V. True kS: {truth['kS']:.3f} V.")
@@ -556,7 +562,7 @@ def up_and(down_rows: int) -> Picture:
     used = {**forward, "quasistatic-reverse": down.where(slice(down_rows))}
     told = known(used, type="elevator", noise=noise_of(elevator)).about(*SIDES)
     return ellipses(
-        {f"up, and {down_rows} rows of down": told},
+        {f"up, rows of down: {down_rows}": told},
         names=("kS [V]", "kG [V]"),
         truth=(truth["kS"], truth["kG"]),
         reach=(0.25, 0.25),
@@ -635,9 +641,9 @@ print(f"The slow ramp up had {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.
 #
 # (In Python, `SimpleMotorFeedforward` is called `SimpleMotorFeedforwardMeters` or `…Radians`.)
 #
-# kG is the **second** argument, before kV. All four are plain numbers, so nothing warns you when
-# two of them trade places. And an `ArmFeedforward` wants the angle in **radians from level**:
-# correct the encoder's offset first.
+# kG is the **second** argument, before kV. In Java and Python all four are plain numbers, so
+# nothing warns you when two of them trade places. And an `ArmFeedforward` wants the angle in
+# **radians from level**: correct the encoder's offset first.
 # ([WPILib docs: Feedforward Control](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 #
 # ```java

@@ -307,9 +307,12 @@ def map_of(tests: list[str], pair: tuple[str, str]) -> Picture:
 SETS = {
     "1 ramp: quasistatic forward": ["quasistatic-forward"],
     "2 ramps": ["quasistatic-forward", "quasistatic-reverse"],
-    "2 ramps and 1 step": ["quasistatic-forward", "quasistatic-reverse", "dynamic-forward"],
+    "2 ramps and 1 step (no dynamic reverse)": [
+        "quasistatic-forward",
+        "quasistatic-reverse",
+        "dynamic-forward",
+    ],
     "all four": list(all_rows),
-    "no dynamic tests: 2 ramps": ["quasistatic-forward", "quasistatic-reverse"],
     "no ramps: 2 steps": ["dynamic-forward", "dynamic-reverse"],
     "forward only": ["quasistatic-forward", "dynamic-forward"],
 }
@@ -355,11 +358,11 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# - **Without steps** kA is poor, and drags kS along.
+# - **Without steps** (the row "2 ramps") kA is poor, and drags kS along.
 # - **Without ramps** all is lost. Under one constant voltage the rows have only one message: where
 #   the speed ends and how quickly. Two numbers for three unknowns.
-# - **Without one of the four** this drivetrain loses almost nothing. Forward and reverse are twins
-#   *here*, because the bench made them so.
+# - **Without the dynamic reverse** this drivetrain loses almost nothing. Forward and reverse are
+#   twins *here*, because the bench made them so.
 #
 # SysId insists on all four anyway:
 
@@ -508,8 +511,8 @@ Table(
 # is    above `V_slip = kS + kA·μ·g`, with the grip μ (about 1.1 on carpet; measure yours) and
 #    g = 9.81 m/s². When wheels spin, the encoder counts meters that the robot does not go.
 # 2. **Current.** At standstill a motor draws stall_current · step / 12 V. Above the controller's
-#    limit the voltage is cut, and the rise begins as a straight line. (Phoenix 6 limits a motor to
-#    120 A unless you change it.)
+#    limit the voltage is cut, and the rise begins as a straight line. (Phoenix 6 limits the
+#    current in a motor to 120 A unless you change it.)
 # 3. **Room.** The top speed is (step − kS)/kV, and your thumb needs its time.
 #
 # And from below: **signal.** SysId takes the acceleration from neighboring speeds, so it is noisy.
@@ -550,7 +553,7 @@ Table(
 # > ([allwpilib issue 7794](https://github.com/wpilibsuite/allwpilib/issues/7794))
 # >
 # > **Try it:** change the mass: `replace(drivetrain, load=30.0, …)`. Does a light robot slip
-# > earlier or later?
+# > earlier or later? (Look at kA in the formula.)
 #
 # On the bench the wheels never slip. Lesson 6 shows what slipping looks like in a log.
 
@@ -558,7 +561,7 @@ Table(
 # ## 8 Choose when to stop: mark and timeout
 #
 # Two things end a test: your thumb at a **mark** on the floor, and the **timeout**. The timeout is
-# for the day on which the thumb fails. Set it little longer than the test needs.
+# for the day on which the thumb fails. Set it a little longer than the test needs.
 #
 # Does a long dynamic test harm the fit? We cut the same step after different times:
 
@@ -607,8 +610,8 @@ Table(
 # ## 9 Plan one
 #
 # Now all together: the drivetrain, a room of your choice, a thumb that is 0.3 s late. The picture
-# shows where the robot is in both tests until it stands again; the table below it holds the rules
-# of exercise 6. Find a plan that keeps them all in a room of 4 m. Then try 2.5 m.
+# shows where the robot is in both tests until it stands again; the table below it holds
+# four of the rules of exercise 6. Find a plan that keeps them all in a room of 4 m. Then try 2.5 m.
 
 # %%
 REACTION = 0.3  # [s] from the mark to the thumb off the button
