@@ -38,7 +38,8 @@
 #
 # - **kS**: volts to overcome friction, as soon as it shall move at all;
 # - **kV**: volts for each m/s of velocity;
-# - **kA**: volts for each m/s² of acceleration, that is, for speeding up.
+# - **kA**: volts for each m/s² of acceleration. (An acceleration of 1 m/s² means: each second, the
+#   velocity grows by 1 m/s.)
 #
 # Lesson 1 explains where they come from. Today there is one question: **who chooses them?**
 #
@@ -64,7 +65,7 @@ from sim.fit import fit
 from sim.guess import Guess
 from sim.mechanism import Mechanism
 from sim.mechanisms import MECHANISMS
-from sim.plot import Picture, Table, chase, live, miss, misses
+from sim.plot import Picture, Table, chase, live, miss, misses, time_series
 from sim.simulate import motion, simulate
 
 # %% [markdown]
@@ -123,7 +124,8 @@ def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
 # **Round one: you.** You have **90 seconds**, and two knobs, kS and kV. kA stays at 0: two knobs
 # are hard enough. The clock starts when you move the first one. Make the colored line lie on the
 # black one. The number to beat stands in the table: the *typical miss*. (It is the "root mean
-# square" of all misses: an average in which large misses count more.)
+# square" of all misses: an average in which large misses count more.) Race first, and run the cells
+# below it afterwards.
 #
 # **Predict first.** Nobody grades this. Your guess is kept, and you will see it again below.
 # (No buttons on your screen? Type `guess_race.value = "the three lines"` in a cell.)
@@ -180,6 +182,13 @@ attempt(0.6, 1.5)
 log = simulate(robot, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(1))
 measured = fit(log, method="sysid").gains
 followed = drive(robot, measured)
+
+# %% [markdown]
+# This is what the log holds: two slow ramps and two sudden steps of the voltage, each forward and
+# backward. (Only the first second of the steps is drawn. Lesson 3 says why just these four.)
+
+# %%
+time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
 # And the finish:
@@ -329,6 +338,10 @@ Table(
 # >
 # > **Try it:** in the table of section 3, which row was made by which question?
 #
+# (You will see such boxes often. This course grew out of another lesson, the *source lesson*. Most
+# of it is right. Where it is not, or where it says less than it should, the box quotes it, shows
+# what the official documentation or the code says, and lets you try.)
+#
 # The two questions lead to different things:
 #
 # | | guessing | measuring |
@@ -469,6 +482,15 @@ Table(("where", "moves [kg]", "kV grows by", "kA grows by", "kG grows by"), tupl
 # %% [markdown]
 # (**kG** is the gain of gravity, for what moves up and down: lesson 2.)
 #
+# ### So, guess or measure?
+#
+# - For **kV**, and often for kS, a careful line by hand is as good as a fit. If that is all you
+#   need, take the pencil.
+# - For **kA**, and for **kG**, measuring wins. Nobody sees them in one steady speed.
+# - When **something changes**, measuring wins: it tells what has changed, and by how much.
+# - On a **damaged log**, measuring loses. A fit prints three neat numbers for nonsense, too. Lesson
+#   6 teaches you to see that coming.
+#
 # ## 7 What you get for it
 #
 # Good gains pay more than once, because other code builds on them.
@@ -501,7 +523,7 @@ greased = replace(wheel, drag=wheel.drag + 0.03)
 Table(
     ("gains", "reached [rpm]", "of 4000 rpm"),
     tuple(
-        (name, f"{rpm:.0f}", f"{100 * (rpm / 4000 - 1):+.1f} %")
+        (name, f"{rpm:.0f}", f"{100 * (rpm / 4000 - 1):+.0f} %")
         for name, rpm in (
             ("measured", reached(wheel, gains)),
             ("kV guessed 5 % too low", reached(wheel, gains | {"kV": 0.95 * gains["kV"]})),
@@ -555,7 +577,7 @@ Table(
 # From then on, every exercise gives *you* numbers that only you have: your own mechanism, your own
 # log, with your own damage in it. Your neighbor's answers are of no use to you, but you can compare
 # *how* you got there. The numbers lie in `exercises/exercise1/data/ada/given.toml`, and so on. In a
-# class, your teacher may hand them out.
+# class, your teacher may hand them out. (`NAME` at the top of this page is for the race only.)
 #
 # The next cell shows what is there for you:
 
@@ -634,8 +656,9 @@ else:
 #
 # <details><summary>Answer</summary>
 #
-# It tells how hard the robot is to speed up: its inertia. PathPlanner computes the robot's moment
-# of inertia from it. And a kA that jumps from one week to the next says that something was added.
+# It tells how hard the robot is to speed up. With a second kA, measured while turning, the formula
+# in PathPlanner's docs gives the robot's moment of inertia. And a kA that jumps from one week to
+# the next says that something was added.
 # </details>
 
 # %% [markdown]

@@ -249,18 +249,21 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # > **Source says:** nearly. kS is what it takes "to just barely get it moving", as WPILib puts it.
 # > But a ramp never stops accelerating altogether, so a thin strip of kA·a is in there, too.
 # > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# >
 # > **Try it:** how many volts does kA·a still take halfway through the slow ramp? The table above
 # > has the number. Lesson 3 shows what it does to a kS that is read off a line.
 
 # %% [markdown]
 # ## 4 Where the prices come from
 #
+# (If formulas tire you, read the three sentences and the table, and skip the rest.)
+#
 # An electric motor does three things, and each is a simple product:
 #
 # 1. **It pushes back.** A motor that turns is also a generator. It makes a voltage against the one
 #    you apply, in step with its speed ω: **Ke·ω**. This is called *back-EMF*.
 # 2. **What is left drives a current** through the winding's resistance R: I = (V − Ke·ω) / R.
-# 3. **The current makes torque**: T = Kt·I.
+# 3. **The current makes torque**, a turning force: T = Kt·I.
 #
 # Gears of ratio G and a wheel of radius r turn the torque of n motors into a force, n·G·T/r. Part
 # of that force works against friction, the rest moves the mass m:
@@ -268,6 +271,7 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # > n·G·Kt·I / r = friction + m·a
 #
 # Put the three together, with ω = G·v/r, and solve for V:
+#
 # > V = R·r/(n·G·Kt) · friction + Ke·G/r · v + R·r·m/(n·G·Kt) · a
 #
 # That *is* the model. Compare term by term:
@@ -340,9 +344,9 @@ live(
     mass=widgets.FloatSlider(
         min=20, max=80, step=1, value=60, description="mass [kg]", continuous_update=False
     ),
-    ratio=widgets.Dropdown(options=[5.36, 6.75, 8.14], value=6.75, description="gears : 1"),
-    motors=widgets.Dropdown(options=[2, 4, 6], value=4, description="motors"),
-    wheel=widgets.Dropdown(options=[3.0, 4.0, 6.0], value=4.0, description="wheel [in]"),
+    ratio=widgets.Dropdown(options=[6.75, 8.14, 5.36], description="gears : 1"),
+    motors=widgets.Dropdown(options=[4, 2, 6], description="motors"),
+    wheel=widgets.Dropdown(options=[4.0, 3.0, 6.0], description="wheel [in]"),
 )
 
 # %% [markdown]
@@ -396,6 +400,7 @@ print(f"kV on paper: 12 V / {free_speed:.2f} m/s = {12 / free_speed:.3f} V·s/m"
 # > WPILib's `DCMotor` computes with the free current's small drop of voltage taken off. It comes
 # > out a little lower.
 # > ([WPILib Java docs: DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# >
 # > **Try it:** the last column says how much lower, for eight motors at 1:1. (FOC is a mode of the
 # > same Kraken, for which one buys a license. Its free speed is another one.)
 
@@ -425,6 +430,7 @@ Table(
 # | 0 to 8 % above | *ok* | nothing |
 # | 8 to 20 % above | *watch* | compare again next week |
 # | more than 20 % above | *inspect* | look before you test on |
+#
 # (20 % is the source lesson's bound. The others are ours; they are rules of thumb, not laws. Data
 # sheets are rounded, so 1 or 2 % below paper proves nothing yet.)
 #
@@ -565,7 +571,7 @@ Table(("motor", "kV on paper [V·s/m]", "2.68 is above paper by"), tuple(rows))
 #
 # After a step of voltage, the velocity does not rise in a straight line. It rises fast, then slower
 # and slower: in each τ it covers 63 % of what is still missing. (The curve is called
-# *exponential*.)
+# *exponential*.) After 3 τ it is as good as there.
 
 # %%
 KINDS = ["drivetrain", "shooter", "intake", "turret"]
@@ -601,8 +607,13 @@ live(rise, kind=widgets.Dropdown(options=KINDS, description="mechanism"))
 rise("shooter")
 
 # %%
+wheel_time = np.arange(0.0, 3.0, 0.001)
+_, spun = motion(MECHANISMS["shooter"].gains, time=wheel_time, voltage=np.full(3000, 4.0))
+for count in (1, 2, 3):
+    share = np.interp(count * tau("shooter"), wheel_time, spun) / spun[-1]
+    print(f"The shooter after {count} τ: {100 * share:.0f} % of its final speed")
 Table(
-    ("mechanism", "τ [ms]", "rows of 20 ms in one τ", "95 % after [ms]"),
+    ("mechanism", "τ [ms]", "rows of 20 ms in one τ", "3 τ [ms]"),
     tuple((kind, 1000 * tau(kind), tau(kind) / 0.02, 3000 * tau(kind)) for kind in KINDS),
 )
 
