@@ -14,7 +14,7 @@ from grader.misconception import MISCONCEPTIONS
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise11", ROOT / "exercises" / "exercise11")
 QUESTIONS = OWN.module.QUESTIONS
-POINTS = 7 * 1 + 3 * (2 + 2) + 1 + 7 * (1 + 1)  # short questions, knowledge checks, voltage, table
+POINTS = 9 * 1 + 3 * (2 + 2) + 1 + 7 * (1 + 1)  # short questions, knowledge checks, voltage, table
 
 
 @pytest.fixture

@@ -94,6 +94,8 @@ q0_sysid = _question("Q0_sysid", "What somebody asks who runs SysId.", points=SI
 q0_brace = _question("Q0_brace", "The gain that a brace changes.", points=SINGLE)
 ka_use = _question("kA_use", "What a drivetrain's kA tells beside.", points=SINGLE)
 ks_flag = _question("kS_flag", "What to do about a kS that has grown.", points=SINGLE)
+step_shape = _question("step_shape", "What a long steady acceleration means.", points=SINGLE)
+step_length = _question("step_length", "What a longer dynamic test gives.", points=SINGLE)
 null_consumer = _question("null_consumer", "Where null sends the test's name.", points=SINGLE)
 schedule = _question("schedule", "When a team characterizes.", points=SINGLE)
 kc1_answer = _question("KC1_answer", "KC1: what happened when it lurched.", points=TIER)

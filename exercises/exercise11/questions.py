@@ -121,6 +121,68 @@ EVERYDAY = (
         ),
     ),
     Question(
+        "step_shape",
+        "A drivetrain gets 3.5 V at once, and keeps them. In the log its acceleration stays the "
+        "same for most of a second, and then falls. What do you look at first?",
+        (
+            Option("Did a current limit act, or did the wheels slip?", share=1.0),
+            Option(
+                "Nothing: under a constant voltage the acceleration is constant.",
+                "It would be if all the volts went into acceleration. The faster it goes, the more "
+                "of them kV·v takes. What is left for kA·a then?",
+                "M-CONST-ACCEL",
+            ),
+            Option(
+                "Whether kA is zero: nothing held it back.",
+                "Without kA it would be at its speed at once. This one took most of a second",
+            ),
+            Option(
+                "Whether the battery sagged as it got faster.",
+                "The current is largest at the start and gets smaller with speed. A sag would show "
+                "in the first moments, and get better",
+            ),
+            Option(
+                "Whether the encoder counts in other units.",
+                "Another unit makes every acceleration larger or smaller by one factor. The shape "
+                "of the curve stays as it is",
+                "M-UNITS",
+            ),
+        ),
+    ),
+    Question(
+        "step_length",
+        "A drivetrain has kA/kV = 0.08 s. Its dynamic test took 1 s. Somebody wants a better kA "
+        "and makes the test 5 s long. What comes of it?",
+        (
+            Option(
+                "Much more room is used, and kA is no better: that was told in the first moments.",
+                share=1.0,
+            ),
+            Option(
+                "Five times as many samples: kA gets clearly better.",
+                "Count those in which it still gets faster. After a few times kA/kV it hardly "
+                "does, and what does not accelerate says nothing of kA",
+                "M-LONG-DYN",
+            ),
+            Option(
+                "SysId can no longer find kA, since the acceleration is zero most of the time.",
+                "SysId drops what comes after 90 % of the top speed, and fits the beginning, which "
+                "is in a long test as well",
+                "M-LONG-DYN",
+            ),
+            Option(
+                "kA gets smaller, because the average acceleration is smaller.",
+                "Nobody takes an average: every sample has its own voltage, speed and "
+                "acceleration, and the sum of the terms has to fit for each",
+            ),
+            Option(
+                "kS gets better, because it moves for longer.",
+                "Friction is one of three terms here, and at one steady speed nothing tells kS "
+                "from kV·v. Which test is there for kS?",
+            ),
+        ),
+    ),
+    Question(
         "null_consumer",
         "The last argument of SysIdRoutine.Config is null. Where does the name of the running test "
         "go?",

@@ -9,6 +9,8 @@ CHOICES = {
     "Q0_brace": "kA",
     "kA_use": "It tells the robot's moment of inertia",
     "kS_flag": "Look for what drags",
+    "step_shape": "Did a current limit",
+    "step_length": "Much more room",
     "null_consumer": "Into the WPILog",
     "schedule": "In the last two weeks",
     "KC1_answer": "Something stuck",
