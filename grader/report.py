@@ -19,7 +19,7 @@ MARKS = {
 }
 SPOKEN = {"✓": "right", "✗": "not right yet", "–": "not looked at yet", "!": "our mistake"}
 INDENT = "    "
-ONCE = {"", "why  "}  # leads of what is said once, however many checks it stands under
+ONCE = {"", "why  ", "see  "}  # leads of what is said once, however many checks it stands under
 
 
 def to_json(grade: Grade) -> str:
@@ -118,8 +118,10 @@ def told_of(result: Result) -> list[tuple[str, str]]:
         return [("note ", result.hint)]
     if result.status is not Status.FAILED:
         return [("", result.seen)]
-    why = MISCONCEPTIONS.get(result.misconception, "")
-    return [("got  ", result.seen), ("try  ", result.hint), ("why  ", why)]
+    told = [("got  ", result.seen), ("try  ", result.hint)]
+    if known := MISCONCEPTIONS.get(result.misconception):
+        told += [("why  ", known.says), ("see  ", known.where)]
+    return told
 
 
 def _next_hint(exercise: str, shown: int) -> str:

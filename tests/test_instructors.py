@@ -58,9 +58,22 @@ def test_a_command_that_is_wrong_would_be_seen():
 
 
 def test_it_lists_the_misconceptions_the_examiner_names(text):
-    rows = dict(re.findall(r"^\| (M-[A-Z0-9-]+) \|[^|]*\| (.*) \|$", text, re.MULTILINE))
+    rows = re.findall(r"^\| (M-[A-Z0-9-]+) \|[^|]*\| (\d+) \| (.*) \|$", text, re.MULTILINE)
 
-    assert rows == MISCONCEPTIONS
+    assert rows == [
+        (code, str(int(one.lesson[:2])), one.says) for code, one in MISCONCEPTIONS.items()
+    ]
+
+
+@pytest.mark.parametrize("code", MISCONCEPTIONS)
+def test_every_misconception_points_to_a_section_that_is_there(root, code):
+    known = MISCONCEPTIONS[code]
+    lesson = root / "lessons" / f"{known.lesson}.py"
+    told = lesson.read_text(encoding="utf-8")
+    headings = re.findall(r"^# ##+ (?:\d+ )?(.+)$", told, re.MULTILINE)
+
+    assert known.section in headings
+    assert lesson.with_suffix(".ipynb").is_file()
 
 
 def test_every_exercise_has_a_place_in_the_plans(text, root):

@@ -83,7 +83,7 @@ def _of_class(results: Results) -> dict[str, Any]:
         "heat": heat(names, results.exercises, table).html,
         "spread": spread([_share(one, results) for one in results.students]).html,
         "misconceptions": [
-            {"code": code, "count": count, "says": MISCONCEPTIONS.get(code, "")}
+            {"code": code, "count": count, "says": _put_right(code)}
             for code, count in misconceptions(results.students)
         ],
         "fewest": FEWEST,
@@ -91,6 +91,12 @@ def _of_class(results: Results) -> dict[str, Any]:
         "exercises": [name.removeprefix("exercise") for name in results.exercises],
         "students": [_row(one, results) for one in results.students],
     }
+
+
+def _put_right(code: str) -> str:
+    """What puts a misconception right, and which lesson shows it; empty for a code of no list."""
+    known = MISCONCEPTIONS.get(code)
+    return f"{known.says} See {known.where}." if known else ""
 
 
 def _open(results: Results) -> list[dict[str, str]]:

@@ -12,6 +12,7 @@ def feedback(check: Mapping[str, Any]) -> str:
         return str(check["hint"])
     if check["status"] != "failed":
         return str(check["seen"])
-    why = MISCONCEPTIONS.get(str(check["misconception"]), "")
-    lines = (f"got {check['seen']}", str(check["hint"]), why)
+    known = MISCONCEPTIONS.get(str(check["misconception"]))
+    why = (known.says, f"see {known.where}") if known else ()
+    lines = (f"got {check['seen']}", str(check["hint"]), *why)
     return "\n".join(line for line in lines if line)
