@@ -35,7 +35,8 @@
 # it comes down. Something is missing in the model.
 #
 # Today's elevator and arm are simulated. We call that *the bench*, and we know its true gains
-# because we built it. Run the next cell to set it up.
+# because we built it. Run the next cell to set it up. (You
+# need not read the code in this lesson to follow it. Run each cell, and read what it prints.)
 
 # %%
 from dataclasses import replace
@@ -131,7 +132,8 @@ Table(
 print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the earth is 9.81.")
 
 # %% [markdown]
-# On a real elevator the ratio is a little smaller, because kA also pays for the spinning rotors. It
+# On a real elevator the ratio is a little smaller, because kA also pays for the motors' own
+# spinning parts, which weigh nothing on the rope. It
 # is never larger. If yours says 15, look for a mistake before you trust either gain.
 
 # %% [markdown]
@@ -361,7 +363,7 @@ arm_picture(60)
 # Two unknowns, A and B. At a reading of 0° the sine is 0, so the middle there is A. At 90° the
 # cosine is 0, so the middle there is B. With more rows, a least-squares fit takes all of them
 # (`np.linalg.lstsq`; lesson 7 says how it works). Then kG = √(A² + B²), and the offset is the angle
-# whose tangent is −B/A.
+# whose tangent is −B/A (`np.arctan2` finds it).
 
 # %%
 TILT = 25.0  # [deg] that our encoder shows too much
@@ -527,8 +529,8 @@ except sim.Refusal as refusal:
 #
 # > V = **kG + kS** + kV·v + kA·a
 #
-# The two only ever appear as a sum. kG = 2 and kS = 0.26 fit as well as kG = 1 and kS = 1.26. A
-# thousand rows do not help, as none of them is different.
+# The two only ever appear as a sum. Take 1 V off kG and give it to kS, and every row fits as well
+# as before. A thousand rows do not help, as none of them is different.
 #
 # The next picture shows that. If you ran the tests again and again, noise would move the fitted
 # pair (kS, kG) about. The shaded region holds 95 of 100 such fits: a *confidence ellipse*. A small
