@@ -234,7 +234,7 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# Look at the second row. Somebody with endless patience, who tries *every* pair of kS and kV, still
+# Look at the second row. Endless patience, *every* pair of kS and kV in steps of 0.05, and it still
 # misses by that much. Look where: at the ramps of the drive, where the robot speeds up and slows
 # down. Two knobs cannot pay for acceleration. That is what kA is for, and the three lines have it.
 #
