@@ -108,7 +108,7 @@ def test_an_exercise_that_only_reads_is_not_asked_to_run(tmp_path, monkeypatch, 
     assert "robot code" not in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", ["exercise4", "practice"])
+@pytest.mark.parametrize("name", ["exercise4", "exercise5", "practice"])
 def test_what_runs_robot_code_can_be_told_not_to(name):
     assert Exercise(name, ROOT / "exercises" / name).runs
 

@@ -108,7 +108,15 @@ def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
 
 @pytest.mark.parametrize(
     "left",
-    ["", "{", "[]", '{"rows": 3}', '{"rows": [[1]], "lasted": {}}', '{"crash": 1}'],
+    [
+        "",
+        "{",
+        "[]",
+        '{"rows": 3}',
+        '{"rows": [[1]], "lasted": {}}',
+        '{"crash": 1}',
+        '{"presses": [3]}',
+    ],
 )
 def test_whatever_a_child_leaves_behind_is_an_answer(tmp_path, left):
     (tmp_path / "seen.json").write_text(left, "utf-8")

@@ -1,8 +1,11 @@
-"""Exercise 5: four tests on four buttons, held, explained and guarded. Read, never run."""
+"""Exercise 5: four tests on four buttons, held, explained and guarded. Read, and RobotPy run."""
 
 from pathlib import Path
 
-from grader.check import NotReached, Wrong, check
+from grader.check import NotReached, Status, Wrong, check, run_all
+from grader.robotcode import bench
+from grader.robotcode.bench import Ran, contradiction
+from grader.robotcode.bench.contradiction import Fault, stopped
 from grader.robotcode.binding_facts import BindingFacts
 from grader.robotcode.bindings import bindings_of
 from grader.submission import read_text
@@ -10,16 +13,22 @@ from sim.errors import UnreadableFile
 
 from .explained import check_comment
 from .four import TESTS, all_of, missing, named, times
-from .guarded import check_guard
+from .guarded import HOLDS, check_guard
 from .holding import check_hold, held_share
+from .pressed import agreed, press
 
 FILES = ("RobotContainer.java", "robotcontainer.py")
 WRITE_IT = "Write Direction.kForward or Direction.kReverse there."
 READ = "looked at once a test is bound to a button"
 
 
-def read(path: Path, *, student: str) -> BindingFacts:  # noqa: ARG001 - one task for everyone
-    """What the file says about its buttons.
+def read(path: Path, *, student: str, run: bool = True) -> BindingFacts:  # noqa: ARG001 - one task for everyone
+    """What the file says about its buttons; in RobotPy, once that is right, what they do.
+
+    Args:
+        path: the file.
+        student: whose it is.
+        run: whether to run it, where it can be.
 
     Raises:
         UnreadableFile: it cannot be read, or does not parse.
@@ -33,7 +42,10 @@ def read(path: Path, *, student: str) -> BindingFacts:  # noqa: ARG001 - one tas
             where=f"{path}, line {first.line}",
             advice="Mend that line first: code with a mistake like this does not compile.",
         )
-    return facts
+    if not run or facts.language != "python" or not bench.installed():
+        return facts
+    right = run_all((factories, held, each_once, guard), facts)
+    return press(path, facts) if all(one.status is Status.PASSED for one in right) else facts
 
 
 @check(points=2)
@@ -73,17 +85,22 @@ def factories(facts: BindingFacts) -> None:
 
 
 @check(points=3)
-def held(facts: BindingFacts) -> None:
+def held(facts: BindingFacts) -> str | None:
     """Each of the four tests runs while a button of its own is held, and no longer."""
     bound(facts)
     earned = round(3 * held_share(facts), 2)
     for one in facts.bindings:
         check_hold(one, facts, earned=earned)
     if len(facts.bindings) >= len(TESTS):
-        return
+        return agreed(facts, _stops, points=3)
     _readable(facts, earned=earned)
     hint = "Four tests, four buttons: two kinds, each forward and reverse."
     raise Wrong(f"no button runs {named(missing(facts))}", hint=hint, earned=earned)
+
+
+def _stops(ran: Ran) -> Fault | None:
+    """Where the run stopped, or a test that did not."""
+    return stopped(ran, where="") or contradiction.let_go(ran)
 
 
 @check(points=1)
@@ -137,7 +154,10 @@ def comments(facts: BindingFacts) -> None:
 def guard(facts: BindingFacts) -> str | None:
     """No test can be started by accident in a match."""
     reached(facts)
-    return check_guard(facts, points=2)
+    note = check_guard(facts, points=2)
+    if all(HOLDS.intersection(one.guards) for one in facts.bindings):
+        agreed(facts, contradiction.open_door, points=2)
+    return note
 
 
 def bound(facts: BindingFacts) -> None:

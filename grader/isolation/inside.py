@@ -4,9 +4,11 @@ What to do comes as one JSON object on standard input. The program is read befor
 files are out of reach; what it finds out, it leaves in the folder it is started in.
 """
 
+import importlib.util
 import json
 import sys
 from pathlib import Path
+from types import ModuleType
 
 from grader.isolation.child import Packages, close_input, confine, forget
 
@@ -16,6 +18,8 @@ def main() -> None:
     orders = json.load(sys.stdin)
     close_input()
     script = Path(orders["script"])
+    for path in map(Path, orders["beside"]):
+        sys.modules[path.stem] = _loaded(path)
     code = compile(script.read_text(encoding="utf-8"), str(script), "exec")
     sys.path[:] = [path for path in sys.path if Path(path) != Path(orders["root"])]
     sys.meta_path.append(Packages(orders["packages"]))
@@ -23,3 +27,13 @@ def main() -> None:
     confine(orders)
     forget()
     exec(code, {"__name__": "__main__", "__file__": str(script)})  # noqa: S102 - ours, and the only way once its file is out of reach
+
+
+def _loaded(path: Path) -> ModuleType:
+    """A file of ours as a module."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{path.name} cannot be loaded")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

@@ -19,6 +19,7 @@ def run_program(
     given: Path,
     packages: Sequence[str],
     limits: Limits,
+    beside: Sequence[Path] = (),
 ) -> bool:
     """Run a Python program of ours that may read Python, some packages and what it is given.
 
@@ -29,12 +30,14 @@ def run_program(
         given: a file, or a folder, that it may read.
         packages: which installed packages it may import.
         limits: how much it may take; what it prints is dropped.
+        beside: further files of ours that it imports by their names.
 
     Returns:
         Whether it ended by itself.
     """
     orders = {
         "script": str(script),
+        "beside": [str(path) for path in beside if path != script],
         "arguments": list(arguments),
         "root": str(apart.ROOT),
         "confined": apart.CONFINED,

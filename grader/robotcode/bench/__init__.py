@@ -3,7 +3,8 @@
     file ──apart──▶ on_bench (a process of its own) ──▶ robot.wpilog, seen.json ──logged──▶ Ran
 
 ``on_bench`` lets the real scheduler run the four tests of the learner's SysIdRoutine on a tired
-battery, while what the motor controllers put out moves a model that the encoders see. ``logged``
+battery, while what the motor controllers put out moves a model that the encoders see (and
+``on_buttons`` presses every button of a whole robot, in test mode and out of it). ``logged``
 holds the log that the robot wrote against what the bench saw. ``season`` knows when a program is
 written for another year than the RobotPy that is installed, ``contradiction`` puts what the run
 showed into words.
@@ -17,11 +18,11 @@ import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
-from grader.robotcode.bench.apart import GIVEN, GRACE, Start, command, confined
+from grader.robotcode.bench.apart import BENCH, BUTTONS, GIVEN, GRACE, Start, command, confined
 from grader.robotcode.bench.given import handed_over
-from grader.robotcode.bench.ran import Driven, Outcome, Ran, Recorded
+from grader.robotcode.bench.ran import Driven, Outcome, Press, Ran, Recorded
 
-__all__ = ["SECONDS", "Driven", "Outcome", "Ran", "Recorded", "installed", "run"]
+__all__ = ["SECONDS", "Driven", "Outcome", "Press", "Ran", "Recorded", "installed", "press", "run"]
 
 SECONDS = 10.0  # [s] a run takes 0.5 s alone on a machine, and several on one that is busy
 
@@ -43,6 +44,25 @@ def run(path: Path, name: str, *, start: Start = confined, seconds: float = SECO
     Returns:
         What happened; whatever the learner's code does is an answer.
     """
+    return _run(path, name, BENCH, start=start, seconds=seconds)
+
+
+def press(path: Path, name: str, *, start: Start = confined, seconds: float = SECONDS) -> Ran:
+    """Press every button of a robot in RobotPy, in test mode and out of it.
+
+    Args:
+        path: the learner's file.
+        name: the class of its container.
+        start: starts the child.
+        seconds: after which a program that does not end is given up.
+
+    Returns:
+        What happened, in ``presses`` which button started a test.
+    """
+    return _run(path, name, BUTTONS, start=start, seconds=seconds)
+
+
+def _run(path: Path, name: str, script: Path, *, start: Start, seconds: float) -> Ran:
     if not installed():
         return Ran(Outcome.CANNOT, "RobotPy is not installed here")
     from grader.robotcode.bench.logged import told  # noqa: PLC0415 - needs NumPy
@@ -51,5 +71,7 @@ def run(path: Path, name: str, *, start: Start = confined, seconds: float = SECO
         folder = Path(place).resolve() / "left"
         folder.mkdir()
         copy = handed_over(path, folder.with_name(GIVEN))
-        ended = start(command(copy, name, folder, seconds=seconds), folder, seconds + GRACE)
+        ended = start(
+            command(copy, name, folder, seconds=seconds, script=script), folder, seconds + GRACE
+        )
         return told(folder, path, ended=ended, seconds=seconds)

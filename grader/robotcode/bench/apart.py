@@ -12,6 +12,8 @@ from grader.robotcode.bench import on_bench
 # Starts a program in a folder, for at most so many seconds; whether it ended by itself.
 Start = Callable[[Sequence[str], Path, float], bool]
 
+BENCH = Path(on_bench.__file__).resolve()
+BUTTONS = BENCH.with_name("on_buttons.py")
 LARGEST = 4 * 1024**2  # [bytes] of one file a run leaves; an ordinary log has a fortieth of it
 GIVEN = "given"  # the folder that may be read, beside the one that may be written
 PACKAGES = (  # wpilib and commands2, and what they are made of
@@ -22,18 +24,20 @@ KEPT = ("PATH", "SYSTEMROOT", "SYSTEMDRIVE", "TEMP", "TMP", "HOME", "USERPROFILE
 GRACE = 2.0  # [s] the child gives up by itself, and says where it was; after that it is ended
 
 
-def command(file: Path, name: str, folder: Path, *, seconds: float) -> list[str]:
+def command(
+    file: Path, name: str, folder: Path, *, seconds: float, script: Path = BENCH
+) -> list[str]:
     """The program to start: it leaves ``seen.json`` and ``robot.wpilog`` in the folder.
 
     Args:
         file: the learner's.
-        name: its subsystem's class.
+        name: the class that is run: its subsystem, or its container.
         folder: where the results go.
         seconds: after which it gives up by itself.
+        script: ``on_bench`` or ``on_buttons``.
     """
-    script = str(Path(on_bench.__file__).resolve())
     return [
-        *(sys.executable, "-B", "-P", script),
+        *(sys.executable, "-B", "-P", str(script)),
         *(str(file.resolve()), name, str(folder.resolve()), f"{seconds:g}"),
     ]
 
@@ -71,5 +75,6 @@ def confined(program: Sequence[str], folder: Path, seconds: float) -> bool:
         folder=folder,
         given=folder.with_name(GIVEN),
         packages=PACKAGES,
+        beside=(BENCH,),
         limits=Limits(seconds=seconds, file=LARGEST),
     )

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from grader.robotcode.bench.on_bench import BATTERY, METERS_PER_PULSE
-from grader.robotcode.bench.ran import Driven, Outcome, Ran, Recorded
+from grader.robotcode.bench.ran import Driven, Outcome, Press, Ran, Recorded
 
 IN = "in WPILib's simulation"
 CLOSE = 0.02  # of a number that was asked for; a PWM signal comes in steps of some 20 mV
@@ -178,6 +178,29 @@ def assembled(ran: Ran) -> Fault | None:
         return None
     hint = "Pass self after the two callbacks. Then no other command can move the motors meanwhile."
     return Fault(f"{IN} the tests do not require the subsystem they drive", hint)
+
+
+def let_go(ran: Ran) -> Fault | None:
+    """Whether a test stops when its button is let go."""
+    for one in ran.presses:
+        if one.stayed:
+            hint = "It has to stop when the button is let go: hand the test itself to whileTrue()."
+            return Fault(f"{IN} {_of(one)} went on when it was let go", hint, "", 2 / 3)
+    return None
+
+
+def open_door(ran: Ran) -> Fault | None:
+    """Whether a button starts a test while the robot is driven."""
+    for one in ran.presses:
+        if not one.test_mode:
+            hint = "The guard lets it through. Ask each time, and for what no driver does."
+            return Fault(f"{IN}, outside of test mode, {_of(one)} ran", hint)
+    return None
+
+
+def _of(one: Press) -> str:
+    tests = " and ".join(test.replace("-", " ") for test in one.tests)
+    return f"the {tests} test of button {one.button} (controller {one.port})"
 
 
 def figures(ran: Ran) -> str:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from grader.isolation import one_line
 from grader.robotcode.bench.apart import LARGEST
 from grader.robotcode.bench.on_bench import LONGEST
-from grader.robotcode.bench.ran import Driven, Outcome, Ran, Recorded
+from grader.robotcode.bench.ran import Driven, Outcome, Press, Ran, Recorded
 from grader.robotcode.bench.season import of_another
 from sim.errors import Refusal
 from sim.formats import read
@@ -30,6 +30,7 @@ from sim.units import unit
 STATE = "sysid-test-state-"
 NEEDED = {"voltage", "position", "velocity"}
 MOST_MOTORS = 20  # in a log: a roboRIO has so many PWM channels
+MOST_PRESSES = 200  # of buttons: some fifty, in test mode and out of it
 MOVED = 0.2  # [any unit] less motion than this tells nothing
 AWAKE = 0.5  # [V] below this the steps of a PWM signal, 20 mV, count too much
 WHOLE = 10.0  # [V] above this the battery has no more to give
@@ -125,6 +126,10 @@ def _facts(seen: dict[str, Any], folder: Path, file: Path) -> Ran:
         return Ran(Outcome.CANNOT, one_line(seen["cannot"]))
     if "crash" in seen:
         return _crash(seen["crash"], file)
+    if "presses" in seen:
+        return Ran(
+            Outcome.RAN, presses=tuple(_press(one) for one in seen["presses"][:MOST_PRESSES])
+        )
     columns = list(zip(*seen["rows"], strict=True))
     if not columns:
         return Ran(Outcome.CANNOT, "no test ever began")
@@ -142,6 +147,13 @@ def _facts(seen: dict[str, Any], folder: Path, file: Path) -> Ran:
         "per_pulse": tuple(float(size) for size in seen["per_pulse"]),
     }
     return _with_log(folder / "robot.wpilog", trace, facts)
+
+
+def _press(seen: dict[str, Any]) -> Press:
+    """One press; the routine calls its tests ``kDynamicForward``."""
+    tests = (re.sub(r"(?<=[a-z])(?=[A-Z])", "-", one_line(one)[1:]) for one in seen["tests"][:4])
+    held = bool(seen["test mode"]), int(seen["port"]), one_line(seen["button"])
+    return Press(*held, tuple(one.lower() for one in tests), bool(seen["stayed"]))
 
 
 def _crash(crash: dict[str, Any], file: Path) -> Ran:

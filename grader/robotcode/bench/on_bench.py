@@ -4,8 +4,8 @@
 
 The real scheduler runs the four tests of the routine that CLASS in FILE makes; what its motor
 controllers put out moves a motor model each, whose motion its encoders see. FOLDER gets
-``robot.wpilog``, what the robot itself wrote down, whole only after the interpreter has ended by
-itself, and ``seen.json``, what the bench saw. This file imports nothing of the course.
+``robot.wpilog``, what the robot itself wrote down, whole only once the interpreter has ended, and
+``seen.json``, what the bench saw. Nothing of the course is imported.
 """
 
 import faulthandler
@@ -38,9 +38,8 @@ class CannotRun(Exception):  # noqa: N818 - says what is lacking; no fault of th
 
 def named(thing: Any, name: str) -> Any:  # noqa: ANN401 - RobotPy's own classes have no types here
     """An attribute under its name of 2026, ``setVInVoltage``, or that of 2027."""
-    if hasattr(thing, name):
-        return getattr(thing, name)
-    return getattr(thing, "".join(f"_{a.lower()}" if a.isupper() else a for a in name))
+    snake = "".join(f"_{a.lower()}" if a.isupper() else a for a in name)
+    return getattr(thing, name if hasattr(thing, name) else snake)
 
 
 class Wheel:
@@ -123,7 +122,7 @@ class Bench:
             passed = now() - self.began
             if self.test.startswith("dynamic") and SAG[0] < passed < SAG[1]:
                 self.battery(SAGGED)
-            self._measure()
+            self.voltages = [duty() * self.volts for duty in self.motors.values()]
 
         def log_callback(record: Any) -> None:  # noqa: ANN401 - the same
             seen = list(self.voltages), list(self.distances)
@@ -133,9 +132,6 @@ class Bench:
         self.routine.mechanism.drive = drive_callback
         self.routine.mechanism.log = log_callback
 
-    def _measure(self) -> None:
-        self.voltages = [duty() * self.volts for duty in self.motors.values()]
-
     def loop(self, run: Callable[[], None]) -> None:
         """One loop of the robot program, and what moves meanwhile."""
         from wpilib import DriverStation  # noqa: PLC0415 - whoever only reads needs none
@@ -143,7 +139,7 @@ class Bench:
         named(self.simulation.DriverStationSim, "notifyNewData")()
         named(DriverStation, "refreshData")()
         run()
-        self._measure()
+        self.voltages = [duty() * self.volts for duty in self.motors.values()]
         for wheel, voltage in zip(self.wheels, self.voltages, strict=True):
             wheel.move(voltage)
         for number, encoder in enumerate(self.encoders):
@@ -154,16 +150,15 @@ class Bench:
             named(encoder, "setRate")(wheel.velocity * size)
         named(self.simulation, "stepTiming")(PERIOD)
 
-    def run(self) -> dict[str, float]:
-        """Run the four tests: how long each took [s] until it ended by itself, or was ended."""
+    def told(self) -> dict[str, object]:
+        """Run the four tests: what was seen, and how long each took [s] until it was over."""
         import commands2  # noqa: PLC0415 - whoever only reads needs none
         from wpilib import Timer  # noqa: PLC0415 - the same
 
         scheduler = named(commands2.CommandScheduler, "getInstance")()
         now = named(Timer, "getFPGATimestamp")
         self.watch(now)
-        ways = self.routine_type.Direction
-        lasted = {}
+        ways, lasted = self.routine_type.Direction, {}
         for kind in ("quasistatic", "dynamic"):
             for way in ("forward", "reverse"):
                 self._rest(scheduler)
@@ -172,7 +167,8 @@ class Bench:
                 direction = getattr(ways, name if hasattr(ways, name) else way.upper())
                 lasted[self.test] = self._hold(getattr(self.routine, kind)(direction), scheduler)
         self._rest(scheduler)
-        return lasted
+        told = {"lasted": lasted, "required": self.required, "per_pulse": self.per_pulse}
+        return {**told, "motors": list(self.motors), "rows": self.rows}
 
     def _rest(self, scheduler: Any) -> None:  # noqa: ANN401 - the same
         self.test = ""
@@ -275,13 +271,13 @@ def enable(folder: Path) -> None:
         named(simulation.DriverStationSim, switch)(True)  # noqa: FBT003 - the same
 
 
-def main(file: Path, name: str, folder: Path) -> dict[str, object]:
+def main(file: Path, name: str, folder: Path, look: Callable[[Any], Any]) -> dict[str, object]:
     """Run one file; everything that happens to it is an answer."""
     bench = None
     try:
         enable(folder)
-        bench = Bench(make(load(file), name))
-        told = {"lasted": bench.run(), "motors": list(bench.motors), "rows": bench.rows}
+        bench = look(make(load(file), name))
+        return dict(bench.told())
     except CannotRun as lacking:
         return {"cannot": str(lacking)}
     except BaseException as error:  # noqa: BLE001 - a learner's code may raise whatever it likes
@@ -289,12 +285,16 @@ def main(file: Path, name: str, folder: Path) -> dict[str, object]:
         if isinstance(error, (FileNotFoundError, PermissionError)):
             return {"cannot": f"it asks for what it cannot have here: {what['error']}"}
         return {"crash": what} if bench or what["line"] else {"cannot": what["error"]}
-    return {**told, "per_pulse": bench.per_pulse, "required": bench.required}
 
 
-if __name__ == "__main__":
+def start(look: Callable[[Any], Any] = Bench) -> None:
+    """Do what the command line asks for, and give up in time."""
     place = Path(sys.argv[3])
     stuck = (place / "endless.txt").open("w", encoding="utf-8")
     faulthandler.dump_traceback_later(float(sys.argv[4]), exit=True, file=stuck)
-    told = main(Path(sys.argv[1]), sys.argv[2], place)
-    (place / "seen.json").write_text(json.dumps(told), encoding="utf-8")
+    told = json.dumps(main(Path(sys.argv[1]), sys.argv[2], place, look))
+    (place / "seen.json").write_text(told, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    start()

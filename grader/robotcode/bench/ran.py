@@ -66,6 +66,25 @@ class Recorded:
 
 
 @dataclass(frozen=True)
+class Press:
+    """What a button did that was held for a moment.
+
+    Args:
+        test_mode: whether the robot was in test mode; else it was driven by a person.
+        port: of the controller.
+        button: its number, or the angle of its hat: ``3``, ``90 deg``.
+        tests: the tests that ran meanwhile, in SysId's words: ``dynamic-forward``.
+        stayed: whether one went on when the button was let go.
+    """
+
+    test_mode: bool
+    port: int
+    button: str
+    tests: tuple[str, ...]
+    stayed: bool
+
+
+@dataclass(frozen=True)
 class Ran:
     """What running showed; nothing but ``outcome``, ``said`` and where, unless it ran.
 
@@ -83,6 +102,7 @@ class Ran:
         required: whether the tests require the subsystem.
         per_pulse: what the encoders count per pulse, in the program's own unit.
         lacking: why the log cannot be read; empty if it can.
+        presses: the buttons that started a test, where buttons were pressed.
     """
 
     outcome: Outcome
@@ -98,3 +118,4 @@ class Ran:
     required: bool = True
     per_pulse: tuple[float, ...] = ()
     lacking: str = ""
+    presses: tuple[Press, ...] = ()
