@@ -35,8 +35,8 @@
 # it comes down. Something is missing in the model.
 #
 # Today's elevator and arm are simulated. We call that *the bench*, and we know its true gains
-# because we built it. Run the next cell to set it up. (You
-# need not read the code in this lesson to follow it. Run each cell, and read what it prints.)
+# because we built it. Run the next cell to set it up. (You need not read
+# the code in this lesson to follow it. Run each cell, and read what it prints.)
 
 # %%
 from dataclasses import replace
@@ -133,8 +133,8 @@ print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the
 
 # %% [markdown]
 # On a real elevator the ratio is a little smaller, because kA also pays for the motors' own
-# spinning parts, which weigh nothing on the rope. It
-# is never larger. If yours says 15, look for a mistake before you trust either gain.
+# spinning parts, which weigh nothing on the rope. It is never larger. If yours says 15, look for a
+# mistake before you trust either gain.
 
 # %% [markdown]
 # ## 3 Doing it: hold it still

@@ -31,8 +31,8 @@
 # far, how long. That is test design, and it costs ten minutes. Driving all tests again costs an
 # evening.
 #
-# Our mechanisms today are simulated, on *the bench*. We know their true gains because we built
-# them.
+# Our mechanisms today are simulated, on *the bench*. We know their true gains because
+# we built them. (You need not read the code to follow. Run each cell, and read what it prints.)
 
 # %%
 from dataclasses import replace
@@ -509,11 +509,15 @@ Table(
 #
 # 1. **Grip.** Wheels slip when the motors push harder than the carpet holds. From standstill that
 # is    above `V_slip = kS + kA·μ·g`, with the grip μ (about 1.1 on carpet; measure yours) and
-#    g = 9.81 m/s². When wheels spin, the encoder counts meters that the robot does not go.
+#    g = 9.81 m/s², if all wheels are driven. When wheels spin, the encoder counts meters that the
+#   robot does not go.
 # 2. **Current.** At standstill a motor draws stall_current · step / 12 V. Above the controller's
 #    limit the voltage is cut, and the rise begins as a straight line. (Phoenix 6 limits the
 #    current in a motor to 120 A unless you change it.)
 # 3. **Room.** The top speed is (step − kS)/kV, and your thumb needs its time.
+#
+# (For the limit see
+# [CTRE's docs: CurrentLimitsConfigs](https://api.ctr-electronics.com/phoenix6/stable/csharp/api/CTRE.Phoenix6.Configs.CurrentLimitsConfigs.html).)
 #
 # And from below: **signal.** SysId takes the acceleration from neighboring speeds, so it is noisy.
 # Let the first acceleration be ten times that noise or more.
