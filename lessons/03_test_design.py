@@ -508,9 +508,9 @@ Table(
 # A large step gives a large acceleration, which stands out from the noise. Three things limit it.
 #
 # 1. **Grip.** Wheels slip when the motors push harder than the carpet holds. From standstill that
-# is    above `V_slip = kS + kA·μ·g`, with the grip μ (about 1.1 on carpet; measure yours) and
+#    is above `V_slip = kS + kA·μ·g`, with the grip μ (about 1.1 on carpet; measure yours) and
 #    g = 9.81 m/s², if all wheels are driven. When wheels spin, the encoder counts meters that the
-#   robot does not go.
+#    robot does not go.
 # 2. **Current.** At standstill a motor draws stall_current · step / 12 V. Above the controller's
 #    limit the voltage is cut, and the rise begins as a straight line. (Phoenix 6 limits the
 #    current in a motor to 120 A unless you change it.)
