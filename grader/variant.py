@@ -11,7 +11,7 @@ import hmac
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import lru_cache
+from functools import lru_cache, wraps
 from typing import TYPE_CHECKING, TypeVar
 
 from sim.student import folder_name, same, student_name
@@ -85,4 +85,8 @@ def once_each(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
     def kept(student: str, _secret: bytes) -> Drawn:
         return draw(student)
 
-    return lambda student: kept(same(student), _SECRET.get())
+    @wraps(draw)
+    def drawn(student: str) -> Drawn:
+        return kept(same(student), _SECRET.get())
+
+    return drawn
