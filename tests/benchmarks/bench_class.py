@@ -1,0 +1,126 @@
+"""How long a class takes: ``grade class`` as a whole process, on two processes, and once more.
+
+    python tests/benchmarks/bench_class.py [STUDENTS]
+
+All twelve exercises, answers right, half right, mistaken and missing (`class_made.py`). The second
+run finds everything graded. Processor time is what the run asks of the machine, however busy that
+is with other things (Windows does not tell it). Memory is that of the largest process, and the time
+of each exercise is that of a few students graded here, one after another. Aim: 500 students in five
+minutes.
+"""
+
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import psutil
+from class_made import ROOT, SECRET, asked, make
+
+from grader.variant import of_class
+from sim.work.here import cores
+
+PROCESSES = 2
+TARGET = 300.0  # [s] for 500 students
+SAMPLE = 12  # [students] that are graded one exercise after another
+LOOK = 0.5  # [s] between two looks at the memory
+CODE = f"import sys; sys.path.insert(0, {str(ROOT)!r}); from grader.cli import main; main()"
+
+
+def loaded() -> str:
+    """How busy the machine is with this and all else, where it says so."""
+    return f"load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "load unknown"
+
+
+def spent() -> float:
+    """Processor seconds [s] of all processes that this one started and saw end."""
+    times = psutil.Process().cpu_times()
+    return float(times.children_user + times.children_system)
+
+
+def largest(process: psutil.Process) -> int:
+    """Bytes of the largest of the processes that a process started, and of itself."""
+    sizes = [0]
+    for one in [process, *process.children(recursive=True)]:
+        try:
+            sizes.append(one.memory_info().rss)
+        except (psutil.NoSuchProcess, psutil.AccessDenied):
+            continue
+    return max(sizes)
+
+
+def graded(handed_in: Path, secret: Path, *, only: Sequence[str]) -> tuple[float, int]:
+    """Seconds of one whole run, and the bytes of its largest process.
+
+    Raises:
+        RuntimeError: it could not grade.
+    """
+    chosen = [word for name in only for word in ("--exercise", name)]
+    options = [*("--secret", str(secret), "--processes", str(PROCESSES)), *chosen]
+    said = handed_in.with_name("said.txt")
+    most, begin = 0, time.perf_counter()
+    with said.open("wb") as stream:
+        running = psutil.Popen(
+            [sys.executable, "-c", CODE, "class", str(handed_in), *options],
+            stdout=stream,
+            stderr=stream,
+            cwd=ROOT,
+        )
+        while True:
+            most = max(most, largest(running))
+            try:
+                code = running.wait(LOOK)
+                break
+            except psutil.TimeoutExpired:
+                continue
+    took = time.perf_counter() - begin
+    if code not in {0, 1}:
+        raise RuntimeError(said.read_text(encoding="utf-8"))
+    return took, most
+
+
+def by_exercise(handed_in: Path) -> None:
+    """Print what each exercise takes of a few students: the mean, and the longest."""
+    students = sorted(handed_in.iterdir())[:SAMPLE]
+    print(f"\n{'exercise, of ' + str(len(students)) + ' students':36}{'mean s':>8}{'most s':>8}")
+    with of_class(SECRET):
+        for one in asked(ROOT):
+            there = [place for place in students if (place / one.name).is_dir()]
+            took = []
+            for place in there:
+                begin = time.perf_counter()
+                one.grade(place / one.name, student=place.name)
+                took.append(time.perf_counter() - begin)
+            mean = sum(took) / max(len(took), 1)
+            print(f"{one.name:36}{mean:8.3f}{max(took, default=0.0):8.3f}")
+
+
+def main() -> None:
+    """Print a table."""
+    students = int(sys.argv[1]) if len(sys.argv) > 1 else 500
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        secret, handed_in = folder / "secret", folder / "class"
+        secret.write_bytes(SECRET)
+        kinds = make(students, course=folder / "course", out=handed_in, processes=cores())
+        said = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
+        print(f"{students} students x 12 exercises on {PROCESSES} processes; {said}")
+        names = [one.name for one in asked(ROOT)]
+        before = spent()
+        total, most = graded(handed_in, secret, only=names)
+        work = spent() - before
+        there = sum(1 for _ in handed_in.glob("*/*"))
+        again, _ = graded(handed_in, secret, only=names)
+        aim = TARGET * students / 500
+        print(f"{'everything':36}{total:8.1f} s   aim {aim:.0f} s, {loaded()}")
+        print(f"{'processor time':36}{work:8.1f} s   {work / PROCESSES:.0f} s on {PROCESSES} cores")
+        print(f"{'each of ' + str(there) + ' submissions':36}{1e3 * total / there:8.0f} ms")
+        print(f"{'once more: all is known':36}{again:8.1f} s")
+        print(f"{'largest process':36}{most / 1e6:8.0f} MB")
+        by_exercise(handed_in)
+
+
+if __name__ == "__main__":
+    main()
