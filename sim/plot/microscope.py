@@ -23,8 +23,9 @@ from sim.plot.table import Table, shown
 from sim.units import unit
 
 JUMP = 0.5  # [V] from one sample to the next; a ramp never rises so fast
-CLOSE = (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0)  # [s] after a jump, edges of the cells
+CLOSE = (0.0, 0.03, 0.07, 0.11, 0.15, 0.21, 0.31, 0.51, 1.01)  # [s] after a jump, edges of cells
 CELLS = 8  # of speed, and of the battery's voltage
+MOST = 300  # samples of a side that are drawn: more would cover each other, and take their time
 FEWEST = 3  # samples of which a mean says anything
 EASY = 0.98  # [quantile] of the samples that is drawn: one wild row must not flatten the rest
 SPEED, SINCE, BATTERY, DIRECTION = (
@@ -203,10 +204,11 @@ def _sorted(lacking: Array, at: Array, edges: Array, cell: NDArray[np.intp]) -> 
 
 
 def _draw(axes: Axes, view: View, *, high: float) -> None:
-    inside = (view.at >= view.edges[0]) & (view.at <= view.edges[-1])
+    inside = np.flatnonzero((view.at >= view.edges[0]) & (view.at <= view.edges[-1]))
+    inside = inside[:: max(1, inside.size // MOST)]
     axes.plot(
-        view.at[inside], view.volts[inside], ".", color=COLORS[4], markersize=2.5, alpha=0.5,
-        label="samples", rasterized=False,
+        view.at[inside], view.volts[inside], ".", color=COLORS[4], markersize=2.5, alpha=0.6,
+        label="samples",
     )  # fmt: skip
     middle = 0.5 * (view.edges[:-1] + view.edges[1:])
     axes.axhline(0.0, color=REFERENCE, linewidth=1.0)

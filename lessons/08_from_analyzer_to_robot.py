@@ -1,0 +1,790 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Lesson 8: From the analyzer to the robot
+#
+# *About 45 minutes. You need lessons 1, 2 and 7. No robot is needed today; if you have one, bring
+# its log.*
+#
+# **At the end you can**
+#
+# - turn a fit into constants that somebody else can read, with units;
+# - choose the feedforward class, and hand over its arguments in the right order;
+# - name a wrong unit or a wrong slot from what the robot does;
+# - say what kP can and cannot repair;
+# - decide which mechanisms to characterize, and when in the season.
+
+# %% [markdown]
+# ## 1 Why: no error message
+#
+# The analyzer shows three or four numbers. They have to get into your code. It is a small step, and
+# much goes wrong there: a number per rotation meets code in radians, kG lands in the place of kV, a
+# suggested kP is taken for the last word. **Nothing crashes.** The robot just moves wrong.
+#
+# A *feedforward* is the part of a controller that computes the voltage from what you **want**: "for
+# 40 rotations per second I need 5 V". *Feedback* looks at what you **get**, and corrects. Today we
+# let both drive on the bench, and make the mistakes on purpose.
+
+# %%
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import ipywidgets as widgets
+import numpy as np
+from IPython.display import display
+
+import sim
+from sim.fit import fit
+from sim.guess import Guess
+from sim.mechanisms import MECHANISMS
+from sim.motors import MOTORS
+from sim.paste import CLASSES, ORDER, snippet
+from sim.plot import Picture, Table, chase, curves, live, miss
+from sim.simulate import simulate
+from sim.units import gains_per
+
+shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
+log = simulate(shooter, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(8))
+found = fit(log).in_log_units()
+print(f"{shooter.summary}; gains per rotation:")
+Table(
+    ("gain", "value", "one standard error", "unit"),
+    tuple(
+        (name, found.gains[name], found.errors[name], found.gain_unit(name))
+        for name in ORDER["simple"]
+    ),
+)
+
+# %% [markdown]
+# ## 2 Constants that explain themselves
+#
+# The source lesson puts the numbers into `Constants.java`, in a class of their own, each with its
+# unit in a comment, and above them a note *when to measure again*. Keep all three habits.
+#
+# > **Lesson says:** a drivetrain with TalonFX motors, ratio 8.46 and 4 in wheels has `kV = 2.68`,
+# > and "SysId suggests kP = 0.62".
+# >
+# > **Source says:** kV pays for the back-EMF ("the counter-electromotive force") and for friction
+# > that grows with speed. So a measured kV lies *above* what the motor's free speed promises.
+# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# >
+# > **Try it:** the next cell computes that promise for three motors, and holds 2.68 against it.
+
+# %%
+METERS = math.pi * 0.1016 / 8.46  # [m] for one turn of the motor
+rows = []
+for name in ("falcon500", "krakenX60", "krakenX44"):
+    per_second = MOTORS[name].free_speed / (2 * math.pi)  # turns of the motor, at 12 V
+    theory = 12.0 / (per_second * METERS)
+    rows.append((name, theory, f"{100 * (2.68 / theory - 1):+.0f} %".replace("-", "−")))
+Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows))
+
+# %% [markdown]
+# Below theory by more than a few percent means bookkeeping: another ratio, another wheel, another
+# unit. The constants of the source lesson are an example to read, not to copy. (The 0.62 we took
+# apart in lesson 7.)
+#
+# The bench writes constants for you, with errors as comments. In a terminal:
+#
+# ```
+# sysid fit my_log.wpilog --paste java
+# ```
+#
+# Here is the same for our shooter. Each number has as many digits as its error deserves:
+
+# %%
+print(snippet(found, language="java", season=2026, name="shooter"))
+
+# %% [markdown]
+# (No buttons on your screen? Type `guess_season.value = "nothing"` in a cell.) **Predict** what
+# differs between 2026 and 2027:
+
+# %%
+guess_season = Guess(
+    "From 2026 to 2027, in Java, what changes in these lines?",
+    "the gains",
+    "the package and a method's name",
+    "the order of the arguments",
+    "nothing",
+)
+guess_season
+
+# %%
+for language in ("java", "python"):
+    old, new = (
+        snippet(found, language=language, season=season, name="shooter").splitlines()
+        for season in (2026, 2027)
+    )
+    print(f"{language}, lines that are in one season only:")
+    print("\n".join(f"  2026  {line.strip()}" for line in old if line not in new))
+    print("\n".join(f"  2027  {line.strip()}" for line in new if line not in old))
+print(f"You said: {guess_season}.")
+
+# %% [markdown]
+# The physics does not change with a season. Names do. (2027's are those of WPILib's development
+# branch; look again when it is released.)
+#
+# **Units.** `kS` and `kG` are volts, always. `kV` and `kA` are per meter, per rotation or per
+# radian: *as the code counts that calls the feedforward*. Two rules:
+#
+# - **A unit conversion belongs in one place.** In the constant, or at the call; never in both.
+# - **kP belongs to its loop.** A PIDController whose output you give to `setVoltage` wants volts. A
+#   motor controller's own loop may put out a duty cycle from −1 to 1: then divide volts by 12.
+
+# %% [markdown]
+# ## 3 The class, and its slots
+#
+# | analysis type in SysId | class | arguments, in this order |
+# |---|---|---|
+# | Simple | `SimpleMotorFeedforward` | kS, kV, kA |
+# | Elevator | `ElevatorFeedforward` | kS, **kG**, kV, kA |
+# | Arm | `ArmFeedforward` (angle in **radians from horizontal**) | kS, **kG**, kV, kA |
+#
+# In Python, the first is `SimpleMotorFeedforwardMeters` or `SimpleMotorFeedforwardRadians`.
+#
+# > **Lesson says:** "Place the analyzed gains into `Constants.java` and connect them to the
+# > appropriate feedforward class"; WPILib's arm and elevator classes "can absorb kG in addition to
+# > the kS/kV/kA values".
+# >
+# > **Source says:** with gravity there are **four** arguments, and kG is the **second**. All four
+# > are plain numbers, so a compiler accepts them in any order.
+# > ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
+# >
+# > **Try it:** an elevator is told to hold still. Somebody learned "kS, kV, kA" and puts kG last.
+
+# %%
+lift = elevator.gains
+guess_slot = Guess(
+    "new ElevatorFeedforward(kS, kV, kA, kG), told to hold still. What does the carriage do?",
+    "it holds",
+    "it sinks",
+    "it rises",
+    "the program stops with an error",
+)
+guess_slot
+
+# %% [markdown]
+# Now we need something that drives. `moved` plays mechanism, one loop of 20 ms after another: the
+# function `volts` is asked what to apply, and sees all positions and velocities so far.
+
+
+# %%
+LOOP, STEPS = 0.02, 20  # [s] of the robot program, and into how many pieces the bench cuts it
+Volts = Callable[[int, list[float], list[float]], float]
+
+
+def moved(gains: dict[str, float], volts: Volts, *, loops: int, arm: bool = False) -> np.ndarray:
+    """Positions and velocities (2, loops + 1) of a mechanism, from rest, under asked-for volts."""
+    x, v = [0.0], [0.0]
+    kept = math.exp(-gains["kV"] / gains["kA"] * LOOP / STEPS)
+    for loop in range(loops):
+        asked = min(max(volts(loop, x, v), -12.0), 12.0)
+        place, speed = x[-1], v[-1]
+        for _ in range(STEPS):
+            weight = gains.get("kG", 0.0) * (math.cos(place) if arm else 1.0)
+            free = asked - weight
+            if speed == 0.0 and abs(free) <= gains["kS"]:
+                break  # friction holds it
+            way = math.copysign(1.0, speed or free)
+            final = (free - way * gains["kS"]) / gains["kV"]
+            after = final + (speed - final) * kept
+            after = 0.0 if after * way < 0.0 else after  # friction stops it, and may hold it
+            place += 0.5 * (speed + after) * LOOP / STEPS
+            speed = after
+        x.append(place)
+        v.append(speed)
+    return np.array([x, v])
+
+
+# %% [markdown]
+# At rest, an elevator's feedforward is what stands in the kG slot and nothing else.
+
+# %%
+orders = {
+    "kS, kG, kV, kA (right)": ("kS", "kG", "kV", "kA"),
+    "kS, kV, kA, kG (kG last)": ("kS", "kV", "kA", "kG"),
+    "kG, kS, kV, kA (kG first)": ("kG", "kS", "kV", "kA"),
+}
+rows = []
+for name, order in orders.items():
+    slot = lift[order[ORDER["elevator"].index("kG")]]
+    seconds = moved(lift, lambda *_, slot=slot: slot, loops=50)
+    rows.append((name, slot, 100 * float(seconds[0, -1])))
+print(f"You said: {guess_slot}. It needs {lift['kG']:.2f} V, ± {lift['kS']:.2f} V of friction.")
+Table(
+    ("arguments handed over", "volts while holding still [V]", "after one second [cm]"), tuple(rows)
+)
+
+# %% [markdown]
+# (The bench's elevator may move on forever here; a real one meets its stop, with force.)
+#
+# ### `calculate`: velocities, not an acceleration
+#
+# In Java, `calculate(velocity, acceleration)` is deprecated: in its place comes
+# `calculateWithVelocities(velocity, nextVelocity)`, the velocity now and the one in the next loop.
+# Python's `calculate` takes two velocities, too.
+# ([WPILib Java docs: SimpleMotorFeedforward](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.html))
+# (Some pages of WPILib's docs still show the old call. The class's own documentation decides.) An
+# acceleration handed over as a velocity is one more wrong slot.
+
+# %% [markdown]
+# ## 4 A profile follower, and wrong units
+#
+# The shooter shall spin up smoothly, hold, and spin down: a **profile**, a target velocity for each
+# moment. Each loop applies
+#
+# > kS·sgn(v) + kV·v + kA·(v_next − v)/0.02 s &nbsp; + &nbsp; kP·(v − measured)
+#
+# The first part is the feedforward; kP is 0 to begin with. (WPILib computes the kA term a bit more
+# exactly. You would not see the difference.)
+
+# %%
+TIME = np.arange(0.0, 4.0, LOOP)
+TARGET = np.interp(TIME, [0.0, 0.2, 1.4, 2.6, 3.6, 4.0], [0, 0, 50, 50, 0, 0])  # [rot/s]
+wheel = gains_per(shooter.gains, factor=2 * math.pi)  # the truth, per rotation
+
+
+def forward(gains: dict[str, float]) -> np.ndarray:
+    """The feedforward's volts along the profile."""
+    ahead = np.append(TARGET[1:], TARGET[-1])
+    speed_up = gains["kA"] * (ahead - TARGET) / LOOP
+    return gains["kS"] * np.sign(np.maximum(TARGET, ahead)) + gains["kV"] * TARGET + speed_up
+
+
+def follow(gains: dict[str, float], kp: float = 0.0, late: int = 0) -> np.ndarray:
+    """The wheel's velocity with a feedforward and a kP; it is measured some loops late."""
+    fed = forward(gains)
+
+    def volts(loop: int, _: list[float], v: list[float]) -> float:
+        return float(fed[loop]) + kp * (float(TARGET[loop]) - v[max(loop - late, 0)])
+
+    return moved(wheel, volts, loops=TIME.size - 1)[1]
+
+
+measured = {name: found.gains[name] for name in ORDER["simple"]}
+
+
+def scaled(factor: float) -> dict[str, float]:
+    """The measured gains with kV and kA per another unit."""
+    return measured | {"kV": measured["kV"] * factor, "kA": measured["kA"] * factor}
+
+
+GAINS = {
+    "as measured": measured,
+    "per radian, fed rotations": scaled(1 / (2 * math.pi)),
+    "per rotation, fed radians": scaled(2 * math.pi),
+    "kV and kA swapped": measured | {"kV": measured["kA"], "kA": measured["kV"]},
+    "kA left out": measured | {"kA": 0.0},
+    "volts taken for duty cycle (÷ 12)": {name: gain / 12 for name, gain in measured.items()},
+}
+
+# %% [markdown]
+# **Predict:**
+
+# %%
+guess_radian = Guess(
+    "kV per radian, the target in rotations. How fast does the wheel get?",
+    "about 6 times too fast",
+    "about a sixth of the target",
+    "the target, but later",
+)
+guess_rotation = Guess(
+    "kV per rotation, the target in radians, which is a number 6.28 times as large. The wheel…",
+    "stands still",
+    "runs as fast as 12 V can make it",
+    "follows, a bit too fast",
+)
+display(guess_radian, guess_rotation)
+
+# %% [markdown]
+# Choose gains, and a kP. (kP is per rotation, whatever the feedforward's unit.)
+
+
+# %%
+def follower(gains: str, kp: float) -> Picture:
+    """The profile, and what the wheel makes of it."""
+    return chase(TIME, TARGET, {gains: follow(GAINS[gains], kp)}, unit="rot/s", title=f"kP = {kp}")
+
+
+live(
+    follower,
+    gains=widgets.Dropdown(options=list(GAINS), description="gains"),
+    kp=widgets.FloatSlider(
+        min=0, max=0.6, step=0.02, value=0, description="kP", continuous_update=False
+    ),
+)
+
+# %% [markdown]
+# No menu? Change the name and the number here:
+
+# %%
+follower("per radian, fed rotations", 0.0)
+
+# %% [markdown]
+# And all of them at once, without and with feedback:
+
+# %%
+SOME = 0.2  # [V·s/rot]
+print(f"You said: {guess_radian}; {guess_rotation}.")
+Table(
+    ("gains", "top speed [rot/s]", "typical miss, kP = 0", f"typical miss, kP = {SOME}"),
+    tuple(
+        (name, float(follow(one).max()), miss(TARGET, follow(one)).typical,
+         miss(TARGET, follow(one, SOME)).typical)
+        for name, one in GAINS.items()
+    ),
+    caption=f"The profile's top is {TARGET.max():.0f} rot/s; 12 V make "
+    f"{(12 - wheel['kS']) / wheel['kV']:.0f} rot/s.",
+)  # fmt: skip
+
+# %% [markdown]
+# ### Explain
+#
+# - **Per radian, fed rotations:** the volts are 2π times too small. The wheel crawls.
+# - **Per rotation, fed radians:** 2π times too large. More than 12 V there is not, so the wheel
+#   runs as fast as it can. On a drivetrain or an arm this is the dangerous one.
+# - **Swapped:** nearly nothing while it holds its speed, hard kicks where the profile bends.
+# - **kA left out:** good where the target is steady, late on the slopes. For many mechanisms that
+#   is all you need; WPILib's docs say that kA can be left out, and AdvantageKit's swerve template
+#   calls the drive's kA "unnecessary in most cases".
+#   ([AdvantageKit docs: TalonFX Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
+# - **kP hides it.** Look at the right column. With feedback, wrong units become a smaller miss: it
+#   "works", only badly, and everybody turns kP. If a good kP does not help, suspect the unit.
+#
+# The cheapest check there is: compute one voltage by hand. `kS + kV · (a speed you know)` must be
+# near what you would expect, between 0 and 12 V.
+
+# %% [markdown]
+# ## 5 Droop: what kP can do, and what not
+#
+# A shooter has good gains. It is told 4000 rpm and reaches 3900. In our case the reason is known:
+# the code says `set(volts / 12)`, and the battery has 11.7 V, so 2.5 % of each volt is missing.
+#
+# Now add kP to it, and nothing else. **Predict:**
+
+# %%
+guess_kp = Guess(
+    "With kP as large as kV, how much of the 100 rpm is left?",
+    "all of it",
+    "half of it",
+    "a tenth of it",
+    "nothing",
+)
+guess_kp
+
+# %%
+WANTED = 4000 / 60  # [rot/s]
+STEADY = wheel["kS"] + wheel["kV"] * WANTED
+
+
+def left_over(kp: float, share: float = 11.7 / 12.0) -> float:
+    """By how many rpm the wheel stays below its target, when a share of each volt arrives."""
+
+    def volts(_: int, __: list[float], v: list[float]) -> float:
+        return share * (STEADY + kp * (WANTED - v[-1]))
+
+    return 60 * (WANTED - float(moved(wheel, volts, loops=250)[1, -1]))
+
+
+KPS = np.array([0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+DROOP = [left_over(kp) for kp in KPS.tolist()]
+
+
+def droop(kp: float) -> Picture:
+    """What is left of the error, over kP."""
+    return curves(
+        KPS,
+        {"simulated": DROOP, "error without kP ÷ (1 + kP/kV)": DROOP[0] / (1 + KPS / wheel["kV"])},
+        xlabel="kP [V per rot/s]",
+        ylabel="rpm below the target",
+        marked=(kp, left_over(kp)),
+    )
+
+
+live(
+    droop,
+    kp=widgets.FloatSlider(
+        min=0, max=0.6, step=0.02, value=0.12, description="kP", continuous_update=False
+    ),
+)
+
+# %% [markdown]
+# No slider? Here:
+
+# %%
+droop(0.12)
+
+# %%
+print(f"You said: {guess_kp}.")
+Table(
+    ("kP ÷ kV", "kP [V per rot/s]", "rpm below the target", "share that is left"),
+    tuple(
+        (f"{times}", times * wheel["kV"], left_over(times * wheel["kV"]),
+         f"{100 * left_over(times * wheel['kV']) / DROOP[0]:.0f} %")
+        for times in (0, 1, 2, 4)
+    ),
+)  # fmt: skip
+
+# %% [markdown]
+# To apply a correction, P feedback needs an error. So it never removes all of it: what is left is
+# about **error ÷ (1 + kP/kV)**. This is called *droop*. A larger kP leaves less. Why not take a
+# huge one?
+
+# %%
+late = {0: "measured at once", 2: "measured 40 ms late", 6: "measured 120 ms late"}
+suggested = found.feedback()["velocity"].kp
+print(f"kP that the fit suggests, for WPILib's own loop: {suggested:.3f} V per rot/s.")
+shaking = follow(measured, 0.6, late=6)
+chase(TIME, TARGET, {"kP 0.6, 120 ms late": shaking, "kP 0": follow(measured)}, unit="rot/s")
+
+# %%
+away = [
+    (f"{kp}", *(miss(TARGET, follow(measured, kp, late=loops)).typical for loops in late))
+    for kp in (0.1, 0.3, 0.6, 1.2)
+]
+Table(("kP [V per rot/s]", *(f"miss, {name} [rot/s]" for name in late.values())), tuple(away))
+
+# %% [markdown]
+# A correction that comes late corrects what is no longer wrong. With a late measurement a large kP
+# makes things worse, until it swings. Motor controllers differ: in SysId's presets a Phoenix 6
+# velocity is 1 ms late, that of a NEO's own encoder 112 ms.
+#
+# > **Lesson says:** "SysId suggests kP = 0.62 — start here, tune on carpet with fresh battery."
+# >
+# > **Source says:** right. The suggested feedback gains are "educated guesses", a "starting point".
+# > ([WPILib docs: Analyzing Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/analyzing-gains.html))
+# > Which number it suggests depends on settings (lesson 7), among them the delay.
+# >
+# > **Try it:** choose the preset of your motor controller, and see whether kP changes.
+#
+# So for the 3900 rpm: **keep the gains**, mend what takes the volts (`setVoltage` instead of
+# `set(volts / 12)`), then add feedback for the rest. Do *not* raise kV until the display says 4000:
+# the number is then right for one speed and one battery.
+
+# %% [markdown]
+# ## 6 An arm that droops
+#
+# The same droop with gravity. An arm was characterized **empty**. Now it holds a game piece, out at
+# the end, level. A *position* loop with kP holds it: kP volts for each radian.
+#
+# **Predict:**
+
+# %%
+guess_arm = Guess(
+    "Which gains does a game piece change?",
+    "kV",
+    "kS",
+    "kG and kA",
+    "all of them",
+)
+guess_arm
+
+# %%
+PIECE, REACH = 1.0, 0.5  # [kg], [m] from the joint
+bare = arm.gains
+torque = 4.0 * 0.5 * 9.81  # [N·m] of the empty arm, level; kG pays for it
+inertia = arm.load * (1.0 + arm.spin)  # [kg·m²]
+loaded = bare | {
+    "kG": bare["kG"] * (1 + PIECE * REACH * 9.81 / torque),
+    "kA": bare["kA"] * (1 + PIECE * REACH**2 / inertia),
+}
+
+
+def sag(kp: float, *, told: dict[str, float]) -> float:
+    """How far the loaded arm hangs below level [degrees], with gains it was told."""
+
+    def volts(_: int, x: list[float], v: list[float]) -> float:
+        return told["kG"] * math.cos(0.0) + kp * (0.0 - x[-1]) - 0.1 * v[-1]
+
+    return -math.degrees(float(moved(loaded, volts, loops=200, arm=True)[0, -1])) + 0.0
+
+
+print(f"You said: {guess_arm}.")
+print(f"Empty: kG {bare['kG']:.2f} V, kA {bare['kA']:.3f}. Loaded: kG {loaded['kG']:.2f} V, "
+      f"kA {loaded['kA']:.3f}. kV and kS stay.")  # fmt: skip
+Table(
+    ("kP [V/rad]", "empty arm's gains: sags [°]", "missing kG ÷ kP [°]", "loaded arm's gains [°]"),
+    tuple(
+        (
+            f"{kp:.0f}",
+            sag(kp, told=bare),
+            math.degrees((loaded["kG"] - bare["kG"]) / kp),
+            sag(kp, told=loaded),
+        )
+        for kp in (1.0, 2.0, 5.0, 10.0)
+    ),
+)
+
+# %% [markdown]
+# At most, the arm hangs by (missing kG)/kP; friction carries a part of that. A larger kP makes it
+# less, and never zero. The right kG does it without any error. So: measure **with and without** the
+# piece (or compute the second from mass and distance), and switch the gains when the sensor sees a
+# piece.
+#
+# > **Lesson says:** run the elevator with full payload "since kA and kV change significantly with
+# > load mass".
+# >
+# > **Source says:** kA and kG grow with the mass. kV is the motor's back-EMF, seen through gears
+# > and drum; mass is not in it.
+# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# >
+# > **Try it:** the next cell loads the bench's elevator.
+
+# %%
+rows = []
+for kilograms in (elevator.load, 1.25 * elevator.load, 1.5 * elevator.load):
+    gains = replace(elevator, load=kilograms).gains
+    rows.append((f"{kilograms:.0f} kg", *(gains[name] for name in ORDER["elevator"])))
+Table(("carriage", "kS [V]", "kG [V]", "kV [V·s/m]", "kA [V·s²/m]"), tuple(rows))
+
+# %% [markdown]
+# ## 7 Place three gain sets
+#
+# Three fits, and somebody forgot to write down of what. They come from the bench's **drivetrain**,
+# **elevator** and **shooter** (per radian). The feedforward must get the right class and the right
+# slots. Whose are they?
+
+# %%
+sets = {"set 1": "retoohs", "set 2": "niartevird", "set 3": "rotavele"}  # read it backward
+fits = {}
+for name, backward in sets.items():
+    one = MECHANISMS[backward[::-1]]
+    record = simulate(one, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(1))
+    fits[name] = fit(record, type=one.type)
+Table(
+    ("set", "kS [V]", "kG [V]", "kV", "kA", "kA/kV [ms]"),
+    tuple(
+        (name, one.gains["kS"], one.gains.get("kG", "none"), one.gains["kV"], one.gains["kA"],
+         1000 * one.gains["kA"] / one.gains["kV"])
+        for name, one in fits.items()
+    ),
+)  # fmt: skip
+
+# %%
+OWNERS = ("drivetrain", "elevator", "shooter")
+guess_one = Guess("Set 1 belongs to the…", *OWNERS)
+guess_two = Guess("Set 2 belongs to the…", *OWNERS)
+guess_three = Guess("Set 3 belongs to the…", *OWNERS)
+display(guess_one, guess_two, guess_three)
+
+# %%
+print(f"You said: {guess_one}, {guess_two}, {guess_three}.")
+rows = []
+for name, one in fits.items():
+    cls = CLASSES.get(one.type, "SimpleMotorFeedforward")
+    top = (12.0 - one.gains["kS"] - one.gains.get("kG", 0.0)) / one.gains["kV"]
+    rows.append((name, sets[name][::-1], f"{cls}({', '.join(ORDER[one.type])})", top))
+Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(rows))
+
+# %% [markdown]
+# The clues: a kG means gravity. (12 − kS)/kV is the top speed; a drivetrain reaches a few m/s, a
+# wheel hundreds of rad/s. And kA/kV is how slowly it answers: a heavy wheel takes its time.
+
+# %% [markdown]
+# ## 8 Which mechanisms, and when
+#
+# A test costs time and wear. Ask: **what would be worse with gains that are 5 % off?**
+#
+# | mechanism | characterize? | because |
+# |---|---|---|
+# | drivetrain | **always** | wrong volts lead away from the path |
+# | shooter wheel | **always** | its speed at one moment decides the shot |
+# | arm, pivot | **recommended** | gravity changes with the angle; no one guess fits |
+# | elevator | **recommended** | gravity pulls all the time, and the load changes kG and kA |
+# | intake rollers | optional | only if their *speed* is controlled |
+# | climber | optional | only if it follows a profile, to be gentle; to get there, a high kP does |
+# | conveyor, indexer | usually not | on and off is enough |
+#
+# The fine print:
+#
+# - **Drivetrain:** kS and kV do most of the work. kA also tells the moment of inertia (below).
+# - **Arm:** first without the game piece, then with it (section 6). A light arm with a short way
+#   may do well with computed gains.
+# - **Elevator:** with its load. kA and kG change with the mass, kV does not.
+# - **Optional** means: it depends on what it has to do on *your* robot. Give the reason, and either
+#   answer is right.
+#
+# > **Lesson says:** "Teams like 2910 and 254 characterize every motorized mechanism that needs
+# > closed-loop control."
+# >
+# > **Source says:** we could not verify that, and experienced people differ. WPILib's docs name
+# > another way for those without room or time: "reasonable estimates of kG, kV, and kA can be
+# > obtained by fairly simple computation", while kS "must be measured".
+# > ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
+# >
+# > **Try it:** for each row of the table, say what your robot would do worse. No answer? No test.
+#
+# ### PathPlanner, Choreo, AdvantageKit: where the gains come in
+#
+# > **Lesson says:** "The payoff is compounding: a characterized drivetrain lets PathPlanner produce
+# > accurate autonomous trajectories."
+# >
+# > **Source says:** PathPlanner does not ask for kS or kV. It asks what the robot *is*: mass,
+# > moment of inertia, wheels, motors, true top speed. With that it plans speeds, and your drive
+# > code has to reach them. That is where the feedforward comes in.
+# > ([PathPlanner docs: Robot Config](https://pathplanner.dev/robot-config.html))
+# >
+# > **Try it:** in section 4, how far from its profile does the shooter stay without kA? A robot
+# > that is late on the slopes is beside its path in every curve.
+#
+# - **PathPlanner's moment of inertia** can be computed from two kA's: one measured while turning on
+#   the spot, one while driving straight. The same page has the formula:
+#
+#   > I = mass · (trackwidth / 2) · kA_angular / kA_linear
+#
+# - **Choreo** computes time-optimal paths that respect what you tell it about your robot. The same
+#   holds: a path is only as good as the drive code that follows it.
+#   ([WPILib docs: Choreo](https://docs.wpilib.org/en/latest/docs/software/pathplanning/choreo/index.html))
+# - **AdvantageKit's** swerve templates bring a simple routine for kS and kV of the drive, and
+#   SysId's four tests for those who want kA. Its log counts in **radians**, Phoenix in
+#   **rotations**: 2π again.
+#   ([AdvantageKit docs: TalonFX Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
+#
+# Why does the formula work? Straight ahead, the wheels push mass; on the spot, they push inertia,
+# with half of the trackwidth as a lever. The motors are the same, so the ratio of the kA's is the
+# ratio of the loads. On the bench:
+
+# %%
+drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
+linear = drivetrain.gains["kA"]
+# turning: the wheels feel a mass of I / (track/2)², and meters at the wheel are radians · track/2
+turning = replace(drivetrain, load=INERTIA / (TRACK / 2) ** 2).gains["kA"] * TRACK / 2
+computed = drivetrain.load * TRACK / 2 * turning / linear
+print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad: I = {computed:.2f} kg·m²")
+
+# %% [markdown]
+# ### When
+#
+# > **Lesson says:** "Build characterization time into your schedule during the last two weeks of
+# > build season, when the robot is mechanically done but the software is still being written." And
+# > the gains from the shop "will transfer directly to competition".
+# >
+# > **Source says:** the first is good advice; WPILib's docs ask for at least 10 feet to drive,
+# > ideally 20, and a pit does not have that. The second needs fine print: the gains describe *that*
+# > robot on *that* floor. The source lesson says so itself: measure again if gearing, wheels or
+# > carpet contact change.
+# > ([WPILib docs: Characterizing Your Robot Drive](https://docs.wpilib.org/en/stable/docs/software/pathplanning/trajectory-tutorial/characterizing-drive.html))
+# >
+# > **Try it:** count back from your first competition. Write two evenings into the calendar: one to
+# > measure, one to measure again.
+#
+# Measure again when: mass changed (kA, kG), gears or wheels changed (kV, kA), something rubs or was
+# mended (kS). Keep the old log; the comparison finds what broke.
+
+# %% [markdown]
+# ## 9 Your own robot
+#
+# 1. Fetch the log (lesson 5), look at it (lesson 6), inspect it: `sysid inspect my_log.wpilog`
+# 2. Fit it in the unit that your code counts in, with its type:
+#
+#    ```
+#    sysid fit my_log.wpilog --type arm --units radians
+#    ```
+#
+# 3. Let it write the code, and paste it into its own file:
+#
+#    ```
+#    sysid fit my_log.wpilog --paste java
+#    sysid fit my_log.wpilog --paste python --season 2027
+#    ```
+#
+# 4. Compute one voltage by hand before you enable. Then: small targets, robot on the floor, a hand
+#    on Disable. First with kP = 0, and look whether it *nearly* follows. Then kP.
+#
+# For an arm the code comes per radian, with the offset that makes your sensor's reading the angle
+# from horizontal. When gains cannot be right, it writes no code and says why.
+
+# %% [markdown]
+# ## 10 System check
+#
+# Before you enable with new gains, all five:
+#
+# - [ ] Every constant has its unit in a comment, and a note when it was measured.
+# - [ ] The class fits the analysis type, and **kG** is in the second place.
+# - [ ] The unit of kV is the unit in which your code hands over velocities.
+# - [ ] One voltage, computed by hand, lies between 0 and 12 V and makes sense.
+# - [ ] kP is marked as a start, fits its loop's output, and the first try is with kP = 0.
+#
+# ## 11 Knowledge check
+#
+# **1.** A shooter has kS = 0.11 V, kV = 0.082 V·s/rot, kA = 0.003. Told 4000 rpm, it stays at 3900.
+# Are the gains bad?
+#
+# <details><summary>Answer</summary>
+#
+# No. 4000 rpm are 66.7 rot/s, so the feedforward asks for 0.11 + 0.082 · 66.7 = 5.58 V. 2.5 % less
+# speed is what a model without feedback leaves. Keep the gains; check units and that the volts
+# arrive (`set(volts / 12)` on an 11.7 V battery does exactly this); then add feedback. kP alone
+# leaves a part.
+# </details>
+#
+# **2.** An arm, characterized empty, droops with a game piece. What changed, and what is the fix?
+#
+# <details><summary>Answer</summary>
+#
+# kG and kA are larger with the piece; kV and kS hardly change. Measure (or compute) the loaded
+# gains and switch to them when a sensor sees the piece. A larger kP makes the droop smaller, not
+# zero.
+# </details>
+#
+# **3.** `new ArmFeedforward(0.2, 1.2, 0.08, 1.5)` of an arm with kS 0.2, kV 1.2, kA 0.08, kG 1.5.
+# What is wrong?
+#
+# <details><summary>Answer</summary>
+#
+# The order. It should be kS, kG, kV, kA: `new ArmFeedforward(0.2, 1.5, 1.2, 0.08)`. As it stands,
+# 1.2 V are taken for gravity, and 0.08 for kV.
+# </details>
+#
+# **4.** In week 3 a brace of 4 kg is added to the drivetrain. Which constants do you measure again?
+#
+# <details><summary>Answer</summary>
+#
+# kA, and what follows from it: kP, and the mass and moment of inertia in the path planner. kV and
+# kS stay nearly the same.
+# </details>
+#
+# **5.** With kP = 0 your turret hardly moves, with a large kP it gets there, late and shaking. What
+# do you suspect?
+#
+# <details><summary>Answer</summary>
+#
+# The feedforward's unit: per radian where rotations are handed over, 2π too small. kP hid it.
+# Compute one voltage by hand.
+# </details>
+
+# %% [markdown]
+# ## 12 Practice
+#
+# **Exercise 10: from the analyzer to the robot** (`exercises/exercise10/README.md`). Numbers of a
+# mechanism that only you have, and a code file to fill in. Sections 2 to 4 help.
+#
+# ```
+# grade exercise10
+# ```
+#
+# **Exercise 11: knowledge checks and the mechanism table** (`exercises/exercise11/README.md`).
+# Sections 5, 6 and 8 help, and lesson 6 for the first check. Answer in the file, or from a
+# notebook:
+#
+# ```python
+# from grader import submit
+#
+# submit("exercise11", intake="optional", intake_reason="…", schedule="…")
+# ```
+#
+# **More, if you like.** Put kP = 0.2 into section 4 and find out which of the wrong gain sets you
+# would still notice by eye. What would you log on your robot, to notice it there?
+#
+# Next: lesson 9, what your model does not know.
