@@ -9,7 +9,6 @@ of each exercise is that of a few students graded here, one after another. Aim: 
 minutes.
 """
 
-import os
 import sys
 import tempfile
 import time
@@ -17,6 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import psutil
+from bench_grade import loaded, spent
 from class_made import ROOT, SECRET, asked, make
 
 from grader.variant import of_class
@@ -24,20 +24,9 @@ from sim.work.here import cores
 
 PROCESSES = 2
 TARGET = 300.0  # [s] for 500 students
-SAMPLE = 12  # [students] that are graded one exercise after another
+SAMPLE = 20  # [students] of all the class that are graded one exercise after another
 LOOK = 0.5  # [s] between two looks at the memory
 CODE = f"import sys; sys.path.insert(0, {str(ROOT)!r}); from grader.cli import main; main()"
-
-
-def loaded() -> str:
-    """How busy the machine is with this and all else, where it says so."""
-    return f"load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "load unknown"
-
-
-def spent() -> float:
-    """Processor seconds [s] of all processes that this one started and saw end."""
-    times = psutil.Process().cpu_times()
-    return float(times.children_user + times.children_system)
 
 
 def largest(process: psutil.Process) -> int:
@@ -83,7 +72,8 @@ def graded(handed_in: Path, secret: Path, *, only: Sequence[str]) -> tuple[float
 
 def by_exercise(handed_in: Path) -> None:
     """Print what each exercise takes of a few students: the mean, and the longest."""
-    students = sorted(handed_in.iterdir())[:SAMPLE]
+    everybody = sorted(handed_in.iterdir())
+    students = everybody[:: -(-len(everybody) // SAMPLE)]
     print(f"\n{'exercise, of ' + str(len(students)) + ' students':36}{'mean s':>8}{'most s':>8}")
     with of_class(SECRET):
         for one in asked(ROOT):

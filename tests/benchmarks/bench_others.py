@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from bench_class import loaded
+from bench_grade import loaded
 from others_tools import GAINS, Task, Timed, installed, nbgrader, otter, ours
 
 from sim.fit import fit

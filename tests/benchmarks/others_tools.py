@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import psutil
 from bench_class import CODE
+from bench_grade import spent
 
 BAND = 0.1  # [share] of the key that a right number may be off
 GAINS = ("kS", "kV", "kA")
@@ -109,12 +109,9 @@ def said(command: list[str], folder: Path, *, tools: Path | None = None) -> str:
 
 def timed(command: str, run: Callable[[], object], scores: Callable[[], Scores]) -> Timed:
     """Run, and read the scores afterwards."""
-    before, begin = psutil.Process().cpu_times(), time.perf_counter()
+    before, begin = spent(), time.perf_counter()
     run()
-    took, after = time.perf_counter() - begin, psutil.Process().cpu_times()
-    work = sum(
-        getattr(after, one) - getattr(before, one) for one in ("children_user", "children_system")
-    )
+    took, work = time.perf_counter() - begin, spent() - before
     return Timed(command, took, work, scores())
 
 
