@@ -95,8 +95,9 @@ Table(
 # (This leaves out that the robot lags a little behind the voltage. The bench does not.)
 #
 # Then you let go. First your thumb needs its time, and the voltage is still on. Then the motors
-# brake, if their neutral mode is *Brake*. They cannot brake harder than the carpet holds, so on top
-# of the thumb comes at least `v² / (2·μ·g)`, with grip μ and g = 9.81 m/s².
+# brake, if their neutral mode is *Brake*. They cannot brake harder than the carpet holds. So on top
+# of the thumb comes at least `v² / (2·μ·g)`, with g = 9.81 m/s² and the grip μ (about 1.1 for
+# wheels on carpet, less on a smooth floor).
 #
 # **Predict.** Nobody grades this; you will see your guess again. (No buttons on your screen? Type
 # `guess_room.value = "more room"` in a cell.)
@@ -306,10 +307,10 @@ live(
 morning("2 battery", STEP, moment=1.0)
 
 # %% [markdown]
-# Look at the battery's line. The step asks for so much current that the voltage falls below the
-# brownout line. The robot controller takes the motors off, the battery recovers at once, the motors
-# come back, and so on. The robot crawls. (Our bench lets the motors back as soon as they may; a
-# real robot stutters at a rhythm of its own.)
+# Look at the battery's line. The step asks for so much current that the battery's voltage falls
+# below a threshold. Then the robot controller takes the motors off, to keep itself alive: that is a
+# *brownout*. The battery recovers at once, the motors come back, and so on. The robot crawls. (Our
+# bench lets the motors back as soon as they may; a real robot stutters at a rhythm of its own.)
 #
 # ### What the log is worth
 #
@@ -353,7 +354,7 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # - **1 room.** You see it on the floor, and the log is spoiled, too: against the wall there is
 #   voltage without speed. (Here it is in one ramp only. That is enough.)
 # - **2 battery.** You may see the robot crawl, and the Driver Station shows the brownout. `inspect`
-#   even says that the step is mislabeled: there is no step left in it.
+#   even says that the step is mislabeled: it does not look like a step any more.
 # - **3 encoder.** On the floor, *everything is normal*. All gains come out negative. This is the
 #   check that nobody sees being skipped.
 # - **4 log.** A perfect afternoon, and nothing to show for it.
@@ -367,6 +368,10 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # Clear the way in **both** directions, on the carpet it will drive on. Work out the way (section
 # 2), put tape down, and let somebody who does not hold the button watch it. For an arm or an
 # elevator: move it by hand through all of its travel. Nothing may be in the way, no cable may pull.
+#
+# Set the **timeout** to what your plan needs, and no longer: it ends the test if the thumb does
+# not. Begin with a **small step**. The source lesson says 3 to 4 V; a strong, light drivetrain
+# slips below that (lesson 4).
 #
 # ### Battery
 #
@@ -441,10 +446,10 @@ Table(
 # > **Lesson says:** "There is no position limit, no current limit bypass protection, and no
 # > closed-loop correction."
 # >
-# > **Source says:** half of it. Open loop is true. But limits *in the motor controller* go on
-# > working in a test, if you have set them: "it is up to you to set up hard or soft limits to
-# > prevent injury or damage". What a test bypasses is what your own **commands** do: it has the
-# > subsystem for itself.
+# > **Source says:** half of it. Nothing corrects the motion, that is true (it is called *open
+# > loop*). But limits *in the motor controller* go on working in a test, if you have set them: "it
+# > is up to you to set up hard or soft limits to prevent injury or damage". What a test bypasses is
+# > what your own **commands** do: it has the subsystem for itself.
 # > ([WPILib docs: Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
 # > **Try it:** the next cell sets a current limit of 40 A per motor and runs the tests.
@@ -609,13 +614,15 @@ Table(
 #    tests, each once, stop.
 # 3. **Tuner X**, *Log Extractor*: choose the `.hoot` file on the robot and download it. It lands in
 #    the queue on the right. Choose WPILOG, then *Convert*.
-# 4. Load `Position`, `Velocity` and `MotorVoltage` of that TalonFX. `MotorVoltage` is what arrived.
+# 4. In SysId, the *Test State* is the entry `state`, as you named it in step 1. Load `Position`,
+#    `Velocity` and `MotorVoltage` of that TalonFX. `MotorVoltage` is what arrived.
 #
 # CTRE asks you not to convert with other tools, since signals may be lost on the way.
 # ([CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html),
 # [Extracting Signal Logs](https://v6.docs.ctr-electronics.com/en/stable/docs/tuner/tools/log-extractor.html))
 #
-# Phoenix 6 sets current limits by itself: 120 A stator and 70 A supply (26.3). You have just seen
+# Phoenix 6 sets current limits by itself (release 26.3): 120 A stator, which is the current in the
+# motor, and 70 A supply, which is what the controller draws from the battery. You have just seen
 # what a limit does to a log of asked-for volts.
 #
 # ### If your motors are REV's

@@ -134,7 +134,8 @@ slope = np.gradient(rise.velocity, rise.time)
 early, later = (int(np.searchsorted(rise.time, rise.time[0] + wait)) for wait in (0.02, 0.02 + TAU))
 print(f"You said: {guess_rise}.")
 print(f"Acceleration after  20 ms: {slope[early]:.1f} m/s²")
-print(f"Acceleration {1000 * TAU:.0f} ms later: {slope[later]:.1f} m/s², about 1/e = 37 % of it")
+print(f"Acceleration {1000 * TAU:.0f} ms later: {slope[later]:.1f} m/s²", end="")
+print(f", {slope[later] / slope[early]:.0%} of it")
 
 # %% [markdown]
 # ### Explain
@@ -143,7 +144,8 @@ print(f"Acceleration {1000 * TAU:.0f} ms later: {slope[later]:.1f} m/s², about 
 # left. So the acceleration is **largest at the start** and dies away, by the same share in each
 # equal piece of time. Such a curve is called *exponential*, and kA/kV is its time scale.
 #
-# In the plot above that is a straight line that falls: the faster, the less acceleration.
+# (After each kA/kV, about 37 % of the acceleration is left. Noise makes the printed share stray a
+# little.) In the plot above that is a straight line that falls: the faster, the less acceleration.
 #
 # > **Lesson says:** "Acceleration is relatively constant during the rising portion."
 # >
@@ -265,7 +267,8 @@ look("current limit", "over time")
 look("velocity filter", "velocity and position's slope")
 
 # %% [markdown]
-# What each of them does to the gains:
+# What each of them does to the gains. (The two **R²** are SysId's scores. 1 is perfect, 0 is no
+# better than a guess, and below zero is worse than one. Section 5 is about them.)
 
 
 # %%
@@ -409,11 +412,11 @@ def trimmed(end: float, threshold: float, median: int) -> Picture:
 
 live(
     trimmed,
-    end=widgets.FloatSlider(
-        min=1, max=6, step=0.1, value=6, description="ramp ends", continuous_update=False
-    ),
     threshold=widgets.FloatSlider(
         min=0, max=1, step=0.05, value=0, description="threshold", continuous_update=False
+    ),
+    end=widgets.FloatSlider(
+        min=1, max=6, step=0.1, value=6, description="ramp ends", continuous_update=False
     ),
     median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median"),
 )
@@ -739,6 +742,8 @@ time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 # `grade exercise7 --hint`.
 #
 # **On your own robot:** open an old log in AdvantageScope, drag velocity and voltage into a line
-# graph, and look for the four things of section 7. Then run `sysid inspect` on it.
+# graph, and go through the list of section 7. Fit it, and note both R². If the simulated velocity
+# R² is below 0.9, write down which of the nine you suspect, and what you would check first. Then
+# run `sysid inspect` on it.
 #
 # Next: lesson 7, fit it yourself.
