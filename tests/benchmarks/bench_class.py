@@ -9,9 +9,11 @@ of each exercise is that of a few students graded here, one after another. Aim: 
 minutes.
 """
 
+import json
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -70,6 +72,12 @@ def graded(handed_in: Path, secret: Path, *, only: Sequence[str]) -> tuple[float
     return took, most
 
 
+def outcomes(results: Path) -> Counter[str]:
+    """What became of every answer: how many are of each status."""
+    kept = [json.loads(path.read_text(encoding="utf-8")) for path in results.glob("*.json")]
+    return Counter(record["status"] for one in kept for record in one["records"])
+
+
 def by_exercise(handed_in: Path) -> None:
     """Print what each exercise takes of a few students: the mean, and the longest."""
     everybody = sorted(handed_in.iterdir())
@@ -102,12 +110,17 @@ def main() -> None:
         total, most = graded(handed_in, secret, only=names)
         work = spent() - before
         there = sum(1 for _ in handed_in.glob("*/*"))
+        results = folder / "class-graded" / "results"
+        written = {one: one.stat().st_mtime_ns for one in results.iterdir()}
         again, _ = graded(handed_in, secret, only=names)
+        anew = sum(one.stat().st_mtime_ns != written.get(one) for one in results.iterdir())
         aim = TARGET * students / 500
         print(f"{'everything':36}{total:8.1f} s   aim {aim:.0f} s, {loaded()}")
+        became = outcomes(results)
+        print("graded: " + ", ".join(f"{count} {one}" for one, count in became.most_common()))
         print(f"{'processor time':36}{work:8.1f} s   {work / PROCESSES:.0f} s on {PROCESSES} cores")
         print(f"{'each of ' + str(there) + ' submissions':36}{1e3 * total / there:8.0f} ms")
-        print(f"{'once more: all is known':36}{again:8.1f} s")
+        print(f"{'once more':36}{again:8.1f} s   {anew} students graded again")
         print(f"{'largest process':36}{most / 1e6:8.0f} MB")
         by_exercise(handed_in)
 
