@@ -128,6 +128,9 @@ Table(HEADER, (row("wired right", right), row("positions thrown away", no_positi
 # %% [markdown]
 # ## 3 Doing it: the routine, part by part
 #
+# SysId needs no project of its own. The routine is one more field of a subsystem that you have,
+# because the subsystem owns the motors and the encoders.
+#
 # ### Two arguments
 #
 # > **Lesson says:** "The routine takes three things: a Config (…), a Mechanism (…), and a log-name
@@ -723,6 +726,13 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 #
 # The exercise wants the source lesson's numbers: 0.5 V/s, 3.5 V, 10 s. It accepts `setVoltage` and
 # a `VoltageOut` request alike.
+#
+# **Exercise 5.** Bind four tests to buttons, each with a comment, behind a guard
+# (`exercises/exercise5/README.md`):
+#
+# ```
+# grade exercise5
+# ```
 #
 # **On your own robot:** write the four bindings and the guard, with a comment on each that names
 # the test and what it measures. Then let somebody who was not here find the dynamic reverse button.

@@ -775,8 +775,13 @@ print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad: I =
 # ```
 #
 # **Exercise 11: knowledge checks and the mechanism table** (`exercises/exercise11/README.md`).
-# Sections 5, 6 and 8 help, and lesson 6 for the first check. Answer in the file, or from a
-# notebook:
+# Sections 5, 6 and 8 help, and lesson 6 for the first check.
+#
+# ```
+# grade exercise11
+# ```
+#
+# Or answer from a notebook:
 #
 # ```python
 # from grader import submit

@@ -1,0 +1,197 @@
+"""Every item of the source lesson is taught somewhere, practiced somewhere and checked somewhere.
+
+What is where stands in ``traceability.toml``; here it is held, by name, so that nothing is renamed
+or dropped unnoticed.
+"""
+
+import re
+import sys
+import tomllib
+from functools import cache
+from pathlib import Path
+
+import pytest
+from test_exercises import mistakes_of
+
+from grader.course import find_course
+from grader.exercise import exercises
+from grader.misconception import MISCONCEPTIONS
+from sim.effects import EFFECTS
+from sim.faults import FAULTS
+
+ROOT = find_course(Path(__file__).resolve().parent)
+TABLE = tomllib.loads((ROOT / "tests" / "traceability.toml").read_text(encoding="utf-8"))
+EXERCISES = {one.name: one for one in exercises(ROOT)}
+LESSONS = {path.stem[:2]: path for path in sorted((ROOT / "lessons").glob("*.py"))}
+HEADING = re.compile(r"^(?P<level>#{2,3}) (?:(?P<number>\d+) )?(?P<title>.+)$", re.MULTILINE)
+
+each_item = pytest.mark.parametrize("item", TABLE["item"], ids=lambda item: item["says"])
+each_claim = pytest.mark.parametrize("claim", TABLE["claim"], ids=lambda claim: claim["row"])
+each_lesson = pytest.mark.parametrize("lesson", LESSONS)
+
+
+def unquoted(text):
+    """Text without the marks of a quote, and every run of spaces and line ends as one space."""
+    return " ".join(re.sub(r"^> ?", "", text, flags=re.MULTILINE).split())
+
+
+@cache
+def prose(lesson):
+    """What a lesson says, without the marks of its cells."""
+    text = LESSONS[lesson].read_text(encoding="utf-8")
+    _, *cells = re.split(r"^# %% \[markdown\]\n", text, flags=re.MULTILINE)
+    words = "".join(cell.partition("\n# %%")[0] + "\n" for cell in cells)
+    return re.sub(r"^# ?", "", words, flags=re.MULTILINE)
+
+
+@cache
+def sections(lesson):
+    """Heading -> its number, and everything up to the next heading of its level or above."""
+    text = prose(lesson)
+    found = list(HEADING.finditer(text))
+    sizes = [len(one["level"]) for one in found]
+    there = {}
+    for at, one in enumerate(found):
+        after = (n for n in range(at + 1, len(found)) if sizes[n] <= sizes[at])
+        until = next((found[n].start() for n in after), len(text))
+        there[one["title"]] = (one["number"], unquoted(text[one.end() : until]))
+    return there
+
+
+@cache
+def boxes(lesson):
+    """Of every box: what the source lesson says, and what stands against it."""
+    quotes = [unquoted(one) for one in re.findall(r"(?:^>.*\n)+", prose(lesson), re.MULTILINE)]
+    return [one.partition("**Source says:**")[::2] for one in quotes if "**Lesson says:**" in one]
+
+
+def assert_taught(lesson, heading, words):
+    assert heading in sections(lesson), f"lesson {lesson} has no section {heading!r}"
+    assert words in sections(lesson)[heading][1], f"lesson {lesson}, {heading!r}: {words!r} is gone"
+
+
+def plants():
+    """What exercise 7 can put into a log, undamaged ones included."""
+    drawn = sys.modules[f"{EXERCISES['exercise7'].module.__name__}.drawn"]
+    return {"clean" if min(drawn.SOUND) >= 2 else "", *drawn.LESSON, *drawn.ALWAYS, *drawn.OTHERS}
+
+
+def hides():
+    """What exercise 12 can hide."""
+    drawn = sys.modules[f"{EXERCISES['exercise12'].module.__name__}.drawn"]
+    return {name for _, effects in drawn.HIDDEN for name, _ in effects}
+
+
+@each_item
+def test_an_item_is_taught_where_the_table_says(item):
+    assert item["taught"]
+    for place in item["taught"]:
+        assert_taught(*place)
+
+
+@each_item
+def test_an_item_is_checked_and_a_wrong_answer_falls_to_the_check(item):
+    checks = {tuple(one.split(".")) for one in item["checks"]}
+    for name, check in checks:
+        assert check in [one.id for one in EXERCISES[name].checks], f"{name} has no check {check}"
+    for wrong in item["caught"]:
+        name, _, mistake = wrong.partition(": ")
+        found = {(name, one.check) for one in mistakes_of(name) if one.name == mistake}
+        assert found, f"solutions/{name}/mistakes.py has no {mistake!r}"
+        assert found <= checks, f"{mistake!r} falls to another check: {found}"
+    assert item["caught"]
+
+
+@each_item
+def test_the_damage_and_the_effects_of_an_item_are_drawn_for_learners(item):
+    damage, effects = item.get("damage", []), item.get("effects", [])
+    assert {*damage} <= plants() & {"clean", *FAULTS}, "exercise 7 plants other damage"
+    assert {*effects} <= hides() & {*EFFECTS}, "exercise 12 hides other effects"
+
+
+@each_claim
+def test_a_claim_of_the_source_lesson_stands_beside_the_fact(claim):
+    for lesson, said, fact in claim.get("boxes", []):
+        against = [facts for claimed, facts in boxes(lesson) if said in claimed]
+        assert against, f"lesson {lesson} no longer quotes {said!r}"
+        assert any(fact in facts for facts in against), f"lesson {lesson}: {fact!r} is gone"
+    for place in claim.get("prose", []):
+        assert_taught(*place)
+    assert claim.get("boxes") or claim.get("prose")
+
+
+@each_lesson
+def test_a_box_says_what_the_lesson_says_then_the_source_with_a_link_then_what_to_try(lesson):
+    assert boxes(lesson)
+    for claimed, facts in boxes(lesson):
+        source, _, tried = facts.partition("**Try it")
+        assert claimed.startswith("**Lesson says:**"), claimed
+        assert "](https://" in source, f"no source: {claimed}"
+        assert len(tried) > len(":** do"), f"nothing to try: {claimed}"
+
+
+@each_lesson
+def test_the_practice_of_a_lesson_names_its_exercises_and_how_to_grade_them(lesson):
+    _, text = sections(lesson)["Practice"]
+    named = {f"exercise{number}" for number in re.findall(r"\*\*Exercise (\d+)", text)}
+    named |= {"practice"} if "**Practice" in text else set()
+    assert named == {*TABLE["practice"][lesson]}
+    for name in named:
+        assert f"grade {name}" in text
+
+
+def test_every_exercise_is_practice_of_a_lesson():
+    assert {name for names in TABLE["practice"].values() for name in names} == {*EXERCISES}
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_the_pointer_hint_sends_to_sections_that_are_there(name):
+    _, pointer, _ = EXERCISES[name].hints
+    sent = set()
+    for part in re.split(r"(?=[Ll]esson \d)", pointer)[1:]:
+        lists = re.findall(r"[Ss]ections? (\d+(?:(?:, | and |, and )\d+)*)", part)
+        sent |= {
+            (f"{int(part[7]):02}", number) for one in lists for number in re.findall(r"\d+", one)
+        }
+    meant = set()
+    for lesson, heading in TABLE["pointers"][name]:
+        assert heading in sections(lesson), f"lesson {lesson} has no section {heading!r}"
+        meant.add((lesson, sections(lesson)[heading][0]))
+    assert sent == meant
+
+
+@pytest.mark.parametrize("code", MISCONCEPTIONS)
+def test_a_misconception_sends_to_a_section_that_is_there(code):
+    known = MISCONCEPTIONS[code]
+    assert LESSONS[known.lesson[:2]].stem == known.lesson
+    assert known.section in sections(known.lesson[:2])
+
+
+def rows(text, heading):
+    """The rows of the first table below a heading, each as its cells."""
+    _, _, below = text.partition(heading)
+    table = re.search(r"^\|[-:| ]+\|\n((?:\|.*\n)+)", below, re.MULTILINE)[1]
+    return [[cell.strip() for cell in row.strip(" |").split("|")] for row in table.splitlines()]
+
+
+@pytest.mark.shared
+def test_the_table_has_every_row_of_the_curriculum_in_its_order(shared):
+    given = rows((shared / "curriculum.md").read_text(encoding="utf-8"), "### 6 Traceability")
+    assert len(given) == len(TABLE["item"])
+    for (_, lessons, asked, *_), item in zip(given, TABLE["item"], strict=True):
+        names = {
+            re.sub(r"^\d", r"exercise\g<0>", one) for one in re.findall(r"\d+|practice", asked)
+        }
+        missed = {f"0{one}" for one in re.findall(r"N(\d)", lessons)} - {
+            at for at, *_ in item["taught"]
+        }
+        missed |= names - {one.partition(".")[0] for one in item["checks"]}
+        assert not missed, f"{item['says']}: the curriculum names {missed} as well"
+
+
+@pytest.mark.shared
+def test_what_is_false_or_misleading_in_the_source_lesson_has_a_box(shared):
+    facts = rows((shared / "facts.md").read_text(encoding="utf-8"), "against the facts")
+    boxed = {claim["row"] for claim in TABLE["claim"] if claim.get("boxes")}
+    assert {number for number, *_ in facts} == {claim["row"] for claim in TABLE["claim"]}
+    assert {number for number, *_, mark, _ in facts if {"🔴", "🟠"} & {*mark}} <= boxed
