@@ -116,7 +116,7 @@ def step_response(
     wait = preset.delay if delay is None else max(0.0, delay)
     _check(plant, loop=loop, numbers=(feedback.kp, feedback.kd, target, wait))
     points = max(1, math.ceil(preset.period / FINE - 1e-9))
-    moving = _Moving(plant, step=preset.period / points)
+    moving = Moving(plant, step=preset.period / points)
     controller = _Controller(plant, loop, feedback, preset, target=target)
     seen = moving.path if loop == "position" else moving.speed
     first, behind, voltage = seen[0], wait / moving.step, [0.0]
@@ -131,15 +131,24 @@ def step_response(
     return StepResponse(loop, target, time, tuple(v - first for v in seen), tuple(voltage))
 
 
-class _Moving:
-    """A mechanism on its way, in equal steps."""
+class Moving:
+    """A mechanism on its way, in equal steps.
 
-    def __init__(self, plant: Plant, *, step: float) -> None:
+    Args:
+        plant: what moves.
+        step: [s].
+        start: [unit] where it begins; None where its weight is largest.
+        speed: [unit/s] at which it begins.
+    """
+
+    def __init__(
+        self, plant: Plant, *, step: float, start: float | None = None, speed: float = 0.0
+    ) -> None:
         kv, ka = plant.gains["kV"], plant.gains["kA"]
         self.plant, self.step = plant, step
         self.keep = math.exp(-kv / ka * step)
         self.gain = -math.expm1(-kv / ka * step) / kv if kv else step / ka
-        self.path, self.speed = [plant.level], [0.0]
+        self.path, self.speed = [plant.level if start is None else start], [speed]
 
     def on(self, volts: float) -> None:
         """One step under a voltage."""

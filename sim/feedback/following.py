@@ -1,0 +1,150 @@
+"""What a mechanism does under feedforward alone, with whatever gains: a profile, and what follows.
+
+    volts = kS·sgn(v) + kV·v + kA·a + gravity       by the gains somebody believes in, at most 12 V
+    kA·v' = volts - kS·sgn(v) - kV·v - gravity      by the gains the mechanism has
+
+Nothing corrects an error here, so every wrong gain shows in the motion, each in its own way.
+"""
+
+import math
+import re
+from dataclasses import dataclass
+
+from sim.feedback.profile import STEP, Profile
+from sim.feedback.response import BATTERY, Moving, Plant
+
+SEEN = 0.02  # [share] of a way or a speed: a smaller miss is none worth a word
+CLEAR = 0.25  # [share] of a speed: from here on the speed itself says more than the difference
+STANDS = 0.05  # [share] of the speed asked for, below which it hardly moves
+INFINITE = (-math.inf, math.inf)
+BESIDE = {"height": ("above", "below"), "angle": ("above", "below")}
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """A profile, and what a mechanism made of it.
+
+    Args:
+        name: of the mechanism: ``elevator``.
+        symbol: of its unit of position.
+        wanted: what was asked for.
+        position: (n,) [unit].
+        velocity: (n,) [unit/s].
+        place: what its position is called, ``height``; empty where only its speed matters.
+        stops: [unit] between which it can move.
+    """
+
+    name: str
+    symbol: str
+    wanted: Profile
+    position: tuple[float, ...]
+    velocity: tuple[float, ...]
+    place: str = "way"
+    stops: tuple[float, float] = INFINITE
+
+    @property
+    def words(self) -> str:
+        """What happens, in short sentences with rounded numbers."""
+        parts = [part for part in (self._held(), self._went(), self._stands()) if part]
+        told = " ".join(parts) or "It does nearly what is asked of it here."
+        return re.sub(r"\b[Ii]t\b", lambda it: self._named(it[0]), told, count=1)
+
+    def _named(self, it: str) -> str:
+        return f"{'The' if it == 'It' else 'the'} {self.name}"
+
+    def _way(self) -> float:
+        return max(self.wanted.position) - min(self.wanted.position)
+
+    def _held(self) -> str:
+        """What it does while it shall stand still, before it moves."""
+        end = self.wanted.rest
+        drift = self.position[end] - self.position[0]
+        if abs(drift) <= SEEN * self._way():
+            return ""
+        told = f"Told to stand still, it {'sinks' if drift < 0.0 else 'climbs'} {self._size(drift)}"
+        if self.position[end] in self.stops:
+            return f"{told}, to its stop."
+        return f"{told} in {self.wanted.time[end]:.1g} s."
+
+    def _went(self) -> str:
+        """How fast it is when it should be steady."""
+        place = self.wanted.cruise
+        wanted, found = self.wanted.velocity[place], self.velocity[place]
+        told = f"Told to do {wanted:.2g} {self.symbol}/s, it"
+        if self.position[place] in self.stops:
+            return f"{told} is at its stop."
+        if abs(found) <= STANDS * abs(wanted):
+            return f"{told} hardly moves."
+        if found * wanted < 0.0:
+            return f"{told} goes the other way."
+        off = (found - wanted) * math.copysign(1.0, wanted)
+        if abs(off) > CLEAR * abs(wanted) and self._size(found) != self._size(wanted):
+            return f"{told} does {self._size(found)}/s."
+        if abs(off) > SEEN * abs(wanted):
+            return f"{told} is {self._size(off)}/s too {'fast' if off > 0.0 else 'slow'}."
+        return self._gets_there()
+
+    def _gets_there(self) -> str:
+        """How far it is off while it gets faster, where it is right once it is."""
+        wanted = self.wanted.velocity
+        rising = range(self.wanted.rest, self.wanted.cruise)
+        off = max((self.velocity[k] - wanted[k] for k in rising), key=abs, default=0.0)
+        if abs(off) <= SEEN * max(map(abs, wanted)):
+            return ""
+        ahead = off * wanted[self.wanted.cruise] > 0.0
+        return (
+            f"While it gets faster, it is up to {self._size(off)}/s {'ahead' if ahead else 'late'}."
+        )
+
+    def _stands(self) -> str:
+        """How far it is off in the end."""
+        off = self.position[-1] - self.wanted.position[-1]
+        if not self.place or abs(off) <= SEEN * self._way():
+            return ""
+        more, less = BESIDE.get(self.place, ("ahead of", "behind"))
+        return f"It ends {self._size(off)} {more if off > 0.0 else less} where it should be."
+
+    def _size(self, value: float) -> str:
+        """One digit: it is a picture, not a measurement."""
+        return f"about {float(f'{abs(value):.1g}'):g} {self.symbol}"
+
+
+def follow(
+    plant: Plant,
+    believed: Plant,
+    wanted: Profile,
+    *,
+    name: str,
+    symbol: str,
+    place: str = "way",
+    stops: tuple[float, float] = INFINITE,
+) -> Followed:
+    """Let a mechanism follow a profile by a feedforward, and by nothing else.
+
+    Args:
+        plant: the mechanism as it is.
+        believed: as the feedforward's class and gains have it.
+        wanted: what is asked for, in the unit of both.
+        name: of the mechanism, for people.
+        symbol: of the unit of position.
+        place: what its position is called; empty where only its speed matters.
+        stops: [unit] between which it can move.
+    """
+    moving = Moving(plant, step=STEP, start=wanted.position[0])
+    low, high = stops
+    for k, push in enumerate(wanted.acceleration[:-1]):  # for the middle of each step
+        at, speed = (
+            (values[k] + values[k + 1]) / 2.0 for values in (wanted.position, wanted.velocity)
+        )
+        asked = _volts(believed, at, speed, push)
+        moving.on(min(max(asked, -BATTERY), BATTERY))
+        if not low < moving.path[-1] < high:
+            moving.path[-1], moving.speed[-1] = min(max(moving.path[-1], low), high), 0.0
+    return Followed(name, symbol, wanted, tuple(moving.path), tuple(moving.speed), place, stops)
+
+
+def _volts(believed: Plant, at: float, speed: float, push: float) -> float:
+    """[V] that WPILib's feedforward classes ask for; none for friction where it shall stand."""
+    gains, way = believed.gains, (speed > 0.0) - (speed < 0.0)
+    moves = gains["kS"] * way + gains["kV"] * speed + gains["kA"] * push
+    return moves + believed.weight(at)

@@ -1,0 +1,122 @@
+"""Feedforward alone: right gains follow, each wrong one shows in its own way, and words say so."""
+
+import math
+
+import numpy as np
+import pytest
+
+from sim.errors import BadRequest
+from sim.feedback import Plant
+from sim.feedback.following import follow
+from sim.feedback.profile import STEP, Leg, brisk, profile, there_and_back
+from sim.plot.outcome import Trace, outcome, traces
+
+DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.2}
+LIFT = {"kS": 0.25, "kV": 4.5, "kA": 0.2, "kG": 2.0}
+ARM = {"kS": 0.25, "kV": 1.2, "kA": 0.08, "kG": 1.5, "offset_rad": 0.3}
+UP = there_and_back(0.5, rising=0.25, steady=0.75, still=1.0, start=0.5)
+PLANTS = {"simple": DRIVE, "elevator": LIFT, "arm": ARM}
+
+
+def followed(kind, *, wanted=UP, **changes):
+    """A mechanism of a kind under a feedforward with some gains changed."""
+    plant, believed = Plant(kind, PLANTS[kind]), Plant(kind, {**PLANTS[kind], **changes})
+    place = {"simple": "way", "elevator": "height", "arm": "angle"}[kind]
+    return follow(plant, believed, wanted, name="thing", symbol="m", place=place, stops=(0.0, 1.3))
+
+
+@pytest.mark.parametrize("kind", PLANTS)
+def test_right_gains_follow(kind):
+    one = followed(kind)
+    off = np.abs(np.subtract(one.position, one.wanted.position)).max()
+
+    assert off < 0.015 * 0.5  # of the way
+    assert one.words == "The thing does nearly what is asked of it here."
+
+
+def test_a_profile_is_whole():
+    assert UP.position[-1] == pytest.approx(0.5, abs=1e-9)
+    assert max(UP.position) == pytest.approx(1.0)  # 0.5 m/s for 0.75 s and twice half of 0.25 s
+    assert np.allclose(np.diff(UP.position), STEP * np.array(UP.velocity[:-1]), atol=1e-4)
+    assert (UP.velocity[UP.cruise], UP.velocity[UP.rest]) == (pytest.approx(0.5), 0.0)
+    assert profile([Leg(0.5, 2.0), Leg(0.5)]).velocity[-1] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("factor", [0.5, 1.0, 1.7])
+def test_the_steady_speed_is_in_proportion_to_kv(factor):
+    one = followed("simple", wanted=brisk(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"])
+    place = one.wanted.cruise
+
+    free = follow(
+        Plant("simple", DRIVE), Plant("simple", {**DRIVE, "kV": factor * DRIVE["kV"]}), one.wanted,
+        name="thing", symbol="m",
+    )  # fmt: skip
+    assert free.velocity[place] == pytest.approx(factor * one.wanted.velocity[place], rel=1e-3)
+
+
+def test_an_elevator_without_kg_falls_as_its_gains_say():
+    one = followed("elevator", kG=0.0)
+    at = int(0.5 / STEP)
+
+    assert one.velocity[at] == pytest.approx(-(2.0 - 0.25) / 4.5, rel=1e-3)  # -(kG - kS)/kV
+    assert min(one.position) == 0.0  # its stop
+
+
+@pytest.mark.parametrize(
+    ("kind", "changes", "words"),
+    [
+        ("elevator", {"kG": 0.0}, "Told to stand still, the thing sinks about 0.4 m in 1 s."),
+        ("elevator", {"kG": 5.5}, "Told to stand still, the thing climbs about 0.7 m in 1 s."),
+        ("elevator", {"kG": 9.0}, "Told to stand still, the thing climbs about 0.8 m, to its stop"),
+        ("elevator", {"kG": 2.2}, "Told to do 0.5 m/s, the thing is about 0.04 m/s too fast."),
+        ("elevator", {"kG": 2.2}, "It ends about 0.1 m above where it should be."),
+        ("elevator", {"kV": 4.5 / 6.28}, "Told to do 0.5 m/s, the thing does about 0.08 m/s."),
+        ("elevator", {"kV": 0.0, "kS": 0.0}, "Told to do 0.5 m/s, the thing hardly moves."),
+        ("elevator", {"kV": -4.5}, "Told to do 0.5 m/s, the thing goes the other way."),
+        ("elevator", {"kV": 60.0}, "Told to do 0.5 m/s, the thing is at its stop."),
+        ("simple", {"kA": 0.0}, "While the thing gets faster, it is up to about 0.2 m/s late."),
+        ("simple", {"kA": 0.6}, "While the thing gets faster, it is up to about 0.3 m/s ahead."),
+        ("arm", {"offset_rad": 0.3 - math.pi}, "Told to stand still, the thing sinks"),
+    ],
+)
+def test_a_wrong_gain_is_told_by_what_it_does(kind, changes, words):
+    assert words in followed(kind, **changes).words
+
+
+@pytest.mark.parametrize("size", [1e300, -1e300])
+@pytest.mark.parametrize("gain", ["kS", "kG", "kV", "kA"])
+def test_no_number_is_too_large(gain, size):
+    one = followed("elevator", **{gain: size})
+
+    assert np.isfinite(one.position).all()
+    assert "nan" not in one.words
+
+
+def test_the_picture_shows_both_and_says_it_in_words():
+    one = followed("elevator", kG=0.0)
+    drawn = outcome(traces(one), words=one.words)
+    speed, height = drawn.figure.axes
+
+    assert one.words in drawn.alt
+    assert "sinks about 0.4 m" in drawn.svg  # its title, for who cannot see it
+    assert (speed.get_ylabel(), height.get_ylabel()) == ("velocity [m/s]", "height [m]")
+    wanted, done = height.get_lines()
+    assert wanted.get_ydata()[0] == done.get_ydata()[0] == 0.5
+    assert done.get_ydata().min() == 0.0 < wanted.get_ydata().min()
+
+
+def test_where_only_speed_matters_there_is_one_panel():
+    spun = follow(
+        Plant("simple", DRIVE), Plant("simple", DRIVE), UP, name="wheel", symbol="rot", place=""
+    )
+
+    assert [one.ylabel for one in traces(spun)] == ["velocity [rot/s]"]
+
+
+def test_what_cannot_be_drawn_is_refused():
+    short = Trace("thing", "way [m]", (0.0, 1.0), (0.0, 1.0), {"what it does": (0.0,)})
+
+    with pytest.raises(BadRequest, match="not one value for each time. Give as many"):
+        outcome([short], words="")
+    with pytest.raises(BadRequest, match="no motion to draw"):
+        outcome([], words="")
