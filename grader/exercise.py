@@ -10,6 +10,8 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
     def prepare(student, *, say) -> None       optional: makes what the learner works on
     BESIDE : tuple[str, ...]                   optional: files to fill in that belong to the one
                                                graded; ``read`` finds them beside its path
+    def consequence(subject)                   optional: what a wrong answer would do on the robot,
+                                               a Consequence; None where there is nothing to see
 
 What does not fit there stands in modules beside it: ``from .drawn import draw``.
 """
@@ -27,6 +29,7 @@ from types import ModuleType
 from typing import Any
 
 from grader.check import Check, Result, Status, run_all, skipped
+from grader.consequence import Consequence
 from grader.submission import find_files, whole_answer
 from sim.errors import BadRequest, Refusal
 
@@ -158,6 +161,22 @@ class Exercise:
         except Refusal as refusal:
             return self._ungradable(str(refusal), student=student)
         return best([self._grade_file(file, student=student, run=run) for file in files])
+
+    def consequence(self, grade: Grade) -> Consequence | None:
+        """What an answer would do on the robot; None where it is all right, or nothing is to see.
+
+        Args:
+            grade: what became of the answer; its file is read once more, and nothing of it is run.
+        """
+        tell = getattr(self.module, "consequence", None)
+        if tell is None or grade.file is None or grade.status != "failed":
+            return None
+        asked = {"run": False} if self.runs else {}
+        try:
+            found = tell(self.module.read(grade.file, student=grade.student, **asked))
+        except Refusal:  # it was readable a moment ago: somebody is saving it
+            return None
+        return found if isinstance(found, Consequence) else None
 
     def _grade_file(self, file: Path, *, student: str, run: bool) -> Grade:
         asked = {"run": run} if self.runs else {}

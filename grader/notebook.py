@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from grader.check import Result, Status
+from grader.consequence import Consequence
 from grader.course import find_course, load, save
 from grader.exercise import Exercise, Grade, find
 from grader.issued import issued, only_there
@@ -87,8 +88,14 @@ def submit(
     noted = progress.with_score(who, one.name, score=grade.score, max_score=grade.max_score)
     if said := save(noted, folder):
         complain(said)
-    lines = to_lines(grade, hints_shown=progress.of(who, one.name).hints, solution=one.solution)
-    return Shown(tuple(lines), _html(grade), grade)
+    then = one.consequence(grade)
+    lines = to_lines(
+        grade,
+        hints_shown=progress.of(who, one.name).hints,
+        solution=one.solution,
+        then=then.words if then else "",
+    )
+    return Shown(tuple(lines), _html(grade) + _then(then), grade)
 
 
 def write(exercise: Exercise, answers: Mapping[str, object]) -> None:
@@ -157,6 +164,14 @@ def _html(grade: Grade) -> str:
     rows = "".join(_check(result) for result in grade.checks)
     listed = f"<ul style='list-style:none;padding-left:0'>{rows}</ul>"
     return f"<p><strong>{escape(head)}</strong></p>{listed}"
+
+
+def _then(consequence: Consequence | None) -> str:
+    """What the answer would do, below the checks."""
+    if consequence is None:
+        return ""
+    says = f"<p><strong>On the robot</strong>: {escape(consequence.words)}</p>"
+    return says + consequence.draw().html
 
 
 def _check(result: Result) -> str:

@@ -30,7 +30,12 @@ def to_json(grade: Grade) -> str:
 
 
 def to_lines(
-    grade: Grade, *, hints_shown: int = 0, solution: Path | None = None, plain: bool = False
+    grade: Grade,
+    *,
+    hints_shown: int = 0,
+    solution: Path | None = None,
+    plain: bool = False,
+    then: str = "",
 ) -> list[Line]:
     """The grade for a terminal.
 
@@ -39,11 +44,15 @@ def to_lines(
         hints_shown: how many hints the learner has seen.
         solution: the folder with the solution, to be compared with once all is right.
         plain: words for signs and nothing in columns, as a screen reader reads it best.
+        then: what the answer would do on the robot, in words; empty where that is not known.
     """
     lines = [_verdict(grade), line()]
     said: set[str] = set()  # what has been said once is not said again
     for result in grade.checks:
         lines += _result(result, said, plain=plain)
+    if then:
+        lines += [line(), *wrapped(then, lead="then  ")]
+        lines.append(line(f"See it: grade {grade.exercise} --picture what.svg", "cyan"))
     if grade.status != "passed":
         lines += [line(), line(_next_hint(grade.exercise, hints_shown), "cyan")]
     elif solution is not None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from grader.answer import number
 from grader.check import Wrong, check
+from grader.consequence import Consequence
 from grader.given import hand_out
 from grader.measure import NotAUnitError, read_unit
 from grader.submission import read_answers
@@ -15,6 +16,7 @@ from grader.submission import read_answers
 from .budget import MOMENTS, Variant
 from .drawn import draw
 from .guess import suspects
+from .outcome import outcome
 
 FILES = ("answers.toml",)
 FILE_MADE = "given.toml"
@@ -77,6 +79,11 @@ def read(path: Path, *, student: str) -> Answers:
     """
     given = {name.lower(): value for name, value in read_answers(path).items()}
     return Answers(given, draw(student))
+
+
+def consequence(answers: Answers) -> Consequence | None:
+    """What the learner's volts would do on their mechanism."""
+    return outcome(answers.given, answers.variant)
 
 
 @check(points=2)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.check import NotReached, Wrong, check
+from grader.consequence import Consequence
 from grader.given import hand_out
 from grader.robotcode.deployed import Constant, DeployFacts, Feedforward, gains_of
 from grader.submission import read_text
@@ -14,6 +15,7 @@ from sim.errors import UnreadableFile
 from .drawn import draw
 from .handed import check_order, feedforward_of
 from .key import FULL, Variant, near
+from .outcome import outcome
 from .said import judged
 from .slips import constant_slip, feedback_slip, handed_slip
 
@@ -89,6 +91,11 @@ def read(path: Path, *, student: str) -> Code:
             advice="Mend that line first: code with a mistake like this does not compile.",
         )
     return Code(facts, draw(student))
+
+
+def consequence(code: Code) -> Consequence | None:
+    """What the learner's feedforward would do on their mechanism."""
+    return outcome(code.facts, code.variant)
 
 
 @check(points=1)
@@ -265,11 +272,8 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
     if near(value, code.variant.needed(gain)):
         return
     slip = handed_slip(value, gain, code.variant)
-    raise Wrong(
-        f"{given.text} in line {one.line}, which is {value:.4g}",
-        hint=slip.says,
-        misconception=slip.misconception,
-    )
+    seen = f"{given.text} in line {one.line}, which is {value:.4g}"
+    raise Wrong(seen, hint=slip.says, misconception=slip.misconception)
 
 
 @check(points=1)
@@ -283,9 +287,8 @@ def kp(code: Code) -> None:
     if not near(value, code.variant.needed("kP")):
         slip = feedback_slip(value, code.variant, text=constant.text)
         seen = _at(constant) if constant.value is not None else at
-        raise Wrong(
-            seen, hint=slip.says, misconception=slip.misconception, earned=0.5 if marked else 0.0
-        )
+        earned = 0.5 if marked else 0.0
+        raise Wrong(seen, hint=slip.says, misconception=slip.misconception, earned=earned)
     if not marked:
         raise Wrong(
             f'"{constant.comment[:50]}" beside kP' if constant.comment else "no comment beside kP",

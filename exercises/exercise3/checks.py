@@ -7,12 +7,14 @@ from pathlib import Path
 
 from grader.answer import HALF, Key, judge, number
 from grader.check import Wrong, check
+from grader.consequence import Consequence
 from grader.given import hand_out
 from grader.submission import read_answers
 from grader.word import judge_word
 
 from .drawn import draw
 from .held import Variant
+from .outcome import outcome
 from .slips import key_of, offset_slips, turned
 
 FILES = ("answers.toml",)
@@ -74,6 +76,11 @@ def read(path: Path, *, student: str) -> Answers:
         theirs = math.inf
     key = key_of(variant, offset=theirs if variant.offset.right(theirs) else offset)
     return Answers({**given, **named}, key, variant)
+
+
+def consequence(answers: Answers) -> Consequence | None:
+    """What the learner's numbers would do on their elevator and their arm."""
+    return outcome(answers.given, answers.variant)
 
 
 @check(points=1)

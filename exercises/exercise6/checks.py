@@ -2,16 +2,19 @@
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.answer import Asked, Band, number
 from grader.check import Wrong, check
+from grader.consequence import Consequence
 from grader.given import hand_out
 from grader.submission import read_answers
 from grader.word import plain
 
 from .drawn import Variant, draw
+from .outcome import outcome
 from .plan import Machine, Plan, dynamic, quasistatic
 from .preflight import CHOICES, judge_all, judge_choice, judge_steps
 from .rules import broken
@@ -83,6 +86,15 @@ def read(path: Path, *, student: str) -> Answers:
     """
     given = {name.lower(): value for name, value in read_answers(path).items()}
     return Answers(given, draw(student))
+
+
+def consequence(answers: Answers) -> Consequence | None:
+    """What the learner's plans would do in the room there is."""
+    plans = {}
+    for kind, machine in answers.variant.machines.items():
+        with suppress(Wrong):
+            plans[kind] = _plan(machine, answers.given)
+    return outcome(plans, answers.variant.machines)
 
 
 @check(points=POINTS)

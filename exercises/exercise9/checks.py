@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 
 from grader.answer import Asked, Band, Key, gains_asked, judge, number
 from grader.check import Wrong, check
+from grader.consequence import Consequence
 from grader.given import hand_out
 from grader.submission import read_answers
 from grader.variant import generator, seed
 
+from .outcome import outcome
 from .scene import columns, scene
 from .unseen import NAME, judge_function
 
@@ -120,6 +122,15 @@ def read(path: Path, *, student: str) -> Answers:
     )
 
 
+def consequence(answers: Answers) -> Consequence | None:
+    """What the learner's gains would do on their mechanism."""
+    from sim.units import unit  # noqa: PLC0415 - numpy only where it is needed
+
+    of = answers.variant.mechanism
+    symbol = unit(of.units).symbol
+    return outcome(answers.given, answers.key.asked, kind=of.name, symbol=symbol)
+
+
 @check(points=1)
 def ks(answers: Answers) -> str | None:
     """kS, the voltage that friction takes."""
@@ -200,9 +211,12 @@ def _missed(answers: Answers) -> str:
         return ""
     known, voltage = columns(answers.variant.log, si=unit(answers.variant.mechanism.units).si)
     good = [answers.variant.fit.gains[name] for name in answers.key.asked]
-    mine, best = (
-        float(np.sqrt(np.mean((voltage - known @ np.array(g)) ** 2))) for g in (gains, good)
-    )
+    with np.errstate(over="ignore"):  # a number may be as large as a file can hold
+        mine, best = (
+            float(np.sqrt(np.mean((voltage - known @ np.array(g)) ** 2))) for g in (gains, good)
+        )
+    if not np.isfinite(mine):
+        return ""
     return (
         f". Your three gains miss the voltage in the log by {_volts(mine)} (RMS); a good fit "
         f"misses it by {_volts(best)}"

@@ -17,6 +17,7 @@ from sim.command import COULD_NOT, DONE, NOT_RIGHT
 from sim.errors import BadRequest
 
 if TYPE_CHECKING:
+    from grader.consequence import Consequence
     from grader.course import Progress
     from grader.exercise import Exercise
 
@@ -82,6 +83,12 @@ def grade() -> None:
 @click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
 @click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
 @click.option("--hint", is_flag=True, help="Show the next of three hints; it costs nothing.")
+@click.option(
+    "--picture",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help="Draw what a wrong answer would do: .svg, .png.",
+)
 @click.option("--plain", is_flag=True, help="Words for signs, nothing in columns: for listening.")
 def exercise(
     exercise: str | None,
@@ -90,6 +97,7 @@ def exercise(
     *,
     as_json: bool,
     hint: bool,
+    picture: Path | None,
     plain: bool,
 ) -> int:
     """Grade an exercise, or say how far you are."""
@@ -100,9 +108,12 @@ def exercise(
         one = find(exercise, folder)
         if hint:
             return _hint(one, folder, progress, who)
-        return grade_file(one, file, folder, progress, who, as_json=as_json, plain=plain)
-    if as_json or hint:
-        advice = f"Say which: grade exercise4 --{'json' if as_json else 'hint'}"
+        return grade_file(
+            one, file, folder, progress, who, as_json=as_json, plain=plain, picture=picture
+        )
+    if as_json or hint or picture:
+        option = "json" if as_json else "hint" if hint else f"picture {picture}"
+        advice = f"Say which: grade exercise4 --{option}"
         raise BadRequest("no exercise was named", advice=advice)
     from grader.report import overview  # noqa: PLC0415 - the same
 
@@ -149,6 +160,7 @@ def grade_file(
     *,
     as_json: bool = False,
     plain: bool = False,
+    picture: Path | None = None,
 ) -> int:
     """Grade an answer, note the score, and show the result; the exit code."""
     from grader.course import save  # noqa: PLC0415 - --help has to start at once
@@ -165,13 +177,29 @@ def grade_file(
     noted = progress.with_score(who, one.name, score=result.score, max_score=result.max_score)
     if gradable and noted != progress:  # kept before anything is shown: a reader may stop reading
         _tell(save(noted, folder))
+    then = None if as_json and picture is None else one.consequence(result)
     if as_json:
         click.echo(to_json(result))
     elif result.reached:
-        shown = progress.of(who, one.name).hints
-        show(to_lines(result, hints_shown=shown, solution=one.solution, plain=plain))
+        shown, words = progress.of(who, one.name).hints, then.words if then else ""
+        show(to_lines(result, hints_shown=shown, solution=one.solution, plain=plain, then=words))
     _tell(result.reason)
+    if picture is not None:
+        _draw(then, picture)
     return (DONE if result.status == "passed" else NOT_RIGHT) if gradable else COULD_NOT
+
+
+def _draw(then: "Consequence | None", picture: Path) -> None:
+    """Write what the answer would do as a picture, and say what became of it.
+
+    Raises:
+        BadRequest: the name ends in no kind of picture, or the file cannot be written.
+    """
+    if then is None:
+        _tell(f"{picture} was not written: this answer leaves nothing to see on a robot")
+        return
+    then.draw().save(picture)
+    _tell(f"what your answer would do: {picture}")
 
 
 def _hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:

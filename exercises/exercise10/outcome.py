@@ -1,0 +1,75 @@
+"""What a learner's feedforward would do: their mechanism follows a profile by it alone."""
+
+import math
+from typing import TYPE_CHECKING
+
+from grader.check import NotReached, Wrong
+from grader.consequence import Consequence, motions
+from grader.robotcode.deployed import DeployFacts, Feedforward
+
+from .handed import feedforward_of
+from .key import CLASSES, Variant, near
+
+if TYPE_CHECKING:
+    from sim.feedback import Plant
+    from sim.feedback.profile import Profile
+
+TYPES = {made: analysis.lower() for analysis, made in CLASSES.items()}
+PLACES = {"arm": "angle", "elevator": "height", "shooter": ""}  # what a position is called
+ROOM = {"arm": (-0.8, 1.6), "elevator": (0.0, 1.3)}  # [rad from level, m]
+START = {"arm": 0.0, "elevator": 0.5}
+SPEED = {"arm": 1.0, "elevator": 0.5}  # [rad/s, m/s]
+RISING, STEADY, STILL = 0.25, 0.75, 0.5  # [s]
+
+
+def outcome(facts: DeployFacts, variant: Variant) -> Consequence | None:
+    """What the feedforward would do; None where it is as it should be, or cannot be told."""
+    from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
+    from sim.feedback.following import INFINITE, follow  # noqa: PLC0415 - the same
+
+    try:
+        one = feedforward_of(facts, variant)
+    except (Wrong, NotReached):
+        return None
+    gains = _gains(one)
+    if gains is None or _right(one, gains, variant):
+        return None
+    truth = {name: variant.needed(name) for name in variant.gains}
+    plant, believed = Plant(variant.analysis.lower(), truth), Plant(TYPES[one.kind], gains)
+    followed = follow(
+        plant,
+        believed,
+        _profile(plant, variant.kind),
+        name=variant.kind,
+        symbol=variant.symbol(used=True),
+        place=PLACES.get(variant.kind, "way"),
+        stops=ROOM.get(variant.kind, INFINITE),
+    )
+    return motions([followed])
+
+
+def _gains(one: Feedforward) -> dict[str, float] | None:
+    """Place -> number; what is left out counts as 0. None where a number cannot be told."""
+    values = [argument.value for argument in one.arguments.values()]
+    if one.spread or one.kind not in TYPES or not all(v is not None for v in values):
+        return None
+    given = {name: argument.value or 0.0 for name, argument in one.arguments.items()}
+    gains = {"kS": 0.0, "kV": 0.0, "kA": 0.0} | given
+    return gains if given and all(map(math.isfinite, gains.values())) else None
+
+
+def _right(one: Feedforward, gains: dict[str, float], variant: Variant) -> bool:
+    """Whether it is the feedforward that the mechanism needs."""
+    return one.kind == variant.made and all(
+        near(gains.get(name, 0.0), variant.needed(name)) for name in variant.gains
+    )
+
+
+def _profile(plant: "Plant", kind: str) -> "Profile":
+    from sim.feedback.profile import brisk, there_and_back  # noqa: PLC0415 - numpy, when needed
+
+    if kind in SPEED:
+        return there_and_back(
+            SPEED[kind], rising=RISING, steady=STEADY, still=STILL, start=START[kind]
+        )
+    return brisk(plant)

@@ -1,0 +1,36 @@
+"""What a learner's gains would do: their mechanism follows a profile by feedforward alone."""
+
+from collections.abc import Mapping
+
+from grader.answer import Asked, number
+from grader.check import Wrong
+from grader.consequence import Consequence, motions
+
+SPINS = {"shooter"}  # mechanisms whose place does not matter
+
+
+def outcome(
+    given: Mapping[str, object], asked: Mapping[str, Asked], *, kind: str, symbol: str
+) -> Consequence | None:
+    """What the gains would do; None where one is missing, or all are right.
+
+    Args:
+        given: the answers, by name.
+        asked: the gains that are asked for.
+        kind: the mechanism: ``drivetrain``.
+        symbol: of its unit of position.
+    """
+    from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
+    from sim.feedback.following import follow  # noqa: PLC0415 - the same
+    from sim.feedback.profile import brisk  # noqa: PLC0415 - the same
+
+    try:
+        gains = {name: number(given.get(name), one) for name, one in asked.items()}
+    except Wrong:
+        return None
+    if all(one.right(gains[name]) for name, one in asked.items()):
+        return None
+    plant = Plant("simple", {name: one.expected for name, one in asked.items()})
+    place = "" if kind in SPINS else "way"
+    believed = Plant("simple", gains)
+    return motions([follow(plant, believed, brisk(plant), name=kind, symbol=symbol, place=place)])

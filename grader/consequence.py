@@ -1,0 +1,64 @@
+"""What an answer would do on the robot: in words at once, as a picture when somebody wants it.
+
+An exercise's ``checks.py`` may offer it, for answers that are not all right:
+
+    def consequence(subject) -> Consequence | None    None where there is nothing to see
+
+It shows motion: the learner's numbers at work on the learner's own mechanism, beside what was
+wanted. It never tells a gain.
+"""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from sim.feedback.following import Followed
+
+
+class Drawn(Protocol):
+    """A picture, as ``sim.plot`` makes them."""
+
+    @property
+    def html(self) -> str:
+        """The picture, its words and its numbers, as a piece of HTML."""
+
+    def save(self, path: str | os.PathLike[str], /) -> None:
+        """Write it into a file.
+
+        Raises:
+            BadRequest: the name ends in no kind of picture, or the file cannot be written.
+        """
+
+
+@dataclass(frozen=True)
+class Consequence:
+    """What an answer would do.
+
+    Args:
+        words: what happens, in sentences with rounded numbers.
+        draw: makes the picture; only then is a drawing library loaded.
+    """
+
+    words: str
+    draw: Callable[[], Drawn]
+
+
+def motions(followed: "Sequence[Followed]") -> Consequence:
+    """What becomes of profiles that mechanisms follow by a learner's feedforward alone.
+
+    Args:
+        followed: at least one.
+    """
+    told = " ".join(one.words for one in followed)
+    words = f"Your numbers as feedforward, without feedback. {told}"
+
+    def draw() -> Drawn:
+        from sim.plot.outcome import outcome, traces  # noqa: PLC0415 - only who draws waits for it
+
+        return outcome([trace for one in followed for trace in traces(one)], words=words)
+
+    return Consequence(words, draw)
