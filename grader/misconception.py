@@ -33,8 +33,8 @@ MISCONCEPTIONS: dict[str, Misconception] = {
     "M-ARGORDER": Misconception(
         "Values that stand side by side are told apart only by their order. Look up which comes "
         "first.",
-        lesson="02_gravity",
-        section="Which class, and in which order",
+        lesson="08_from_analyzer_to_robot",
+        section="The class, and its slots",
     ),
     "M-CMDVOLT": Misconception(
         "What was asked for is not what the motor got: a weak battery or a current limit takes "
@@ -88,8 +88,8 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         "There is more than one R²: say of which quantity, and look up how it is computed. None "
         "of them is a lie detector: it can be high on a damaged log, so look at the signals, "
         "too.",
-        lesson="07_fit_it_yourself",
-        section="What R² cannot see",
+        lesson="06_read_the_data",
+        section="R² is not a lie detector",
     ),
     "M-BIG-STEP": Misconception(
         "A big step spins the wheels, meets the current limit and drains the battery. A smaller "
@@ -138,14 +138,14 @@ MISCONCEPTIONS: dict[str, Misconception] = {
     "M-FF-EXACT": Misconception(
         "A feedforward is as good as its model, its gains and the day: a few percent are always "
         "left, and feedback is there for them.",
-        lesson="00_guess_or_measure",
-        section="An honest twist: a pencil is enough for kV",
+        lesson="08_from_analyzer_to_robot",
+        section="Droop: what kP can do, and what not",
     ),
     "M-KP-EXACT": Misconception(
         "Proportional feedback makes its volts out of an error, so some of the error has to "
         "stay. A larger kP leaves less of it, never none.",
-        lesson="07_fit_it_yourself",
-        section="From gains to a first kP",
+        lesson="08_from_analyzer_to_robot",
+        section="Droop: what kP can do, and what not",
     ),
     "M-HEAVIER-MORE-KS": Misconception(
         "Dry friction comes from bearings, gears and belts. Weight makes kG and kA larger, and "
@@ -162,8 +162,8 @@ MISCONCEPTIONS: dict[str, Misconception] = {
     "M-TRIM-PRETTY": Misconception(
         "Trim where the physics of the test ends, not where the picture stops being pretty: "
         "fast samples tell kV and the first rise of a step tells kA, however noisy they are.",
-        lesson="07_fit_it_yourself",
-        section="What SysId does before it fits",
+        lesson="06_read_the_data",
+        section="Do not trim for beauty",
     ),
     "M-FILTER-FREE": Misconception(
         "A filter is not free: a long one bends whatever is quicker than itself, and a step "
