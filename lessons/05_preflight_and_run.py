@@ -631,13 +631,16 @@ Table(
 # arrived. Or use *URCL*, a logger by Team 6328:
 #
 # 1. `URCL.start()` after `DataLogManager.start()`; the log callback of `Mechanism` is `null`.
-# 2. Fetch the log, open it in **AdvantageScope**, *File* > *Export Data…*, format *WPILOG*. SysId
-#    cannot read it before that.
+# 2. Fetch the log, open it in **AdvantageScope**, *File* > *Export Data…*, format *WPILOG*, field
+#    set *Include Generated*. SysId cannot read it before that.
 # 3. Load `MotorPositionRotations`, `MotorVelocityRPM` and `AppliedOutputVoltage`.
 #    ([AdvantageScope docs: URCL](https://docs.advantagescope.org/more-features/urcl))
 #
-# Two traps. The names say it: position in rotations, velocity in rotations per **minute**. And a
-# NEO's own encoder filters its velocity so much that it comes about 0.1 s late (lesson 6).
+# Three traps. A SPARK sends most signals only when the robot program asks for them, and what it
+# does not send is not in the log: read position, velocity and output once per loop, or switch them
+# on in the SPARK's `SignalsConfig`. The names say it: position in rotations, velocity in rotations
+# per **minute** (unless you gave the SPARK conversion factors). And a NEO's own encoder filters its
+# velocity so much that it comes about 0.1 s late (lesson 6).
 
 # %% [markdown]
 # ## 7 When: not at the first regional
