@@ -76,7 +76,8 @@ Table(
 # > and "SysId suggests kP = 0.62".
 # >
 # > **Source says:** kV pays for the back-EMF ("the counter-electromotive force") and for friction
-# > that grows with speed. So a measured kV lies *above* what the motor's free speed promises.
+# > that grows with speed. So a measured kV lies *above* what the motor's free speed promises
+# > (a percent or two apart).
 # > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
 # > **Try it:** the next cell computes that promise for three motors, and holds 2.68 against it.
@@ -247,7 +248,7 @@ Table(
 # > kS·sgn(v) + kV·v + kA·(v_next − v)/0.02 s &nbsp; + &nbsp; kP·(v − measured)
 #
 # The first part is the feedforward; kP is 0 to begin with. (WPILib computes the kA term a bit more
-# exactly. You would not see the difference.)
+# exactly, with the mechanism's timescale.)
 
 # %%
 TIME = np.arange(0.0, 4.0, LOOP)
@@ -354,7 +355,7 @@ Table(
 # - **Per radian, fed rotations:** the volts are 2π times too small. The wheel crawls.
 # - **Per rotation, fed radians:** 2π times too large. More than 12 V there is not, so the wheel
 #   runs as fast as it can. On a drivetrain or an arm this is the dangerous one.
-# - **Swapped:** nearly nothing while it holds its speed, hard kicks where the profile bends.
+# - **Swapped:** far too much where it speeds up, far too little where it holds its speed.
 # - **kA left out:** good where the target is steady, late on the slopes. For many mechanisms that
 #   is all you need; WPILib's docs say that kA can be left out, and AdvantageKit's swerve template
 #   calls the drive's kA "unnecessary in most cases".

@@ -160,7 +160,7 @@ base = fitted((), Model("simple", truth), log)
 
 # %%
 guess_ka = Guess(
-    "What does the fit make of kA, on a robot whose velocity sensor is slow?",
+    "Two effects are missing in the model. What does the fit make of kA?",
     "about right",
     "too small by a third or more",
     "too large by a third or more",
@@ -190,8 +190,8 @@ print(f"You said: {guess_ka}.")
 time_series(log, beside=model_log, names=("log", "simulation"), dynamic_seconds=1.0)
 
 # %% [markdown]
-# The broad curves are the log, the thin black ones the simulation. Look at the start of the steps:
-# the curves have different *shapes*. No kA makes them agree.
+# The colored curves are the log, the thin black ones the simulation. Look at the start of the
+# steps: the curves have different *shapes*. No kA makes them agree.
 #
 # (SysId's kA looks fine here. That is luck. The two fits bend in different places: SysId's recipe
 # starts each step at its peak of acceleration, and here it pays with kS instead. Look at it.)
@@ -222,8 +222,8 @@ print(f"The velocity shakes by {shaking:.4f} m/s.")
 print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, validation):.1f}.")
 
 # %% [markdown]
-# (1.4826 turns a median into a standard deviation. 20 = 1² + 3² + 3² + 1² is by how much a third
-# difference enlarges the square of noise.)
+# (1.4826 turns a median into a standard deviation, the usual measure of scatter. 20 = 1² + 3² + 3²
+# + 1² is by how much a third difference enlarges the square of noise.)
 
 # %% [markdown]
 # ## 3 The residual microscope
@@ -241,6 +241,9 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 # | time since the voltage jumped | something late: a delay, a filter |
 # | battery voltage | volts that never arrived |
 # | direction | something that pulls one way only |
+#
+# (There is a fifth side, the position: a spring, a bump in the gears. The maps of section 7 have
+# it.)
 #
 # First practice, on four robots with **one** effect each. Here the gains are the true ones (a
 # luxury), so that all you see is the effect.
@@ -328,8 +331,8 @@ Table(("robot", *sides), tuple(rows), caption="Share of the missing volts that a
 # - **C, battery.** The lower the battery, the more is missing. The other view lights up, too: a
 #   battery is lowest just after a jump. Two sides can see the same thing; take the brighter one,
 #   and think of a test that moves one and not the other.
-# - **D, speed.** Volts are missing at a crawl only. (The effect is small in time, so the
-#   percentage is too: look at the *shape* of the means.)
+# - **D, speed.** Volts are missing at a crawl, and nowhere else. (The straight row of points is the
+#   ramp's beginning: the simulation already moves, and the robot still stands.)
 #
 # None of them explains 100 %. The rest is noise: taking changes from sample to sample enlarges it.
 
@@ -343,6 +346,10 @@ Table(("robot", *sides), tuple(rows), caption="Share of the missing volts that a
 microscope(log, simulated(base, log), base.gains)
 
 # %% [markdown]
+# The brightest side is the time since the jump. And look at the shape: first volts are missing,
+# then there are too many. Whoever is *late* first loses and then catches up; who is *weak* only
+# loses. At a crawl something is missing, too, but faintly.
+#
 # **Predict** the first effect to add:
 
 # %%
@@ -583,8 +590,9 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 
 # %% [markdown]
 # Two roads, nearly the same numbers. One difference: its base model starts with a *wider* gap than
-# yours. It has to follow the position as well, which is not averaged and not late, so it cannot put
-# the blame on kA as yours did. That is how it notices a slow sensor so surely.
+# yours. It has to follow the position as well, which is not averaged and not late. A large kA would
+# make the velocity fit and the position not, so it is torn between the two. That is how it notices
+# a slow sensor.
 #
 # **How to read its verdict**
 #

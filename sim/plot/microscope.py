@@ -184,7 +184,7 @@ def _view(lacking: Array, at: Array, edges: Array) -> View:
 def _directions(lacking: Array, way: Array) -> View:
     """Forward against reverse: only their difference counts, not what both lack."""
     cell = np.where(way > 0.0, 1, 0)
-    seen = _sorted(lacking, way, np.array([-1.5, 0.0, 1.5]), cell)
+    seen = _sorted(lacking, way, np.array([-2.0, 0.0, 2.0]), cell)
     both = 0.5 * float(np.nansum(seen.mean))
     apart = np.nan_to_num(seen.mean - both)[cell]
     total = float(np.sum(lacking**2)) or 1.0
