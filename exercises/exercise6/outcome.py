@@ -10,6 +10,7 @@ from .plan import Machine, Plan, Test, dynamic, quasistatic
 from .rules import LESS, MORE, QUARTER
 
 STEPS = 200  # of a motion
+FAR = 50.0  # [times the travel] what needs more is no plan but a slip of the pen
 STANDS = 4.0  # [timescales kA/kV] after which it stands again, about
 TESTS = {"the ramp": quasistatic, "the step": dynamic}
 
@@ -70,7 +71,8 @@ def _overruns(machine: Machine, plan: Plan) -> Iterator[Overrun]:
         return
     tests = {name: make(machine, plan) for name, make in TESTS.items()}
     tests |= _long_enough(tests["the ramp"])
-    far = {name: test for name, test in tests.items() if test.rests > MORE * machine.travel}
+    near, most = MORE * machine.travel, FAR * machine.travel
+    far = {name: test for name, test in tests.items() if near < test.rests < most}
     if far:
         lasts = max(_ends(test) for test in far.values())
         time = tuple(lasts * k / STEPS for k in range(STEPS + 1))
@@ -90,8 +92,13 @@ def _long_enough(ramp: Test) -> dict[str, Test]:
 
 def _words(name: str, test: Test, travel: float) -> str:
     symbol = test.machine.symbol
-    says = f"The {test.machine.kind}: {name} takes {test.rests:.2g} {symbol} of run"
+    says = f"The {test.machine.kind}: {name} takes {_size(test.rests)} {symbol} of run"
     return f"{says}; {travel:g} {symbol} are free."
+
+
+def _size(run: float) -> str:
+    """Two digits, and no powers of ten."""
+    return f"{run:.2g}" if run < 10.0 else f"{run:.0f}"
 
 
 def _ends(test: Test) -> float:
