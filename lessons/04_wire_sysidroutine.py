@@ -609,7 +609,7 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # > **Lesson says:** the default path is `/home/lvuser/logs/`.
 # >
 # > **Source says:** on a 2026 roboRIO, a FAT32 USB stick comes first: `/u/logs`. Without one, it is
-# > `/home/lvuser/logs`. On a 2027 Systemcore it is `/home/systemcore/logs`.
+# > `/home/lvuser/logs`. A 2027 Systemcore without a stick has `/home/systemcore/logs`.
 # > ([WPILib docs: Data Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html))
 # >
 # > **Try it:** find yesterday's log of your robot before you need today's.

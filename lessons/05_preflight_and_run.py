@@ -439,8 +439,8 @@ Table(
 #
 # With the guard off, press all four buttons. Nothing may move. (Lesson 4 has three kinds of guard.)
 # And one person does nothing but wait to press *Disable*. In the 2026 Driver Station the **Enter**
-# key disables, and the **space bar** is the emergency stop, after which the roboRIO has to be
-# rebooted.
+# key disables, and the **space bar** is the emergency stop: it works even if another window is in
+# front, and the roboRIO has to be rebooted afterwards.
 # ([WPILib docs: Driver Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
 #
 # > **Lesson says:** "There is no position limit, no current limit bypass protection, and no
@@ -485,11 +485,11 @@ print(f"kA ÷ true: {arrived:.2f} if the log holds what arrived, {asked:.2f} if 
 # ├─ WPILib (DataLogManager; the routine of lesson 4 uses it): a .wpilog file
 # │   Was a Driver Station connected while the program ran?
 # │   ├─ no  → its name still has TBD in it, and the next start of the program deletes it
-# │   └─ yes → which controller?
-# │       ├─ roboRIO (2026)
-# │       │   ├─ with a USB stick formatted FAT32 → /u/logs
-# │       │   └─ without one                      → /home/lvuser/logs
-# │       └─ Systemcore (2027)                    → /home/systemcore/logs
+# │   └─ yes → is there a USB stick in it (for a roboRIO: formatted FAT32)?
+# │       ├─ yes → /u/logs
+# │       └─ no  → which controller?
+# │           ├─ roboRIO (2026)    → /home/lvuser/logs
+# │           └─ Systemcore (2027) → /home/systemcore/logs
 # ├─ CTRE SignalLogger: a .hoot file → Tuner X, Log Extractor (section 6)
 # └─ URCL (REV motors): it is inside the .wpilog → export it with AdvantageScope (section 6)
 # ```
@@ -510,9 +510,9 @@ print(f"kA ÷ true: {arrived:.2f} if the log holds what arrived, {asked:.2f} if 
 # %%
 def folder(controller: str, *, stick: bool) -> str:
     """Where DataLogManager writes."""
-    if controller == "Systemcore":
-        return "/home/systemcore/logs"
-    return "/u/logs" if stick else "/home/lvuser/logs"
+    if stick:
+        return "/u/logs"
+    return "/home/systemcore/logs" if controller == "Systemcore" else "/home/lvuser/logs"
 
 
 Table(
@@ -537,8 +537,9 @@ Table(
 #   laptop by itself.
 # - **The stick:** robot off, pull it out. It has a folder `logs`.
 #
-# (2027: Systemcore and its tools are new. If a menu looks different, believe the docs of your
-# season.)
+# (2027: Systemcore and its tools are new. The folders above, and file names that begin with WPILIB
+# where those of 2026 begin with FRC, are those of WPILib's development branch. If something looks
+# different, believe the docs of your season.)
 
 # %% [markdown]
 # ## 6 On the real robot, step by step
@@ -717,10 +718,10 @@ Table(
 #
 # <details><summary>Answer</summary>
 #
-# It only copies if *Upload WPILogs* was ticked. On a roboRIO look into `/u/logs` if a stick is in,
-# else into `/home/lvuser/logs`; on a Systemcore into `/home/systemcore/logs`. Use AdvantageScope or
-# the Data Log Tool. If the file's name has TBD in it, no Driver Station was connected: fetch it
-# before the program starts again.
+# It only copies if *Upload WPILogs* was ticked. Look into `/u/logs` if a stick is in. Else look
+# into `/home/lvuser/logs` on a roboRIO, and into `/home/systemcore/logs` on a Systemcore. Use
+# AdvantageScope or the Data Log Tool. If the file's name has TBD in it, no Driver Station was
+# connected: fetch it before the program starts again.
 # </details>
 #
 # **4.** All gains are negative, and R² is 0.99. What happened, and do you have to run again?

@@ -123,7 +123,8 @@ voltage_velocity(sound)
 # > **Try it:** the straight line is a good sign all the same, and our bench draws it. Look where it
 # > leaves standstill: that is near kS, not at it (lesson 7 says why).
 #
-# Now the rise of the dynamic test. Acceleration over velocity, SysId's own plot:
+# Now the rise of the dynamic test: acceleration over velocity. (SysId has a plot of that name. It
+# shows all four tests, and first takes off what the voltage and friction account for.)
 
 # %%
 acceleration_velocity(sound)
