@@ -8,6 +8,7 @@ import subprocess
 import sys
 from urllib.parse import urlsplit
 
+import psutil
 import pytest
 from tornado.testing import AsyncHTTPTestCase
 
@@ -159,6 +160,8 @@ def test_two_students_work_at_the_same_time_each_in_a_home_of_their_own(root, tm
             run_a_cell(page, CELL.format(who))
         chromium.close()
 
+    assert not [one for one in psutil.process_iter(["cmdline"])
+                if any(str(homes) in word for word in one.info["cmdline"] or ())]  # fmt: skip
     for who in ("ann", "ben"):
         (written,) = (homes / who / "course").rglob("mine.txt")
         assert written.read_text("utf-8") == who

@@ -1,6 +1,8 @@
 """The door: a page that asks for a name and a code, and leads to the student's own server."""
 
 import asyncio
+import contextlib
+import signal
 import socket
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -102,7 +104,7 @@ def application(house: House) -> Application:
 
 
 async def stand(house: House, *, port: int, ready: Callable[[int], None]) -> None:
-    """Keep the door until the task is ended; then end all servers.
+    """Keep the door until the task is ended, or the process is asked to; then end all servers.
 
     Args:
         house: what it leads to.
@@ -116,9 +118,12 @@ async def stand(house: House, *, port: int, ready: Callable[[int], None]) -> Non
     listening.setblocking(False)  # noqa: FBT003 - the socket's own way to say so
     server = HTTPServer(application(house))
     server.add_socket(listening)
+    ended = asyncio.Event()
+    with contextlib.suppress(NotImplementedError):  # Windows ends a program without asking it
+        asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, ended.set)
     try:
         ready(listening.getsockname()[1])
-        await asyncio.Event().wait()
+        await ended.wait()
     finally:
         server.stop()
         house.rooms.close()
