@@ -6,7 +6,7 @@ import numpy as np
 
 from sim.errors import BadRequest
 from sim.plot.picture import COLORS, INK, REFERENCE, Picture, legend, panels
-from sim.plot.table import Cell, Table, shown
+from sim.plot.table import Table, shown
 
 HATCHES = ("", "///", "..")  # a log each: color never speaks alone
 THICK = 0.8  # [rows] that the bars of one model take together
@@ -49,7 +49,7 @@ def gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
     legend(figure, (axes,), columns=4)
-    rows: list[tuple[Cell, ...]] = [
+    rows: list[tuple[str | float, ...]] = [
         (model, *(one[log] for log in logs)) for model, one in gaps.items()
     ]
     told = "; ".join(
