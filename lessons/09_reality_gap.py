@@ -463,9 +463,9 @@ Table(
 )
 
 # %% [markdown]
-# Read the column *kA ÷ true* from the top. With gains alone the robot seems to have far more inertia than
-# it has. Nothing is heavy: the **sensor is slow**, and a slow answer looks like a heavy robot. kA
-# is the only knob the model has for "slow". So it took the blame.
+# Read the column *kA ÷ true* from the top. With gains alone the robot seems to have far more
+# inertia than it has. Nothing is heavy: the **sensor is slow**, and a slow answer looks like a
+# heavy robot. kA is the only knob the model has for "slow". So it took the blame.
 #
 # There is a second witness: the **position**. It was never used in these fits, and it does not pass
 # through the filter. The model with the heavy robot misses it by far more than the others do.
