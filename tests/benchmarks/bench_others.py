@@ -56,11 +56,11 @@ def main() -> None:
         show(mine, mine)
         for package, run in (("otter-grader", otter), ("nbgrader", nbgrader)):
             try:
-                commands = installed(package, kept)
+                found = run(folder / package, asked, installed(package, kept))
             except RuntimeError as failed:
-                print(f"{package} cannot be installed: {failed}")
+                print(f"{package} cannot be installed or run here: {failed}")
                 continue
-            show(run(folder / package, asked, commands), mine)
+            show(found, mine)
 
 
 def show(one: Timed, mine: Timed) -> None:

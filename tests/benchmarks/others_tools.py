@@ -14,6 +14,7 @@ from bench_class import CODE
 from bench_grade import spent
 
 BAND = 0.1  # [share] of the key that a right number may be off
+KERNEL = "ipykernel"  # what notebooks run in; not every tool brings it along
 GAINS = ("kS", "kV", "kA")
 
 Numbers = Mapping[str, float]
@@ -149,7 +150,7 @@ def installed(name: str, place: Path) -> Path:
     commands = environment / ("Scripts" if os.name == "nt" else "bin")
     if not (environment / "ready").is_file():
         venv.create(environment, with_pip=True, clear=True)
-        said([str(commands / "python"), "-m", "pip", "install", "--quiet", name], place)
+        said([str(commands / "python"), "-m", "pip", "install", "--quiet", name, KERNEL], place)
         (environment / "ready").touch()
     return commands
 
