@@ -77,7 +77,7 @@ Table(
 # >
 # > **Source says:** kV pays for the back-EMF ("the counter-electromotive force") and for friction
 # > that grows with speed. So a measured kV lies *above* what the motor's free speed promises
-# > (a percent or two apart).
+# > (within a percent or two: data sheets are rounded).
 # > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
 # > **Try it:** the next cell computes that promise for three motors, and holds 2.68 against it.
