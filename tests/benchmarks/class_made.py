@@ -150,7 +150,10 @@ def _spoiled(one: Exercise, texts: Texts, kind: str, rng: np.random.Generator) -
         mistake = mistakes[index]
         if mistake.file not in texts or one.name == SLOW:
             continue
-        return {**texts, mistake.file: mistake.make(texts[mistake.file])}
+        try:
+            return {**texts, mistake.file: mistake.make(texts[mistake.file])}
+        except ValueError:  # not every mistake can be made of everybody's numbers
+            continue
     return texts
 
 
