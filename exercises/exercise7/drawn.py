@@ -109,6 +109,8 @@ def _one(faults: tuple[str, ...], rng: "np.random.Generator") -> Case | None:
             spoilt = contaminate(log, name, severity=severity, rng=rng)
         except Refusal:  # it would not show there
             return None
+        if len(spoilt.where) > 1 and not FAULTS[name].whole:  # one place is asked for
+            return None
         log = spoilt.log
         damage.append(Damaged(name, spoilt.where, FAULTS[name].whole))
     struck = [{part.run for part in one.where} for one in damage]
