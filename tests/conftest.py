@@ -1,6 +1,7 @@
 """Fixtures everybody uses."""
 
 import os
+import shutil
 from pathlib import Path
 
 import pytest
@@ -29,3 +30,14 @@ def shared() -> Path:
 def root() -> Path:
     """The top folder of the project."""
     return ROOT
+
+
+@pytest.fixture
+def copy(request, tmp_path, monkeypatch):
+    """A copy of the exercise a file tests, in a course of its own, in whose folder commands run."""
+    own = request.module.OWN
+    folder = tmp_path / "exercises" / own.name
+    shutil.copytree(own.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return type(own)(own.name, folder)

@@ -1,7 +1,6 @@
 """Exercise 1: everybody gets a voltage budget of their own, and no answer by accident."""
 
 import re
-import shutil
 import tomllib
 from pathlib import Path
 
@@ -13,16 +12,6 @@ from grader.exercise import Exercise
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise1", ROOT / "exercises" / "exercise1")
 CLASS = [f"student {number}" for number in range(50)]
-
-
-@pytest.fixture
-def copy(tmp_path, monkeypatch):
-    """A copy of the exercise in a course of its own, in whose folder the command runs."""
-    folder = tmp_path / "exercises" / "exercise1"
-    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return Exercise("exercise1", folder)
 
 
 def graded(copy, text, check, *, student="ann"):

@@ -3,7 +3,6 @@
 import importlib.util
 import math
 import re
-import shutil
 import tomllib
 from pathlib import Path
 
@@ -298,16 +297,6 @@ def test_no_damage_to_a_file_brings_the_reader_down(tmp_path, name):
             path.write_text(broken, "utf-8")
 
             assert gains_of(path).language == ("java" if name == JAVA else "python")
-
-
-@pytest.fixture
-def copy(tmp_path, monkeypatch):
-    """A copy of the exercise in a course of its own, in whose folder the command runs."""
-    folder = tmp_path / "exercises" / "exercise10"
-    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return Exercise("exercise10", folder)
 
 
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])

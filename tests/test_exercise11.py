@@ -1,7 +1,6 @@
 """Exercise 11: choosing an answer and a reason, and a decision with a reason that carries it."""
 
 import re
-import shutil
 import tomllib
 from pathlib import Path
 
@@ -15,16 +14,6 @@ ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise11", ROOT / "exercises" / "exercise11")
 QUESTIONS = OWN.module.QUESTIONS
 POINTS = 9 * 1 + 3 * (2 + 2) + 1 + 7 * (1 + 1)  # short questions, knowledge checks, voltage, table
-
-
-@pytest.fixture
-def copy(tmp_path, monkeypatch):
-    """A copy of the exercise in a course of its own, in whose folder the command runs."""
-    folder = tmp_path / "exercises" / "exercise11"
-    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return Exercise("exercise11", folder)
 
 
 def graded(exercise, *, student="ann", **answers):

@@ -18,16 +18,6 @@ ROOM = OWN.module
 DRAWN = sys.modules[f"{ROOM.__name__}.drawn"]
 
 
-@pytest.fixture
-def copy(tmp_path, monkeypatch):
-    """A copy of the exercise in a course of its own, in whose folder the command runs."""
-    folder = tmp_path / "exercises" / "exercise12"
-    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return Exercise("exercise12", folder)
-
-
 def lines_of(parts, per):
     """Parameters as a learner writes them."""
     return "".join(

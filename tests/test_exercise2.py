@@ -2,7 +2,6 @@
 
 import re
 import runpy
-import shutil
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -24,16 +23,6 @@ ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")
 CLASS = [f"student {number}" for number in range(50)]
 GOOD = ["gear-ratio", "wheel-size", "logged-voltage", "tight-belt"]  # finds whatever was planted
-
-
-@pytest.fixture
-def copy(tmp_path, monkeypatch):
-    """A copy of the exercise in a course of its own, in whose folder the command runs."""
-    folder = tmp_path / "exercises" / "exercise2"
-    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return Exercise("exercise2", folder)
 
 
 def graded(exercise, *, student="ann", **answers):

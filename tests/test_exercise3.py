@@ -1,7 +1,6 @@
 """Exercise 3: an elevator and an arm of one's own, held up against gravity."""
 
 import re
-import shutil
 from pathlib import Path
 
 import pytest
@@ -18,16 +17,6 @@ WORDS = {
     "arm_type": "Arm",
     "arm_class": "ArmFeedforward",
 }
-
-
-@pytest.fixture
-def copy(tmp_path, monkeypatch):
-    """A copy of the exercise in a course of its own, in whose folder the command runs."""
-    folder = tmp_path / "exercises" / "exercise3"
-    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return Exercise("exercise3", folder)
 
 
 def graded(exercise, *, student="ann", **answers):

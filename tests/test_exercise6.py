@@ -3,7 +3,6 @@
 import math
 import re
 import runpy
-import shutil
 import sys
 import tomllib
 from dataclasses import replace
@@ -33,16 +32,6 @@ CLASS = [f"student {number}" for number in range(50)]
 KINDS = ("drivetrain", "elevator", "turret", "shooter")
 STEPS = ["wire-routine", "run-tests", "inspect-and-fit", "place-gains"]
 UNITS = {"m": "meters", "rot": "rotations"}
-
-
-@pytest.fixture
-def copy(tmp_path, monkeypatch):
-    """A copy of the exercise in a course of its own, in whose folder the command runs."""
-    folder = tmp_path / "exercises" / "exercise6"
-    shutil.copytree(OWN.folder, folder, ignore=shutil.ignore_patterns("data", "__pycache__"))
-    (tmp_path / "lessons").mkdir()
-    monkeypatch.chdir(tmp_path)
-    return Exercise("exercise6", folder)
 
 
 def graded(exercise, *, student="ann", **answers):
