@@ -52,7 +52,9 @@ def _folder_2026(found: str) -> tuple[str, str]:
     return "does your roboRIO have a USB stick? A log goes there first, if there is one", ""
 
 
-def _folder_2027(_: str) -> tuple[str, str]:
+def _folder_2027(found: str) -> tuple[str, str]:
+    if found.startswith("/u/"):
+        return "a USB stick goes first there, too; asked is where it goes without one", ""
     return "a Systemcore has another user than a roboRIO, and its home is called after it", ""
 
 
