@@ -58,7 +58,7 @@ class Clues:
     @cached_property
     def moving(self) -> tuple[Flags, ...]:
         """Per run, (n,): whether it moves, by its velocity; nowhere if it never does."""
-        return tuple(np.abs(run.velocity) > MOVING * top_speed(run) for run in self.log.runs)
+        return tuple(np.abs(run.velocity) > MOVING * run.top_speed for run in self.log.runs)
 
     @cached_property
     def position_step(self) -> float:
@@ -103,14 +103,14 @@ class Clues:
         for run in self.log.runs:
             new = run.velocity[holds(run.velocity)[0]] if len(run) else run.velocity
             third = np.abs(np.diff(new, n=3))
-            thirds.append(third[np.abs(new[3:]) > STANDING * top_speed(run)])
+            thirds.append(third[np.abs(new[3:]) > STANDING * run.top_speed])
         third = np.concatenate([*thirds, np.zeros(0)])
         return float(np.median(third) / NORMAL / WHITE) if third.size else 0.0
 
     @cached_property
     def still(self) -> float:
         """[m/s or rad/s] a speed that tells motion from standstill."""
-        top = max((top_speed(run) for run in self.log.runs), default=0.0)
+        top = max((run.top_speed for run in self.log.runs), default=0.0)
         return STANDING * top + 3.0 * self.noise
 
     @cached_property
@@ -153,11 +153,6 @@ class Clues:
         return float(np.median(rises)) if rises else 0.0
 
 
-def top_speed(run: Run) -> float:
-    """[m/s or rad/s] the speed of the fastest samples of a run, whatever a single one says."""
-    return float(np.percentile(np.abs(run.velocity), 98)) if len(run) else 0.0
-
-
 def holds(values: Array) -> tuple[Counts, Counts]:
     """Stretches of samples that repeat one value.
 
@@ -187,7 +182,7 @@ def _seems(run: Run) -> str:
     first, last = np.array_split(np.arange(driven[0], driven[-1] + 1), 2)
     rise = float(np.median(size[first]) / (np.median(size[last]) or 1.0))
     kind = "quasistatic" if rise < RAMP else "dynamic" if rise > STEP else run.kind
-    moving = last[np.abs(run.velocity[last]) > MOVING * top_speed(run)]
+    moving = last[np.abs(run.velocity[last]) > MOVING * run.top_speed]
     pushed, moved = way(run.voltage[last]), way(run.velocity[moving])
     if pushed * moved <= 0:
         return f"{kind}-{run.direction}"
@@ -221,8 +216,8 @@ def _scale(run: Run, moving: Flags) -> float:
 def _rise(run: Run) -> float:
     """[s] from rest to 63 % of the top speed; 0 if the run does not start at rest."""
     speed = np.abs(run.velocity)
-    up = int(np.argmax(speed > RISEN * top_speed(run)))
-    still = np.flatnonzero(speed[:up] < MOVING * top_speed(run))
+    up = int(np.argmax(speed > RISEN * run.top_speed))
+    still = np.flatnonzero(speed[:up] < MOVING * run.top_speed)
     return float(run.time[up] - run.time[still[-1]]) if still.size else 0.0
 
 

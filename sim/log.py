@@ -6,6 +6,7 @@ number is shown, nowhere between.
 """
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -77,6 +78,11 @@ class Run:
                 where=self.test,
                 advice="Every sample of a run needs a later time than the one before it.",
             )
+
+    @cached_property
+    def top_speed(self) -> float:
+        """[m/s or rad/s] the speed of the fastest samples, whatever a single one says."""
+        return float(np.percentile(np.abs(self.velocity), 98)) if len(self) else 0.0
 
     def _check(self, name: str, values: Array) -> None:
         if values.shape != (self.time.size,):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import sim
-from sim.clues import Clues, top_speed
+from sim.clues import Clues
 from sim.contaminate import contaminate
 from sim.fault import only
 from sim.faults import FAULTS
@@ -278,7 +278,7 @@ def test_damage_grows_with_severity(name):
 
     hurt = [
         sum(
-            float(np.abs(a.velocity[-len(b) :] - b.velocity).sum() / top_speed(b))
+            float(np.abs(a.velocity[-len(b) :] - b.velocity).sum() / b.top_speed)
             + float(np.abs(a.voltage[-len(b) :] - b.voltage).sum())
             + float(np.abs(a.position[-len(b) :] - b.position).sum())
             if a.test == b.test

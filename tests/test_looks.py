@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import sim
-from sim.clues import Clues, top_speed
+from sim.clues import Clues
 from sim.log import Log
 from sim.looks import look
 from sim.mechanisms import MECHANISMS
@@ -42,7 +42,7 @@ def scaled(run, factor, *, only_velocity=False):
 
 def trembling(run, *, share):
     """The run with a little noise on its standstill."""
-    noise = share * top_speed(run) * np.random.default_rng(3).standard_normal(len(run))
+    noise = share * run.top_speed * np.random.default_rng(3).standard_normal(len(run))
     return replace(run, velocity=run.velocity + noise * (run.velocity == 0.0))
 
 

@@ -34,7 +34,9 @@ PATH = click.Path(path_type=Path)
               "gradescope, junit; may be repeated.")  # fmt: skip
 @click.option("--name", help="Of the class, for the overview.  [default: the folder's]")
 @click.option(
-    "--processes", type=click.IntRange(min=1), help="How many grade.  [default: every core]"
+    "--processes",
+    type=click.IntRange(min=1),
+    help="How many grade.  [default: cores, and one]",
 )
 @click.option("--cluster", metavar="ADDRESS", help="Grade on a Dask cluster: tcp://host:8786.")
 @click.option("--run/--no-run", default=None, help="Run robot code, besides reading it.  [default: "
@@ -141,9 +143,9 @@ def _run(
             step()
             stop_if_noted()
 
-        try:
+        try:  # one more than there are cores, for while one waits for a learner's code
             return grade_all(
-                work, left, store, processes=processes or cores(), cluster=cluster, say=say
+                work, left, store, processes=processes or cores() + 1, cluster=cluster, say=say
             )
         except KeyboardInterrupt:
             count = done()

@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues, top_speed
+from sim.clues import Clues
 from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
 from sim.log import Array, Log, Run
 from sim.prepare import noise_floor
@@ -38,7 +38,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
         log = replace(log, runs=tuple(rested))
         still = Clues(log).standing
     runs = list(log.runs)
-    size = ORDINARY * blow.severity * max(map(top_speed, runs))
+    size = ORDINARY * blow.severity * max(run.top_speed for run in runs)
     where = []
     for index in ramps:
         run = runs[index]
@@ -52,7 +52,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
 
 def detect(clues: Clues) -> Iterable[Damage]:
     """Measure the velocity at the beginning of every ramp, while the position stands."""
-    top = max(map(top_speed, clues.log.runs), default=0.0)
+    top = max((run.top_speed for run in clues.log.runs), default=0.0)
     rests = {}
     for index, run in enumerate(clues.log.runs):
         still = clues.standing[index] if run.kind == "quasistatic" else 0

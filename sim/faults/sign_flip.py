@@ -18,7 +18,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues, Flags, top_speed, way
+from sim.clues import Clues, Flags, way
 from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
 from sim.log import Array, Log, Run
 
@@ -84,7 +84,7 @@ def _falls(run: Run, log: Log) -> bool:
     mate = f"{run.kind}-{'reverse' if run.direction == 'forward' else 'forward'}"
     for other in log.of(mate):
         goes = way(other.velocity) * way(run.velocity) > 0
-        if goes and top_speed(other) > FALLS * top_speed(run):
+        if goes and other.top_speed > FALLS * run.top_speed:
             return True
     return False
 

@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import MOVING, Clues, Counts, holds, top_speed
+from sim.clues import MOVING, Clues, Counts, holds
 from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
 from sim.log import Log, Run
 
@@ -76,7 +76,7 @@ def _hidden(run: Run, first: int, last: int, *, step: float) -> float:
     """[m or rad] how far it went unseen; 0 if it may well have stood still."""
     lasted = float(run.time[last] - run.time[first])
     frozen = abs(float(run.velocity[first]))
-    slow = MOVING * top_speed(run)
+    slow = MOVING * run.top_speed
     promised = frozen * lasted
     if frozen > slow and promised > FAR * step:
         return promised

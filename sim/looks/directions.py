@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.clues import MOVING, Clues, top_speed
+from sim.clues import MOVING, Clues
 from sim.doubt import Doubt
 from sim.log import DIRECTIONS, Array, Run
 from sim.units import unit
@@ -69,7 +69,7 @@ def _line(clues: Clues, way: str) -> _Line | None:
     if len(run) < FEWEST:
         return None
     sign = 1.0 if way == "forward" else -1.0
-    fast = sign * run.velocity > max(MOVING * top_speed(run), clues.still)
+    fast = sign * run.velocity > max(MOVING * run.top_speed, clues.still)
     begins = run.time[int(np.argmax(fast))] + SETTLED * balance.timescale
     fast &= (run.time > begins) & (run.time < run.time[-1] - SMOOTH)
     if fast.sum() < 3 * FEWEST:

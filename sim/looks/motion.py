@@ -3,7 +3,7 @@
 import numpy as np
 
 from sim.balance import Balance
-from sim.clues import MOVING, Clues, top_speed
+from sim.clues import MOVING, Clues
 from sim.doubt import Doubt
 from sim.errors import Refusal
 from sim.fit import Fit, fit
@@ -57,7 +57,7 @@ def _model(found: Fit) -> Balance | None:
 
 def _strays(run: Run, model: Balance, period: float) -> Array:
     """(n,) [share of the top speed] how far a replay is off, for longer than a moment."""
-    top = top_speed(run)
+    top = run.top_speed
     wide = 2 * round(0.5 * MOMENT / period) + 1
     if not top or len(run) <= wide or not run.kind.startswith(("quasi", "dynamic")):
         return np.zeros(0)
@@ -98,7 +98,7 @@ def _ahead(clues: Clues, index: int) -> float:
     if not moving.any():
         return 0.0
     ahead = (run.velocity - clues.expected[index]) * np.sign(clues.expected[index])
-    return float(np.median(ahead[moving])) / top_speed(run)
+    return float(np.median(ahead[moving])) / run.top_speed
 
 
 def little(clues: Clues) -> list[Doubt]:
@@ -127,7 +127,7 @@ def little(clues: Clues) -> list[Doubt]:
 
 def _rising(run: Run) -> int:
     """[samples] between 10 % and 90 % of the top speed; many if it starts in motion."""
-    speed, top = np.abs(run.velocity), top_speed(run)
+    speed, top = np.abs(run.velocity), run.top_speed
     up, done = int(np.argmax(speed > MOVING * top)), int(np.argmax(speed > 0.9 * top))
     return done - up if speed[0] <= MOVING * top else len(run)
 

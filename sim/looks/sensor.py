@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sim.clues import MOVING, Clues, top_speed
+from sim.clues import MOVING, Clues
 from sim.doubt import Doubt
 from sim.log import Array, Run
 from sim.prepare import noise_floor
@@ -49,7 +49,7 @@ def lags(clues: Clues) -> list[Doubt]:
 def _lag(run: Run, slope: Array) -> float | None:
     """[s] by which the slope has to be late to look most like the velocity; None if unclear."""
     speed = np.abs(run.velocity)
-    top = top_speed(run)
+    top = run.top_speed
     rising = np.flatnonzero(np.abs(slope) > MOVING * top)
     if not top or rising.size < FEWEST:
         return None

@@ -1,4 +1,4 @@
-"""How long a class takes: ``grade class`` as a whole process, on two processes, and once more.
+"""How long a class takes: ``grade class`` as a whole process, on all cores, and once more.
 
     python tests/benchmarks/bench_class.py [STUDENTS]
 
@@ -24,7 +24,7 @@ from class_made import ROOT, SECRET, asked, make
 from grader.variant import of_class
 from sim.work.here import cores
 
-PROCESSES = 2
+CORES = cores()
 TARGET = 300.0  # [s] for 500 students
 SAMPLE = 20  # [students] of all the class that are graded one exercise after another
 LOOK = 0.5  # [s] between two looks at the memory
@@ -49,7 +49,7 @@ def graded(handed_in: Path, secret: Path, *, only: Sequence[str]) -> tuple[float
         RuntimeError: it could not grade.
     """
     chosen = [word for name in only for word in ("--exercise", name)]
-    options = [*("--secret", str(secret), "--processes", str(PROCESSES)), *chosen]
+    options = ["--secret", str(secret), *chosen]
     said = handed_in.with_name("said.txt")
     most, begin = 0, time.perf_counter()
     with said.open("wb") as stream:
@@ -104,7 +104,7 @@ def main() -> None:
         secret.write_bytes(SECRET)
         kinds = make(students, course=folder / "course", out=handed_in, processes=cores())
         said = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
-        print(f"{students} students x 12 exercises on {PROCESSES} processes; {said}")
+        print(f"{students} students x 12 exercises on {CORES} cores; {said}")
         names = [one.name for one in asked(ROOT)]
         before = spent()
         total, most = graded(handed_in, secret, only=names)
@@ -118,7 +118,7 @@ def main() -> None:
         print(f"{'everything':36}{total:8.1f} s   aim {aim:.0f} s, {loaded()}")
         became = outcomes(results)
         print("graded: " + ", ".join(f"{count} {one}" for one, count in became.most_common()))
-        print(f"{'processor time':36}{work:8.1f} s   {work / PROCESSES:.0f} s on {PROCESSES} cores")
+        print(f"{'processor time':36}{work:8.1f} s   {work / CORES:.0f} s on {CORES} cores")
         print(f"{'each of ' + str(there) + ' submissions':36}{1e3 * total / there:8.0f} ms")
         print(f"{'once more':36}{again:8.1f} s   {anew} students graded again")
         print(f"{'largest process':36}{most / 1e6:8.0f} MB")
