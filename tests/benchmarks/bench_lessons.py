@@ -3,7 +3,7 @@
     python tests/benchmarks/bench_lessons.py [NN ...]
 
 Cells are run in this process, one after another, as JupyterLab does without its drawing. A redraw
-is one knob moved once: the function of each `live` is called with other values of each of its knobs.
+is one knob moved once: the function of each `live` is called with other values of each knob.
 Aims: a lesson under 60 s, a cell at most 5 s, a redraw at most 1 s.
 """
 
