@@ -619,6 +619,27 @@ else:
 #
 # ## 10 Knowledge check
 #
+# First one to click; you are told at once. (No buttons on your screen? Type
+# `quick.answer("kS")`, or another of the answers, in a cell.)
+
+# %%
+from grader import Quick
+
+quick = Quick(
+    "Which gain moved when the 4 kg brace came on?",
+    {
+        "kS": "Friction sits in gears and bearings. Four kilograms more hardly change it.",
+        "kV": (
+            "kV says what a steady speed costs. At a steady speed nothing is accelerated, "
+            "so mass has no say."
+        ),
+        "kA": "kA is what mass costs: more kilograms, more volts for the same acceleration.",
+    },
+    right="kA",
+)
+quick
+
+# %% [markdown]
 # **1.** What question does guessing ask, and what question does SysId ask?
 #
 # <details><summary>Answer</summary>

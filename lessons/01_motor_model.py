@@ -759,6 +759,22 @@ print(f"A wheel with kV = 0.8 V·s/rot and 4 in: {0.8 / (math.pi * wheel):.3f} V
 #
 # ## 10 Knowledge check
 #
+# First one to answer here; you are told at once. (No box on your screen? Type
+# `quick.answer("0.5 V·s/rad")` in a cell.)
+
+# %%
+from grader import QuickNumber
+
+quick = QuickNumber(
+    "A shooter's kV is 0.12 V·s/rot. How much is it per radian, in V·s/rad?",
+    0.12 / (2 * math.pi),
+    "V·s/rad",
+    gain="kV",
+    angular=True,
+)
+quick
+
+# %% [markdown]
 # **1.** A mechanism has kS = 0.2 V and kV = 3.4 V·s/m. It moves at a steady 2 m/s on 7 V. Where do
 # the volts go?
 #

@@ -697,6 +697,24 @@ print(f"{let_go(wrong, height=0.3):.2f} m/s.")
 #
 # ## 9 Knowledge check
 #
+# First one to click; you are told at once. (No buttons on your screen? Type
+# `quick.answer("kG")`, or another of the answers, in a cell.)
+
+# %%
+from grader import Quick
+
+quick = Quick(
+    "You raise the voltage until the elevator just does not drop. Which edge is that?",
+    {
+        "kG − kS": "Friction helps you hold it, so less than kG is enough.",
+        "kG": "That is the middle. Would friction not help to hold it?",
+        "kG + kS": "That is where it just begins to rise: there, friction is in your way.",
+    },
+    right="kG − kS",
+)
+quick
+
+# %% [markdown]
 # **1.** An elevator just does not fall at 1.2 V and just begins to rise at 1.8 V. What are kG and
 # kS?
 #

@@ -705,6 +705,24 @@ plan(ramp=0.5, step=3.5, mark=2.5, room=4.0)
 #
 # ## 11 Knowledge check
 #
+# First one to click; you are told at once. (No buttons on your screen? Type
+# `quick.answer("half as far")`, or another of the answers, in a cell.)
+
+# %%
+from grader import Quick
+
+quick = Quick(
+    "You halve the ramp and go to the same speed. How far does the mechanism travel?",
+    {
+        "half as far": "It takes longer to get there. Does it stand still meanwhile?",
+        "the same way": "The speed at the end is the same, but the time to get there is not.",
+        "twice as far": "It takes twice as long, at the same mean speed.",
+    },
+    right="twice as far",
+)
+quick
+
+# %% [markdown]
 # **1.** A flywheel has τ = 0.4 s and a true kS of 0.10 V. You read kS off a ramp of 0.5 V/s. What
 # do you read, about?
 #

@@ -676,6 +676,27 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 #
 # ## 8 Knowledge check
 #
+# First one to click; you are told at once. (No buttons on your screen? Type
+# `quick.answer("none")`, or another of the answers, in a cell.)
+
+# %%
+from grader import Quick
+
+quick = Quick(
+    (
+        "A drive callback calls motor.set(volts / 12). Which gain is wrong when the "
+        "battery gives 11 V?"
+    ),
+    {
+        "none": "A share of 11 V is not the same share of 12 V.",
+        "only kA": "The voltage is off in every row of the log, also at a steady speed.",
+        "all three": "The log says more volts than the motors got, in every row.",
+    },
+    right="all three",
+)
+quick
+
+# %% [markdown]
 # **1.** The analyzer says kV = 0.40 V·s/m for a drivetrain that should have about 2.5. Which slip?
 #
 # <details><summary>Answer</summary>

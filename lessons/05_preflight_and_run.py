@@ -697,6 +697,27 @@ Table(
 #
 # ## 9 Knowledge check
 #
+# First one to click; you are told at once. (No buttons on your screen? Type
+# `quick.answer("always")`, or another of the answers, in a cell.)
+
+# %%
+from grader import Quick
+
+quick = Quick(
+    "When is a soft limit bypassed by a SysId test?",
+    {
+        "always": "A limit set inside the motor controller goes on acting.",
+        "never": "The test takes the place of your own commands, and of the limits in them.",
+        "where it is in your own commands": (
+            "The test owns the subsystem; what is set in the motor controller still acts, "
+            "and then it is in your data."
+        ),
+    },
+    right="where it is in your own commands",
+)
+quick
+
+# %% [markdown]
 # **1.** "We take a ramp of 0.25 V/s. Our room is short, so we go slowly." What do you answer?
 #
 # <details><summary>Answer</summary>

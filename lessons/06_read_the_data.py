@@ -666,6 +666,24 @@ time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 #
 # ## 8 Knowledge check
 #
+# First one to click; you are told at once. (No buttons on your screen? Type
+# `quick.answer("voltage over velocity")`, or another of the answers, in a cell.)
+
+# %%
+from grader import Quick
+
+quick = Quick(
+    "Samples come late, some of them by 100 ms. Which plot shows it at a glance?",
+    {
+        "voltage over velocity": "Time is in neither axis.",
+        "time steps over time": "Every late sample is a point above the line.",
+        "the R² badge": "It may stay green: that is the point of this lesson.",
+    },
+    right="time steps over time",
+)
+quick
+
+# %% [markdown]
 # **1.** Which plot reveals which fault? Match: (a) time steps, (b) velocity beside the slope of the
 # position, (c) velocity over time, close up, (d) voltage over time; with (1) a current limit in an
 # honest log, (2) timing gaps, (3) encoder slip, (4) a velocity filter.

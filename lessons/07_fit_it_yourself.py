@@ -904,6 +904,24 @@ for doubt in best.doubts:
 #
 # ## 13 Knowledge check
 #
+# First one to click; you are told at once. (No buttons on your screen? Type
+# `quick.answer("friction pushes the robot")`, or another of the answers, in a cell.)
+
+# %%
+from grader import Quick
+
+quick = Quick(
+    "SysId prints a negative kS. What is the most likely reason?",
+    {
+        "friction pushes the robot": "Friction cannot push. Look at the log, not at the robot.",
+        "noise, or a few wrong samples": "Few samples with leverage bend it; kS gives way first.",
+        "kV is too small": "kV is the gain that such things hardly move.",
+    },
+    right="noise, or a few wrong samples",
+)
+quick
+
+# %% [markdown]
 # **1.** Why is the acceleration on the left side of SysId's fit?
 #
 # <details><summary>Answer</summary>

@@ -719,6 +719,24 @@ print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad: I =
 #
 # ## 11 Knowledge check
 #
+# First one to click; you are told at once. (No buttons on your screen? Type
+# `quick.answer("it holds still")`, or another of the answers, in a cell.)
+
+# %%
+from grader import Quick
+
+quick = Quick(
+    "new ElevatorFeedforward(kS, kV, kA): what does the elevator do at zero speed?",
+    {
+        "it holds still": "Count the slots: kG stands second.",
+        "it gets kV as kG": "The second slot is kG: it is pushed with kV volts, gravity or not.",
+        "it does not compile": "All of them are numbers, and three are enough: nothing complains.",
+    },
+    right="it gets kV as kG",
+)
+quick
+
+# %% [markdown]
 # **1.** A shooter has kS = 0.11 V, kV = 0.082 V·s/rot, kA = 0.003. Told 4000 rpm, it stays at 3900.
 # Are the gains bad?
 #

@@ -667,6 +667,27 @@ microscope(own, simulated(own_base, own), own_base.gains)
 #
 # ## 10 Knowledge check
 #
+# First one to click; you are told at once. (No buttons on your screen? Type
+# `quick.answer("drag")`, or another of the answers, in a cell.)
+
+# %%
+from grader import Quick
+
+quick = Quick(
+    (
+        "What is missing shows only in the first tenths of a second after the voltage "
+        "jumps. Which family is that?"
+    ),
+    {
+        "drag": "Drag grows with speed, and is there at a steady speed, too.",
+        "a late or filtered sensor": "It shows where the velocity changes fast, and nowhere else.",
+        "a weak battery": "That follows the battery's voltage, not the time since the jump.",
+    },
+    right="a late or filtered sensor",
+)
+quick
+
+# %% [markdown]
 # **1.** The missing volts are near zero everywhere, except in the first tenth of a second after
 # each jump. Which family of effects?
 #
