@@ -36,14 +36,14 @@
 #
 # The formula has three numbers in it, called **gains**:
 #
-# - **kS**: volts to overcome friction, as soon as it shall move at all;
+# - **kS**: volts to overcome friction, needed as soon as anything moves;
 # - **kV**: volts for each m/s of velocity;
 # - **kA**: volts for each m/s² of acceleration. (An acceleration of 1 m/s² means: each second, the
 #   velocity grows by 1 m/s.)
 #
 # Lesson 1 explains where they come from. Today there is one question: **who chooses them?**
 #
-# - You can **guess**: try 0.1, deploy, watch, try 0.2.
+# - You can **guess**: try 0.1, load the code onto the robot (*deploy*), watch, try 0.2.
 # - You can **measure**: let the robot run a few tests, write down what it did, and compute the
 #   gains from that. This is **system identification**, in short *SysId*.
 #
@@ -86,7 +86,7 @@ def robot_of(name: str) -> Mechanism:
 
 robot = robot_of(NAME)
 print(f"{NAME}'s robot: {robot.summary}, more or less.")
-print("Its gains are hidden from you. Nobody has told you a number yet, and nobody will.")
+print("Its gains are hidden from you until the race is over.")
 
 # %% [markdown]
 # The robot is simulated. We call the simulation **the bench**. It has one great advantage over a
@@ -94,9 +94,10 @@ print("Its gains are hidden from you. Nobody has told you a number yet, and nobo
 #
 # ### The drive
 #
-# The robot shall follow this: speed up to 2.5 m/s within half a second, hold that, stop, wait, and
-# then drive back at 1 m/s. The next cell writes the drive down and teaches the robot to try. Its
-# heart is one line: the voltage, computed from the wish.
+# This is what the robot is asked to do: speed up to 2.5 m/s within half a second, hold that, stop,
+# wait, and then drive back at 1 m/s. The next cell writes the drive down and teaches the robot to
+# try. Its heart is one line, `volts = …`: the voltage, computed from the wish. (`np.sign(v)` is +1
+# forward and −1 backward, so that kS always works against friction.)
 
 # %%
 TIME = np.arange(0.0, 4.21, 0.02)  # [s] the robot program runs every 20 ms
@@ -162,7 +163,7 @@ live(
         min=0, max=1, step=0.02, value=START[0], description="kS [V]", continuous_update=False
     ),
     kv=widgets.FloatSlider(
-        min=1, max=4, step=0.02, value=START[1], description="kV", continuous_update=False
+        min=1, max=4, step=0.02, value=START[1], description="kV [V·s/m]", continuous_update=False
     ),
 )
 
@@ -185,7 +186,8 @@ followed = drive(robot, measured)
 
 # %% [markdown]
 # This is what the log holds: two slow ramps and two sudden steps of the voltage, each forward and
-# backward. (Only the first second of the steps is drawn. Lesson 3 says why just these four.)
+# backward. SysId calls the ramps *quasistatic* and the steps *dynamic*. (Only the first second of
+# the steps is drawn. Lesson 3 says why just these four.)
 
 # %%
 time_series(log, dynamic_seconds=1.0)
@@ -237,6 +239,8 @@ Table(
 # Look at the second row. Endless patience, *every* pair of kS and kV in steps of 0.05, and it still
 # misses by that much. Look where: at the ramps of the drive, where the robot speeds up and slows
 # down. Two knobs cannot pay for acceleration. That is what kA is for, and the three lines have it.
+# (Even the true gains miss by a hair. The voltage is set once every 20 ms, and on a ramp the wish
+# has moved on meanwhile.)
 #
 # Was the race fair? In part.
 #
@@ -301,7 +305,9 @@ truth = robot.gains
 
 def off(gains: dict[str, float], name: str) -> str:
     """By how many percent a gain is off."""
-    return f"{100 * (gains[name] / truth[name] - 1):+.1f} %" if gains[name] else "not known"
+    if not gains[name]:
+        return "not known"
+    return f"{100 * (gains[name] / truth[name] - 1):+.1f} %".replace("-", "−")
 
 
 print(f"You said: {guess_pencil}.")
@@ -357,7 +363,8 @@ Table(
 # > **Lesson says:** "Teams like 2910 and 254 characterize every motorized mechanism that needs
 # > closed-loop control."
 # >
-# > **Source says:** we could not check what these teams do. A maintainer of WPILib writes in 2026
+# > **Source says:** (*closed-loop control* is feedback.) We could not check what these teams do. A
+# > maintainer of WPILib writes in 2026
 # > that the prevailing advice is to "avoid the SysId tool and do manual tuning instead", because
 # > SysId is "error-prone".
 # > ([allwpilib issue 8643](https://github.com/wpilibsuite/allwpilib/issues/8643))
@@ -519,15 +526,15 @@ def reached(real: Mechanism, used: dict[str, float]) -> float:
     return (volts - real.gains["kS"]) / real.gains["kV"] * 60 / (2 * math.pi)
 
 
-greased = replace(wheel, drag=wheel.drag + 0.03)
+worn = replace(wheel, drag=wheel.drag + 0.03)
 Table(
-    ("gains", "reached [rpm]", "of 4000 rpm"),
+    ("gains", "reached [rpm]", "off 4000 rpm by"),
     tuple(
-        (name, f"{rpm:.0f}", f"{100 * (rpm / 4000 - 1):+.0f} %")
+        (name, f"{rpm:.0f}", f"{100 * (rpm / 4000 - 1):+.1f} %".replace("-", "−"))
         for name, rpm in (
             ("measured", reached(wheel, gains)),
             ("kV guessed 5 % too low", reached(wheel, gains | {"kV": 0.95 * gains["kV"]})),
-            ("measured, but a bearing has aged since", reached(greased, gains)),
+            ("measured, but a bearing has aged since", reached(worn, gains)),
         )
     ),
 )
@@ -586,14 +593,15 @@ made = sorted(Path("..", "exercises", "exercise1", "data").glob("*/given.toml"))
 if made:
     given = tomllib.loads(made[0].read_text(encoding="utf-8"))
     print(f"{made[0].parent.name}: {given['mechanism']}, velocities in {given['velocity_unit']}")
-    print(f"kS = {given['kS']}, kV = {given['kV']}, kA = {given['kA']}")
+    print(f"kS = {given['kS']} V, kV = {given['kV']}, kA = {given['kA']} (units: exercise 1)")
 else:
     print("Nothing yet. In a terminal, in the course's folder:  grade start --student YOUR-NAME")
 
 # %% [markdown]
 # ### A first try
 #
-# In the terminal, these two lines do what the three lines of the race did:
+# In the terminal, these two lines do what lines one and two of the race did, for the bench's own
+# drivetrain: run the four tests, and compute the gains.
 #
 # ```
 # sysid simulate drivetrain --seed 1 -o drive.wpilog

@@ -159,7 +159,7 @@ guess_ramp = Guess(
 display(guess_step, guess_ramp)
 
 # %%
-FINE = 0.005  # [s] between two points of the picture
+FINE = 0.002  # [s] between two points of the picture
 TERMS = ("kS·sgn(v)", "kV·v", "kA·a")
 DRIVES = {"slow ramp": 6.0, "sudden step": 0.6, "there and back": 3.0}  # and how long [s]
 
@@ -176,18 +176,18 @@ def voltage(which: str, time: np.ndarray) -> np.ndarray:
 def spent(which: str, mass: float, friction: float) -> tuple[np.ndarray, dict, np.ndarray]:
     """Time, the three terms, and the applied voltage of a drive."""
     price = replace(drivetrain, load=mass, friction=friction).gains
-    time = np.arange(0.0, DRIVES[which], FINE)
+    time = FINE * np.arange(round(DRIVES[which] / FINE) + 2)  # to the end, and one point more
     applied = voltage(which, time)
-    _, v = motion(price, time=time, voltage=applied)
-    a = np.append(np.diff(v) / FINE, 0.0)
+    _, moved = motion(price, time=time, voltage=applied)
+    v, a = (moved[:-1] + moved[1:]) / 2, np.diff(moved) / FINE  # from each point to the next
     shares = (price["kS"] * np.sign(v), price["kV"] * v, price["kA"] * a)
-    return time, dict(zip(TERMS, shares, strict=True)), applied
+    return time[:-1], dict(zip(TERMS, shares, strict=True)), applied[:-1]
 
 
 def voltage_budget(drive: str, mass: float, friction: float, look: float) -> Picture:
-    """Where the volts of a drive go; ``look`` is a moment, as a share of the drive."""
+    """Where the volts of a drive go; ``look`` is a moment, in percent of the drive."""
     time, terms, applied = spent(drive, mass, friction)
-    moment = round(look * float(time[-1]), 2)
+    moment = round(look / 100 * float(time[-1]), 2)
     return budget(time, terms, applied=applied, moment=moment)
 
 
@@ -201,7 +201,7 @@ live(
         min=0.05, max=1.0, step=0.05, value=0.15, description="kS [V]", continuous_update=False
     ),
     look=widgets.FloatSlider(
-        min=0, max=1, step=0.01, value=0.5, description="look at", continuous_update=False
+        min=0, max=100, step=1, value=50, description="look at [%]", continuous_update=False
     ),
 )
 
@@ -209,16 +209,16 @@ live(
 # No menu on your screen? Change the words and numbers here:
 
 # %%
-voltage_budget("sudden step", mass=60.0, friction=0.15, look=0.2)
+voltage_budget("sudden step", mass=60.0, friction=0.15, look=20)
 
 # %%
-voltage_budget("there and back", mass=60.0, friction=0.15, look=0.4)
+voltage_budget("there and back", mass=60.0, friction=0.15, look=40)
 
 # %%
 rows = []
 for words, name, when in (
-    ("right after the sudden step", "sudden step", 0.105),
-    ("half a second after it", "sudden step", 0.595),
+    ("right after the sudden step", "sudden step", 0.102),
+    ("half a second after it", "sudden step", 0.6),
     ("halfway through the slow ramp", "slow ramp", 3.0),
 ):
     time, terms, applied = spent(name, 60.0, 0.15)
@@ -261,9 +261,11 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # An electric motor does three things, and each is a simple product:
 #
 # 1. **It pushes back.** A motor that turns is also a generator. It makes a voltage against the one
-#    you apply, in step with its speed ω: **Ke·ω**. This is called *back-EMF*.
+#    you apply, in step with its speed ω ("omega"): **Ke·ω**. This is called *back-EMF*.
 # 2. **What is left drives a current** through the winding's resistance R: I = (V − Ke·ω) / R.
 # 3. **The current makes torque**, a turning force: T = Kt·I.
+#
+# (Ke, Kt and R are constants of the motor. They follow from the numbers on its data sheet.)
 #
 # Gears of ratio G and a wheel of radius r turn the torque of n motors into a force, n·G·T/r. Part
 # of that force works against friction, the rest moves the mass m:
@@ -392,6 +394,7 @@ print(f"{rpm:.0f} rpm are {motor_turns:.2f} turns of the motor per second")
 print(f"... divided by the ratio {G}: {wheel_turns:.2f} turns of the wheel per second")
 print(f"... times the circumference {math.pi * 2 * r:.4f} m: {free_speed:.2f} m/s")
 print(f"kV on paper: 12 V / {free_speed:.2f} m/s = {12 / free_speed:.3f} V·s/m")
+print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s: no robot does that.")
 
 # %% [markdown]
 # > **Lesson says:** "kV_theoretical = 12V ÷ free_speed_in_your_units."
@@ -412,7 +415,7 @@ for name in NAMES:
     one = MOTORS[name]
     paper, exact = theoretical_kv(one, ratio=1.0) * TURN, one.back_emf * TURN
     lower = f"{100 * (1 - exact / paper):.1f} %"
-    rows.append((name, f"{one.free_speed * 60 / TURN:.0f}", paper, exact, lower))
+    rows.append((name, f"{one.free_speed * 60 / TURN:.0f}", f"{paper:.4f}", f"{exact:.4f}", lower))
 Table(
     ("motor", "free speed [rpm]", "on paper [V·s/rot]", "exact [V·s/rot]", "lower by"), tuple(rows)
 )
@@ -515,7 +518,8 @@ print(f"You said: {guess_cause}.")
 rows = []
 for story, one in STORIES.items():
     got = found(one)
-    rows.append((story, got["kS"], got["kV"], got["kA"], f"{above(story):+.0f} %"))
+    over = f"{above(story):+.0f} %".replace("-", "−")
+    rows.append((story, got["kS"], got["kV"], got["kA"], over))
 Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above paper"), tuple(rows))
 
 # %% [markdown]
@@ -554,7 +558,7 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above paper"), tup
 rows = []
 for name in ("falcon500", "krakenX60", "krakenX44"):
     paper = theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
-    rows.append((name, paper, f"{100 * (2.68 / paper - 1):+.0f} %"))
+    rows.append((name, paper, f"{100 * (2.68 / paper - 1):+.0f} %".replace("-", "−")))
 Table(("motor", "kV on paper [V·s/m]", "2.68 is above paper by"), tuple(rows))
 
 # %% [markdown]
@@ -571,7 +575,7 @@ Table(("motor", "kV on paper [V·s/m]", "2.68 is above paper by"), tuple(rows))
 #
 # After a step of voltage, the velocity does not rise in a straight line. It rises fast, then slower
 # and slower: in each τ it covers 63 % of what is still missing. (The curve is called
-# *exponential*.) After 3 τ it is as good as there.
+# *exponential*.) After 3 τ it is as good as there. The star in the picture stands at τ.
 
 # %%
 KINDS = ["drivetrain", "shooter", "intake", "turret"]
@@ -592,9 +596,9 @@ def rise(kind: str) -> Picture:
         1000 * time,
         {kind: share},
         xlabel="time since the step [ms]",
-        ylabel="of its final speed [%]",
+        ylabel="share of its final speed [%]",
         levels={"63 %": 63.2},
-        marked=(1000 * tau(kind), 63.2),
+        marked=(round(1000 * tau(kind), 1), 63.2),
     )
 
 
@@ -626,7 +630,7 @@ Table(
 # ## 7 kS: when to get a wrench
 #
 # A low kS means that the mechanism turns easily. A high one means friction: a bearing that sits
-# askew, a belt that is too tight, a screw that rubs. Do not just put a high kS into the code. The
+# askew, a shaft that binds, a screw that rubs. Do not just put a high kS into the code. The
 # feedforward would then *hide* what is wearing out.
 #
 # But what is high?
@@ -655,6 +659,8 @@ print(f"of a 12 V battery, for friction alone. Ours has {gains['kS']:.2f} V.")
 #
 # - **kS has grown since last week.** Write it down each time.
 # - **Left and right differ.** They are built the same, so they should feel the same.
+#
+# The gauge begins with a slow robot, at 1 m/s. That already moves *stop* closer.
 
 
 # %%
@@ -673,7 +679,7 @@ live(
         min=0, max=4, step=0.05, value=0.45, description="right [V]", continuous_update=False
     ),
     typical=widgets.FloatSlider(
-        min=0.5, max=3, step=0.1, value=1.0, description="typical m/s", continuous_update=False
+        min=0.5, max=3, step=0.1, value=1.0, description="speed [m/s]", continuous_update=False
     ),
 )
 
@@ -710,7 +716,7 @@ guess_unit
 # %%
 print(f"You said: {guess_unit}.")
 rows = [
-    (name, f"{speed:.1f}", per_rotation * 50.0 / speed, per_rotation * 50.0)
+    (name, f"{speed:.0f}", per_rotation * 50.0 / speed, per_rotation * 50.0)
     for name, speed in (
         ("rot/s", 50.0),
         ("rad/s", 50.0 * TURN),

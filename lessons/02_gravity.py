@@ -91,7 +91,7 @@ print(f"0 V: after 0.4 s it does {let_go(0.0):.2f} m/s. Minus is down.")
 
 # %%
 guess_load = Guess(
-    "A game piece makes the carriage half as heavy again. Which gains change?",
+    "A game piece makes the carriage 1.5 times as heavy. Which gains change?",
     "kV and kA",
     "kG and kA",
     "kG only",
@@ -101,16 +101,17 @@ guess_load
 
 # %%
 TIMES = 1.5
+UNITS = {"kS": "V", "kV": "V·s/m", "kA": "V·s²/m", "kG": "V"}
 heavy = replace(elevator, load=TIMES * elevator.load).gains
 print(f"You said: {guess_load}.")
 Table(
-    ("gain", f"{elevator.load:.0f} kg", f"{TIMES * elevator.load:.0f} kg", "times"),
-    tuple((name, truth[name], heavy[name], heavy[name] / truth[name]) for name in truth),
+    ("gain", f"at {elevator.load:.0f} kg", f"at {TIMES * elevator.load:.0f} kg", "times", "unit"),
+    tuple((one, truth[one], heavy[one], heavy[one] / truth[one], UNITS[one]) for one in truth),
 )
 
 # %% [markdown]
-# Half as much mass again needs half as much force again: to hold it (kG) and to speed it up (kA).
-# At a steady speed nothing is sped up, so kV does not care. (On the bench friction does not care
+# 1.5 times the mass needs 1.5 times the force: to hold it (kG) and to speed it up (kA). At a
+# steady speed nothing is sped up, so kV does not care. (On the bench friction does not care
 # either. On a real robot, more weight can press harder on a bearing.)
 #
 # > **Lesson says:** run the elevator with its load, "since kA and kV change significantly with load
@@ -182,7 +183,7 @@ recipes = {
 
 def window_picture(volts: float) -> Picture:
     """The window that holds, what the recipes find, and a voltage of your choice."""
-    shown = slice(120, 301, 10)
+    shown = slice(round(100 * not_falling) % 10 + 110, 311, 10)  # both edges are among them
     return hold_window(
         steps[shown],
         speeds[shown],
@@ -195,7 +196,7 @@ def window_picture(volts: float) -> Picture:
 live(
     window_picture,
     volts=widgets.FloatSlider(
-        min=1.2, max=3.0, step=0.01, value=1.5, description="volts", continuous_update=False
+        min=1.2, max=3.0, step=0.01, value=1.5, description="voltage [V]", continuous_update=False
     ),
 )
 
@@ -234,14 +235,15 @@ rows = [
 ]
 print(f"half the width: {(not_rising - not_falling) / 2:.3f} V. True kS: {truth['kS']:.3f} V.")
 Table(
-    ("recipe", "taken for kG [V]", "too much [V]", "speed, upward too much by [m/s]"),
+    ("recipe", "taken for kG [V]", "too much by [V]", "moves upward too fast by [m/s]"),
     tuple(rows),
-    caption=f"True kG: {truth['kG']:.3f} V. Minus: too little, or downward.",
+    caption=f"True kG: {truth['kG']:.3f} V. Minus means too little, or too fast downward.",
 )
 
 # %% [markdown]
-# The last column is what a wrong kG does later, in a feedforward: the elevator is too slow on the
-# way up and too fast on the way down, or the other way round. Always by kS/kV.
+# The last column is what a wrong kG does later, in a feedforward. With the first recipe the
+# elevator is too slow on the way up and too fast on the way down; with the second it is the other
+# way around. Always by kS/kV.
 #
 # (What is simplified: the bench's friction is the same at rest and in motion. Real friction often
 # grips more at rest. Then this window is wider than the motion would tell.)
@@ -330,15 +332,15 @@ true_angles = [-30, -15, 0, 20, 40, 60, 85]
 measured = [(float(angle), *edges_at(angle)) for angle in true_angles]
 
 
-def arm_picture(reading: float) -> Picture:
+def arm_picture(angle: float) -> Picture:
     """The windows of the arm, and an angle of your choice."""
-    return hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"], here=reading)
+    return hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"], here=angle)
 
 
 live(
     arm_picture,
-    reading=widgets.IntSlider(
-        min=-90, max=90, step=5, value=60, description="reading", continuous_update=False
+    angle=widgets.IntSlider(
+        min=-90, max=90, step=5, value=60, description="angle [deg]", continuous_update=False
     ),
 )
 
@@ -351,8 +353,9 @@ arm_picture(60)
 # %% [markdown]
 # ### An encoder that was mounted askew
 #
-# All this needs the angle from **level**. An encoder shows whatever it was glued on with. Say ours
-# shows 25° too much. Then the true angle is reading + offset, with an offset of −25°.
+# All this needs the angle from **level**. An encoder does not know where level is. It counts from
+# wherever its zero happened to be when somebody mounted it. Say ours shows 25° too much. Then the
+# true angle is reading + offset, with an offset of −25°.
 #
 # The window does not lie, though. Its middle follows kG·cos(reading + offset), and a cosine with an
 # offset is a mix of a cosine and a sine:
@@ -381,6 +384,9 @@ print(f"kS = {half_width.mean():.3f} V (true: {arm.gains['kS']:.3f} V)")
 print(f"offset = {found_offset:.1f}°, to be added to every reading")
 
 # %% [markdown]
+# Not quite the truth? We tried voltages in steps of 10 mV. An edge can lie anywhere between two
+# steps, so half the width may come out too small by up to 10 mV. Finer steps do better.
+#
 # In the picture: the cosine has its top where the arm is *really* level, not at a reading of 0.
 
 
@@ -393,7 +399,7 @@ def askew_picture(offset: float) -> Picture:
 live(
     askew_picture,
     offset=widgets.IntSlider(
-        min=-60, max=60, step=5, value=0, description="offset", continuous_update=False
+        min=-60, max=60, step=5, value=0, description="offset [deg]", continuous_update=False
     ),
 )
 
@@ -469,7 +475,11 @@ for name, (one, types) in cases.items():
         rows.append((f"{name}, read as {kind}", *found))
 
 print(f"You said: {guess_type}.")
-Table(("log", "kS [V]", "kV", "kA", "kG [V]"), tuple(rows))
+Table(
+    ("log", "kS [V]", "kV", "kA", "kG [V]"),
+    tuple(rows),
+    caption="kV in V·s/m and kA in V·s²/m; for the arm, in V·s/rad and V·s²/rad",
+)
 
 # %% [markdown]
 # With the right type, the gains are close to the truth. (kS is the furthest off. It usually is.)
@@ -564,7 +574,7 @@ def up_and(down_rows: int) -> Picture:
     used = {**forward, "quasistatic-reverse": down.where(slice(down_rows))}
     told = known(used, type="elevator", noise=noise_of(elevator)).about(*SIDES)
     return ellipses(
-        {f"up, rows of down: {down_rows}": told},
+        {f"the way up, and {down_rows} rows of the way down": told},
         names=("kS [V]", "kG [V]"),
         truth=(truth["kS"], truth["kG"]),
         reach=(0.25, 0.25),
@@ -650,11 +660,12 @@ print(f"The slow ramp up had {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.
 #
 # ```java
 # // kS, kG, kV, kA
-# private final ElevatorFeedforward m_feedforward = new ElevatorFeedforward(0.25, 2.01, 4.47, 0.20);
+# private final ElevatorFeedforward m_feedforward =
+#     new ElevatorFeedforward(0.25, 2.01, 4.47, 0.205);
 # ```
 #
 # ```python
-# self.feedforward = ElevatorFeedforward(0.25, 2.01, 4.47, 0.20)  # kS, kG, kV, kA
+# self.feedforward = ElevatorFeedforward(0.25, 2.01, 4.47, 0.205)  # kS, kG, kV, kA
 # ```
 #
 # **Predict:** somebody writes `ElevatorFeedforward(kS, kV, kG, kA)`.

@@ -103,14 +103,16 @@ guess_rise = Guess(
 guess_rise
 
 # %%
-since = np.arange(0.0, 0.5, 0.02)
+since = np.round(np.arange(0.0, 0.5, 0.005), 3)
 _, speed = motion(truth, time=since, voltage=np.full(since.size, 2.0))
 top = (2.0 - truth["kS"]) / truth["kV"]
 tau = truth["kA"] / truth["kV"]
 at_tau = float(np.interp(tau, since, speed))
 
 print(f"You said: {guess_rise}.")
-print(f"kA/kV = {1000 * tau:.0f} ms. By then it has {100 * at_tau / top:.0f} % of its top speed.")
+print(
+    f"kA/kV = {1000 * tau:.0f} ms (the star). By then: {100 * at_tau / top:.0f} % of its top speed."
+)
 curves(
     since,
     {
@@ -120,7 +122,7 @@ curves(
     xlabel="time since the step [s]",
     ylabel="speed [m/s]",
     levels={"top speed": top},
-    marked=(tau, at_tau),
+    marked=(round(tau, 3), at_tau),
 )
 
 # %% [markdown]
@@ -203,7 +205,7 @@ live(
     drift_picture,
     name=widgets.Dropdown(options=list(SHOWN), description="mechanism"),
     ramp=widgets.SelectionSlider(
-        options=RAMPS, value=0.5, description="V per s", continuous_update=False
+        options=RAMPS, value=0.5, description="ramp [V/s]", continuous_update=False
     ),
 )
 
@@ -337,7 +339,7 @@ live(
 map_picture("all four", "kS and kA")
 
 # %% [markdown]
-# Add runs one by one, from top to bottom of the menu. With one ramp, kS and kA lie on a long
+# Add runs one by one: the first four lines of the menu. With one ramp, kS and kA lie on a long
 # slanted ellipse: the ramp knows kS + τ·ramp, as in section 3, and not how it splits up. A single
 # step ends that. Now all the sets, in numbers:
 
@@ -382,7 +384,8 @@ except sim.Refusal as refusal:
 # > determined". Neither does the other's work.
 # > ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
 # >
-# > **Try it:** "no ramps: 2 steps" in the map. On which line do the dots lie?
+# > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines. Turn one of them upside
+# > down: does it tell anything that the other one does not?
 
 # %% [markdown]
 # ## 5 Why reverse? Three reasons
@@ -478,12 +481,19 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     rows.append((ramp, float(np.interp(1.0, speed, place)), rule, volts, ten_seconds))
 print(f"You said: {guess_way}.")
 Table(
-    ("ramp [V/s]", "way to 1 m/s [m]", "kV·v²/(2·ramp)", "volts after 10 ft", "way in 10 s [m]"),
+    (
+        "ramp [V/s]",
+        "1 m/s after [m]",
+        "kV·v²/(2·ramp) [m]",
+        "voltage after 10 ft [V]",
+        "gone after 10 s [m]",
+    ),
     tuple(rows),
+    caption="At 2 V/s there is no row of 10 s: the battery's 12 V are used up after 6 s",
 )
 
 # %% [markdown]
-# Twice as far. At half the ramp it takes twice the time to any speed, and so twice the way:
+# Twice as far. At half the ramp it takes twice the time to any speed, and so twice the distance:
 #
 # > **d ≈ kV·v² / (2·ramp)**
 #
@@ -511,9 +521,10 @@ Table(
 #    is above `V_slip = kS + kA·μ·g`, with the grip μ (about 1.1 on carpet; measure yours) and
 #    g = 9.81 m/s², if all wheels are driven. When wheels spin, the encoder counts meters that the
 #    robot does not go.
-# 2. **Current.** At standstill a motor draws stall_current · step / 12 V. Above the controller's
-#    limit the voltage is cut, and the rise begins as a straight line. (Phoenix 6 limits the
-#    current in a motor to 120 A unless you change it.)
+# 2. **Current.** At standstill a motor draws `stall_current · step / 12 V`. (The *stall current* is
+#    on its data sheet: what it draws at 12 V when it cannot turn.) Above the controller's limit the
+#    voltage is cut, and the rise begins as a straight line. (Phoenix 6 limits the current in a
+#    motor to 120 A unless you change it.)
 # 3. **Room.** The top speed is (step − kS)/kV, and your thumb needs its time.
 #
 # (For the limit see
@@ -535,7 +546,7 @@ for name, count, motor_name in (("4 Kraken X60", 4, "krakenX60"), ("4 NEO", 4, "
 Table(
     (
         "60 kg, 6.75:1",
-        "kA",
+        "kA [V·s²/m]",
         "step: at least [V]",
         "slips from [V]",
         "a limit of 120 A cuts from [V]",
@@ -559,7 +570,8 @@ Table(
 # > **Try it:** change the mass: `replace(drivetrain, load=30.0, …)`. Does a light robot slip
 # > earlier or later? (Look at kA in the formula.)
 #
-# On the bench the wheels never slip. Lesson 6 shows what slipping looks like in a log.
+# The wheels of today's drivetrain never slip: its bench leaves that out. Lesson 6 shows what
+# slipping looks like in a log.
 
 # %% [markdown]
 # ## 8 Choose when to stop: mark and timeout
@@ -590,7 +602,7 @@ for seconds in (0.2, 0.5, 1.0, 2.0, 7.0):
     used = found.samples_used["dynamic-forward"]
     rows.append((f"{seconds:g} s", len(step), used, found.gains["kA"], float(step.position[-1])))
 Table(
-    ("step lasts", "rows", "rows used", "kA found", "it has gone [m]"),
+    ("step lasts", "rows", "rows used", "kA found [V·s²/m]", "it has gone [m]"),
     tuple(rows),
     caption=f"True kA: {truth['kA']:.3f} V·s²/m",
 )
@@ -651,7 +663,7 @@ def plan(ramp: float, step: float, mark: float, room: float) -> Picture:
     )
     drawn = curves(
         time,
-        {"ramp": slow, "step": hard},
+        {"ramp": slow, "step": hard, "the mark on the floor": np.full(time.size, mark)},
         xlabel="time [s]",
         ylabel="position [m]",
         levels={"the end of the room": room},
@@ -682,8 +694,8 @@ live(
 plan(ramp=0.5, step=3.5, mark=2.5, room=4.0)
 
 # %% [markdown]
-# The source lesson's numbers, in 4 m, break two rules: the ramp is too slow for the room, and the
-# step spins the wheels of this strong drivetrain. Which slider repairs which rule?
+# The source lesson's 0.5 V/s and 3.5 V, in 4 m, break two rules: the ramp is too slow for the room,
+# and the step spins the wheels of this strong drivetrain. Which slider repairs which rule?
 #
 # (What is simplified: the motors brake at 0 V, the floor is even, and the battery never sags. Leave
 # more room than the plan says.)
@@ -696,7 +708,7 @@ plan(ramp=0.5, step=3.5, mark=2.5, room=4.0)
 #
 # Before you press the first button, all five:
 #
-# - [ ] You computed the way of the ramp, `kV·v²/(2·ramp)`, and the room is longer than that.
+# - [ ] You computed how far the ramp goes, `kV·v²/(2·ramp)`, and the room is longer than that.
 # - [ ] The step is below 90 % of V_slip, and below the current limit.
 # - [ ] The mark is on the floor, with room behind it for a late thumb. The timeout is set.
 # - [ ] Four runs are planned: ramp and step, forward and reverse, each reverse right after its
@@ -715,7 +727,7 @@ quick = Quick(
     "You halve the ramp and go to the same speed. How far does the mechanism travel?",
     {
         "half as far": "It takes longer to get there. Does it stand still meanwhile?",
-        "the same way": "The speed at the end is the same, but the time to get there is not.",
+        "just as far": "The speed at the end is the same, but the time to get there is not.",
         "twice as far": "It takes twice as long, at the same mean speed.",
     },
     right="twice as far",
@@ -736,11 +748,12 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The way to a speed is kV·v²/(2·ramp): half the ramp, twice the way. In 3 m a very slow ramp hardly
-# gets moving. Use a steeper ramp, a mark and a ready thumb.
+# The distance to a speed is kV·v²/(2·ramp): half the ramp, twice the distance. In 3 m a very slow
+# ramp hardly gets moving. Use a steeper ramp, a mark and a ready thumb.
 # </details>
 #
-# **3.** All dots of the information map lie on one slanted line. Which runs are missing?
+# **3.** In the information map the dots of each direction lie on one slanted line. Which runs are
+# missing?
 #
 # <details><summary>Answer</summary>
 #

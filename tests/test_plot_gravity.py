@@ -77,6 +77,18 @@ def test_the_table_of_a_band_has_its_middles_and_half_its_widths():
     assert [row[4] for row in table.rows] == pytest.approx([0.25, 0.25, 0.25])
 
 
+@pytest.mark.parametrize(
+    ("offset", "angle", "level"),
+    [(None, "angle [deg]", "at 0 degrees: the arm is level."),
+     (0.0, "reading [deg]", "at 0 degrees: level, if the offset is 0°."),
+     (-25.0, "reading [deg]", "at 25.0 degrees: level, if the offset is −25.0°.")],
+)  # fmt: skip
+def test_an_offset_is_told_as_the_guess_it_is(offset, angle, level):
+    picture = hold_angles(HOLDS, kg=1.51, ks=0.25, offset=offset)
+    assert picture.table.header[0] == angle
+    assert level in picture.alt
+
+
 def test_up_only_is_a_strip_on_which_one_gain_falls_as_the_other_rises():
     picture = PICTURES["ellipses"]()
     assert "kG [V] changes by −1.00 where kS [V] changes by 1" in picture.alt

@@ -1,12 +1,13 @@
 """The voltages that hold a mechanism against gravity: a window, as wide as friction is strong."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from sim.errors import BadRequest
 from sim.log import Array
-from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, panels
+from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, shown
 
 BAND = COLORS[4]
@@ -57,7 +58,7 @@ def hold_window(
     alt = (
         f"Speed over voltage. It sinks below {shown(low)} V, stays between {shown(low)} and "
         f"{shown(high)} V, which is shaded, and rises above."
-        + "".join(f" {name} is marked at {shown(value)} V." for name, value in marks.items())
+        + "".join(f" A mark, “{name}”, is at {shown(value)} V." for name, value in marks.items())
     )
     if here is not None:
         alt += f" A star marks {shown(here[0])} V, where the speed is {_speed(here[1], symbol)}."
@@ -82,12 +83,34 @@ def _where(value: float, low: float, high: float) -> str:
     return "below it" if value < low else "above it" if value > high else "inside"
 
 
+@dataclass(frozen=True)
+class _Words:
+    """What the angles of a picture are called."""
+
+    angle: str
+    across: str
+    cosine: str
+    level: str
+
+
+_SHOWS_LEVEL = _Words("angle [deg]", "angle from level [deg]", "kG·cos(angle)", "the arm is level")
+
+
+def _askew(offset: float) -> _Words:
+    return _Words(
+        "reading [deg]",
+        "what the encoder reads [deg]",
+        "kG·cos(reading + offset)",
+        f"level, if the offset is {shown(offset)}°",
+    )
+
+
 def hold_angles(
     holds: Sequence[tuple[float, float, float]],
     *,
     kg: float,
     ks: float,
-    offset: float = 0.0,
+    offset: float | None = None,
     here: float | None = None,
 ) -> Picture:
     """The window of an arm over its angle: its middle is a cosine, its width stays.
@@ -96,17 +119,19 @@ def hold_angles(
         holds: rows of a reading [deg] and the two edges measured there [V].
         kg: [V] that holds it level.
         ks: [V] of friction.
-        offset: [deg] to add to a reading for the angle from level.
+        offset: [deg] to add to a reading for the angle from level; a guess, until the band covers
+            all marks. None says that the encoder shows the angle from level.
         here: [deg] a reading to draw attention to.
     """
+    words, add = _SHOWS_LEVEL if offset is None else _askew(offset), offset or 0.0
     ends = [reading for reading, *_ in holds]
     readings = np.linspace(min([-QUARTER_TURN, *ends]) - 5.0, max([QUARTER_TURN, *ends]) + 5.0, 181)
-    middle = kg * np.cos(np.radians(readings + offset))
+    middle = kg * np.cos(np.radians(readings + add))
     figure, ((axes,),) = panels(1, 1, height=3.6)
     axes.fill_between(
         readings, middle - ks, middle + ks, color=BAND, alpha=0.35, label="it stays", linewidth=0
     )
-    axes.plot(readings, middle, "--", color=COLORS[0], label="kG·cos(reading + offset)")
+    axes.plot(readings, middle, "--", color=COLORS[0], label=words.cosine)
     axes.axhline(0.0, color=REFERENCE, linewidth=0.8)
     for index, place, name in ((1, 1, "just does not fall"), (2, 2, "just begins to rise")):
         axes.plot(
@@ -117,22 +142,23 @@ def hold_angles(
             markersize=7,
             label=name,
         )
-    level = 0.0 - offset  # never −0
-    axes.axvline(level, color=REFERENCE, linestyle=":", linewidth=1.2, label="level")
+    level = 0.0 - add  # never −0
+    axes.axvline(level, color=REFERENCE, linestyle=":", linewidth=1.2, label=words.level)
     if here is not None:
-        at = kg * float(np.cos(np.radians(here + offset)))
+        at = kg * float(np.cos(np.radians(here + add)))
         axes.plot(here, at, "*", color=REFERENCE, markersize=15, label="here", zorder=4)
-    axes.set_xlabel("what the encoder reads [deg]", color=INK)
+    axes.set_xlabel(words.across, color=INK)
     axes.set_ylabel("voltage [V]", color=INK)
-    axes.legend(fontsize=8)
+    legend(figure, (axes,))
     alt = (
         f"The voltages that hold an arm, over its angle: a band of constant width, {shown(2 * ks)} "
-        f"V, about a cosine of {shown(kg)} V that is largest where the arm is level, at a reading "
-        f"of {shown(level)} degrees. {len(holds)} measured angles have a mark on either edge."
+        f"V, about a cosine of {shown(kg)} V that is largest at {shown(level)} degrees: "
+        f"{words.level}. {len(holds)} measured angles have two marks each, the lowest and the "
+        f"highest voltage that hold it there."
     )
     if here is not None:
         alt += f" A star marks {shown(at)} V at {shown(here)} degrees."
-    header = ("reading [deg]", "just does not fall [V]", "just begins to rise [V]", "middle [V]",
+    header = (words.angle, "just does not fall [V]", "just begins to rise [V]", "middle [V]",
               "half the width [V]")  # fmt: skip
     rows = tuple(
         (f"{reading:g}".replace("-", "−"), low, high, (low + high) / 2.0, (high - low) / 2.0)
