@@ -12,8 +12,11 @@ import pytest
 
 from sim.effects import EFFECTS
 from sim.effects.drag import EFFECT as DRAG
-from sim.engine import NO_WIRES, State, finest, move
+from sim.engine import NO_TRUST, NO_WIRES, State, arrays, constants, finest, move
+from sim.engine import kernel as kernel_room
 from sim.engine.compose import CACHE, compose, folder, is_compiled
+from sim.engine.kernel import NO_USE
+from sim.engine.machine_code import Code, linked
 from sim.engine.wires import CUT
 from sim.errors import BadRequest
 from sim.mechanisms import MECHANISMS
@@ -240,25 +243,116 @@ print(round(float(track.velocity[-1]), 6))
 ENDS = str(round(1.4 * (1.0 - math.exp(-0.98 / 0.15)), 6))  # (3 - 0.2)/2, and kA/kV = 0.15 s
 
 
-def started(environment):
+def started(environment, program=PROGRAM):
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM], env=environment, capture_output=True, encoding="utf-8",
+        [sys.executable, "-c", program], env=environment, capture_output=True, encoding="utf-8",
         check=False, timeout=120,
     )  # fmt: skip
     return done.returncode, done.stdout.strip(), done.stderr
 
 
-def test_what_was_compiled_is_kept_where_the_environment_says(tmp_path, monkeypatch):
-    monkeypatch.setenv(CACHE, str(tmp_path / "kept"))
-    assert folder() == tmp_path / "kept"
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    """A cache in which one process left what it compiled."""
+    kept = tmp_path_factory.mktemp("cache") / "kept"
+    assert started({**os.environ, CACHE: str(kept)}) == (0, ENDS, "")
+    return kept
+
+
+def test_what_was_compiled_is_kept_where_the_environment_says(cache, tmp_path, monkeypatch):
+    monkeypatch.setenv(CACHE, str(tmp_path))
     assert not is_compiled(EFFECTS)
 
-    assert started(os.environ.copy()) == (0, ENDS, "")
-
+    monkeypatch.setenv(CACHE, str(cache))
+    assert folder() == cache
     assert is_compiled(EFFECTS)
-    kept = {file: file.stat().st_mtime for file in (tmp_path / "kept").rglob("*.nbc")}
+    (kept,) = cache.iterdir()
+    written = kept.stat().st_mtime_ns
     assert started(os.environ.copy()) == (0, ENDS, "")
-    assert {file: file.stat().st_mtime for file in (tmp_path / "kept").rglob("*.nbc")} == kept
+    assert kept.stat().st_mtime_ns == written
+
+
+def test_what_was_compiled_is_loaded_without_the_compiler(cache):
+    asked = f"{PROGRAM}\nimport sys\nprint('numba' in sys.modules)"
+
+    done = started({**os.environ, CACHE: str(cache)}, asked)
+
+    assert done == (0, f"{ENDS}\nFalse", "")
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda whole: whole[:-100],
+        lambda whole: whole[:3000] + bytes(100) + whole[3100:],
+        lambda whole: b"{}\n" + whole.split(b"\n", 1)[1],
+        lambda _: b"not an engine",
+        lambda whole: whole.replace(b"log1p", b"nolog", 1),
+    ],
+    ids=["cut short", "bytes lost", "no head", "something else", "asks what is not there"],
+)
+def test_a_damaged_engine_is_never_loaded(cache, damage):
+    (kept,) = cache.glob("*.kernel")
+
+    code = Code.read(damage(kept.read_bytes()))
+
+    assert code is None or linked(code) is None
+    assert linked(Code.read(kept.read_bytes()))
+
+
+def test_a_damaged_engine_is_compiled_anew(cache, tmp_path):
+    (kept,) = cache.glob("*.kernel")
+    copy = tmp_path / kept.name
+    copy.write_bytes(kept.read_bytes()[:-1])
+
+    assert started({**os.environ, CACHE: str(tmp_path)}) == (0, ENDS, "")
+
+    assert Code.read(copy.read_bytes())
+
+
+def test_where_object_files_do_not_work_the_compiler_keeps_its_own(cache, tmp_path):
+    (kept,) = cache.glob("*.kernel")
+    (tmp_path / kept.name).write_bytes(NO_USE)
+
+    for _ in range(2):
+        assert started({**os.environ, CACHE: str(tmp_path)}) == (0, ENDS, "")
+
+    assert (tmp_path / kept.name).read_bytes() == NO_USE
+    assert [*tmp_path.glob(f"__pycache__/{kept.stem}*.nbc")]
+
+
+@pytest.mark.parametrize(("content", "works"), [(None, True), (b"", False), (b"junk", False)])
+def test_an_engine_is_tried_in_a_process_of_its_own(cache, tmp_path, content, works):
+    (kept,) = cache.glob("*.kernel")
+    copy = tmp_path / kept.name
+    copy.write_bytes(kept.read_bytes() if content is None else content)
+
+    assert kernel_room._works(copy) is works
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"time": TIME[::2]},
+        {"asked": TIME.astype(np.float32)},
+        {"out": np.zeros((8, TIME.size)).T},
+        {"measured": np.zeros((3, 2))},
+    ],
+    ids=["another length", "singles", "not in one piece", "measured elsewhere"],
+)
+def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
+    on, parameters = arrays(PLAIN)
+    given = {
+        "time": TIME, "asked": steady(3.0), "state": np.zeros(5), "c": constants(PLAIN),
+        "w": NO_WIRES, "on": on, "p": parameters, "memory": np.zeros(len(EFFECTS)), "began": 0.0,
+        "finest": math.inf, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_TRUST,
+        "out": np.zeros((TIME.size, 8)),
+    }  # fmt: skip
+    engine = compose(EFFECTS)
+    engine.move(**given)
+
+    with pytest.raises(TypeError):
+        engine.move(**{**given, **change})
 
 
 def test_a_home_that_cannot_be_written_to_is_no_obstacle(tmp_path):

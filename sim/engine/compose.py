@@ -1,22 +1,18 @@
 """Compose the engine: the effects' own small functions and the stepping, compiled as one.
 
 The text of one module is written: functions that ask every effect that is on (in place of
-``hooks.py``), then ``wires.py`` and ``stepping.py`` as they are. It stands in a folder of the
-user's cache under a name made of its own content, so that a changed or a new effect is a new
-module, and Numba keeps the compiled code beside it.
+``hooks.py``), then ``wires.py`` and ``stepping.py`` as they are. What is compiled of it stands in a
+folder of the user's cache under a name made of that text, so that a changed or a new effect is a
+new engine.
 """
 
 import hashlib
-import importlib.util
 import inspect
 import os
 import sys
-import tempfile
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
-from uuid import uuid4
 
 import platformdirs
 
@@ -24,10 +20,10 @@ import sim.engine.hooks
 import sim.engine.stepping
 import sim.engine.wires
 from sim.effect import Effect
+from sim.engine.kernel import Kernel, kept_at, kernel
 from sim.errors import BadRequest
 
 CACHE = "SYSID_CACHE"  # environment variable: another folder for what was compiled
-KEPT = 4  # engines of other versions that stay in the cache
 CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
 
 HOOKS: Mapping[str, tuple[str, str, str]] = {
@@ -43,6 +39,14 @@ HOOKS: Mapping[str, tuple[str, str, str]] = {
     "share": ("on, p", "0.0", "max({0}, {1})"),
     "sees": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
 }
+SHAPES = {  # of the arrays that `run` asks for, but for what effects remember
+    "time": "(n,)",
+    "asked": "(n,)",
+    "state": "(5,)",
+    "measured": "(rows, 2)",
+    "trust": "(2, 2)",
+    "out": "(n, 8)",
+}
 RUNNING = {"passes": "u", "sees": "seen"}  # a chain: each effect changes what the last one left
 
 
@@ -55,8 +59,8 @@ def places(effects: Mapping[str, Effect]) -> dict[str, slice]:
     return found
 
 
-def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> ModuleType:
-    """The engine for these effects, as a module with ``move``.
+def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel | ModuleType:
+    """The engine for these effects: something with ``move``.
 
     Args:
         effects: the catalogue.
@@ -73,21 +77,27 @@ def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> ModuleTy
                 advice="Compare with sim/effects/drag.py, and with ASKS in sim/effect.py.",
             )
     text = "\n".join(_text(effects, compiled=compiled))
-    if not compiled:
-        module = ModuleType("plain_engine")
-        exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
-        return module
-    sources = [inspect.getsource(sys.modules[act.__module__]) for act in _functions(effects)]
-    seal = hashlib.sha256("\n".join([text, *sources]).encode()).hexdigest()[:20]
-    return _load(text, name=f"sysid_engine_{seal}")
+    if compiled:
+        return kernel(text, kept_at(folder(), _seal(effects, text)))
+    module = ModuleType("plain_engine")
+    exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
+    return module
 
 
 def is_compiled(effects: Mapping[str, Effect]) -> bool:
     """Whether an engine for these effects waits in the cache."""
     text = "\n".join(_text(effects, compiled=True))
-    sources = [inspect.getsource(sys.modules[act.__module__]) for act in _functions(effects)]
-    seal = hashlib.sha256("\n".join([text, *sources]).encode()).hexdigest()[:20]
-    return any((folder() / "__pycache__").glob(f"sysid_engine_{seal}.move-*.nbc"))
+    return kept_at(folder(), _seal(effects, text)).is_file()
+
+
+def _seal(effects: Mapping[str, Effect], text: str) -> str:
+    """What is different for every other engine: its text, and that of the effects' functions."""
+    sources = [
+        inspect.getsource(sys.modules[act.__module__])
+        for effect in effects.values()
+        for act in effect.acts.values()
+    ]
+    return hashlib.sha256("\n".join([text, *sources]).encode()).hexdigest()
 
 
 def folder() -> Path:
@@ -96,22 +106,17 @@ def folder() -> Path:
     return Path(asked or platformdirs.user_cache_dir("sysid-course", appauthor=False))
 
 
-def _functions(effects: Mapping[str, Effect]) -> list[object]:
-    return [act for effect in effects.values() for act in effect.acts.values()]
-
-
 def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     """The lines of the module."""
-    yield '"""Composed by sim/engine/compose.py; a cache, safe to delete."""'
+    yield '"""Composed by sim/engine/compose.py."""'
     yield "from __future__ import annotations"
     yield "import math"
     yield "import numpy as np"
     if compiled:
-        yield "from numba import njit"
+        yield "from numba import carray, cfunc, njit, types"
         yield "step = njit(error_model='numpy', forceinline=True)"
-        yield "entry = njit(error_model='numpy', cache=True, nogil=True)"
     else:
-        yield "step = entry = lambda function: function"
+        yield "step = lambda function: function"
     for effect in effects.values():
         for hook, act in effect.acts.items():
             yield f"import {act.__module__}"
@@ -122,7 +127,7 @@ def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     yield from _memories(effects, at)
     yield from _body(sim.engine.wires)
     yield from _body(sim.engine.stepping)
-    yield from _entry(effects)
+    yield from _entry(effects, compiled=compiled)
 
 
 def _chain(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
@@ -155,7 +160,7 @@ def _memories(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterato
             yield f"        memory[{place}] = {_call(effect, 'remembers', at[name], place)}"
 
 
-def _entry(effects: Mapping[str, Effect]) -> Iterator[str]:
+def _entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     """What is called from outside: arrays that stay the same through a run become tuples."""
     asked = list(inspect.signature(sim.engine.stepping.run).parameters)
     sizes = {
@@ -168,8 +173,18 @@ def _entry(effects: Mapping[str, Effect]) -> Iterator[str]:
         name: f"({', '.join(f'{name}[{place}]' for place in range(size))},)"
         for name, size in sizes.items()
     }
-    yield "@entry"
-    yield f"def move({', '.join(asked)}):"
+    if compiled:  # as CALLED in sim/engine/kernel.py: two lengths, then what `run` asks for
+        shapes = {**SHAPES, "memory": f"({len(effects)},)"}
+        given |= {name: f"carray({name}, {shape})" for name, shape in shapes.items()}
+        given["plain"] = "plain != 0"
+        kinds = {"began": "float64", "finest": "float64", "plain": "int64"}
+        places = (f"types.{kinds[n]}" if n in kinds else "place" for n in asked)
+        yield "place = types.CPointer(types.float64)"
+        yield f"called = types.void(types.int64, types.int64, {', '.join(places)})"
+        yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
+        yield f"def move(n, rows, {', '.join(asked)}):"
+    else:
+        yield f"def move({', '.join(asked)}):"
     yield f"    run({', '.join(given.get(name, name) for name in asked)})"
 
 
@@ -196,41 +211,3 @@ def _body(module: ModuleType) -> Iterator[str]:
             yield "def " + line[4:]
         else:
             yield line
-
-
-def _load(text: str, *, name: str) -> ModuleType:
-    """Import the text as a module from the cache, or from a passing folder if there is none."""
-    if name in sys.modules:
-        return sys.modules[name]
-    try:
-        path = _written(folder(), text, name=name)
-    except OSError:  # a home that cannot be written to: compiled anew each time
-        path = _written(Path(tempfile.mkdtemp(prefix="sysid-")), text, name=name)
-    spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None:
-        raise ImportError(path)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-def _written(where: Path, text: str, *, name: str) -> Path:
-    """The module's file, whole."""
-    where.mkdir(parents=True, exist_ok=True)
-    path = where / f"{name}.py"
-    if not path.exists():
-        _forget_old(where)
-        part = where / f"{name}.{uuid4().hex}.part"
-        part.write_text(text + "\n", encoding="utf-8")
-        part.replace(path)
-    return path
-
-
-def _forget_old(where: Path) -> None:
-    """Leave the newest few engines, with what was compiled for them."""
-    engines = sorted(where.glob("sysid_engine_*.py"), key=lambda file: file.stat().st_mtime)
-    for old in engines[:-KEPT]:
-        for file in (old, *(where / "__pycache__").glob(f"{old.stem}.*")):
-            with suppress(OSError):  # another process uses or removes it
-                file.unlink()

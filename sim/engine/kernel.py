@@ -1,0 +1,205 @@
+"""The engine compiled: once by Numba, from then on loaded without it.
+
+Numba takes half a second to start, even where all it does is to load what it compiled before. What
+it made is therefore kept as an object file, which LLVM loads by itself in 40 ms. A file that is
+strange - of another processor, with a damaged byte, with a symbol that is not there - is not
+loaded. Where a new one does not work in a process of its own, an empty file says so from then on,
+and Numba with its own cache does the work.
+"""
+
+import ctypes
+import hashlib
+import importlib.util
+import os
+import subprocess
+import sys
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+from uuid import uuid4
+
+import numpy as np
+
+from sim.engine.machine_code import Code, code_of, linked, machine
+from sim.log import Array
+
+__all__ = ["Kernel", "kept_at", "kernel", "tried"]
+
+KEPT = 4  # engines of other versions that stay in the cache
+NUMBER = np.dtype(np.float64)
+INTEGER, REAL, PLACE = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
+BYTES = ctypes.c_char * 0
+CALLED = ctypes.CFUNCTYPE(  # as `_entry` in sim/engine/compose.py says it
+    None, INTEGER, INTEGER, *[PLACE] * 8, REAL, REAL, INTEGER, *[PLACE] * 3
+)
+NO_USE = b""  # what is kept where object files were tried, and do not work
+PATIENCE = 60  # [s] for one that takes a tenth
+ROOM = 1000  # numbers, more than any array of fixed length has
+TRIAL = "import sys, pathlib, sim.engine.kernel as it; it.tried(pathlib.Path(sys.argv[1]))"
+
+
+class Kernel:
+    """The compiled stepping, called with arrays.
+
+    Args:
+        address: of the machine code.
+        alive: what must not be freed as long as it is called.
+    """
+
+    def __init__(self, address: int, alive: object) -> None:
+        self._call = CALLED(address)
+        self._alive = alive
+
+    def move(
+        self, time: Array, asked: Array, state: Array, c: Array, w: Array, on: Array, p: Array,
+        memory: Array, began: float, finest: float, plain: bool, measured: Array, trust: Array,
+        out: Array,
+    ) -> None:  # fmt: skip
+        """As ``run`` in ``sim.engine.stepping``.
+
+        Raises:
+            TypeError: an array does not lie in one piece, of the numbers that the machine code
+                reads: it would be read wrongly, without a word.
+        """
+        if asked.size != time.size or len(out) != time.size or len(measured) not in {0, time.size}:
+            raise TypeError("arrays of one run are of one length")
+        self._call(
+            time.size, len(measured), _place(time), _place(asked), _place(state), _place(c),
+            _place(w), _place(on), _place(p), _place(memory), began, finest, plain,
+            _place(measured), _place(trust), _place(out),
+        )  # fmt: skip
+
+
+def _place(array: Array) -> int:
+    """Where an array's numbers lie."""
+    flags = array.flags
+    if array.dtype != NUMBER or not flags.c_contiguous:
+        raise TypeError("the engine reads and writes doubles that lie in one piece")
+    if flags.writeable:  # four times as fast, which a search with short runs notices
+        return ctypes.addressof(BYTES.from_buffer(array.data))
+    place: int = array.__array_interface__["data"][0]
+    return place
+
+
+def kept_at(folder: Path, seal: str) -> Path:
+    """The file in which the machine code of an engine is kept for this processor.
+
+    Args:
+        folder: the cache.
+        seal: of the engine's text.
+    """
+    own = hashlib.sha256(f"{seal}\n{machine()}".encode()).hexdigest()[:20]
+    return folder / f"sysid_engine_{own}.kernel"
+
+
+def kernel(text: str, kept: Path) -> Kernel:
+    """The kernel of an engine: what was kept, or else compiled, and kept if it can be.
+
+    Args:
+        text: of the module, as composed.
+        kept: where it is kept.
+    """
+    content = _read(kept)
+    code = Code.read(content) if content else None
+    if code is not None and (found := linked(code)):
+        return Kernel(*found)
+    if content == NO_USE:
+        made = _of_file(text, kept)
+    else:
+        made = _of_memory(text)
+        _keep(code_of(made), kept)
+    return Kernel(made.address, made)
+
+
+def _of_memory(text: str) -> Any:  # noqa: ANN401 - Numba has no types
+    """What Numba compiles, a ``numba.core.ccallback.CFunc``."""
+    module = ModuleType("sysid_engine")
+    exec(compile(text, "sysid_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
+    return module.move
+
+
+def _of_file(text: str, kept: Path) -> Any:  # noqa: ANN401 - Numba has no types
+    """The same from a file, beside which Numba keeps what it compiled."""
+    name = kept.stem
+    try:
+        path = _written(kept.parent / f"{name}.py", text)
+    except OSError:  # a home that cannot be written to: compiled anew each time
+        path = _written(Path(tempfile.mkdtemp(prefix="sysid-")) / f"{name}.py", text)
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise ImportError(path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module.move
+
+
+def _written(path: Path, text: str) -> Path:
+    """The module's file, whole."""
+    if not path.exists():
+        _replace(path, text.encode())
+    return path
+
+
+def _replace(path: Path, content: bytes) -> None:
+    part = path.with_name(f"{path.stem}.{uuid4().hex}.part")
+    part.write_bytes(content)
+    part.replace(path)
+
+
+def _read(kept: Path) -> bytes | None:
+    try:
+        return kept.read_bytes()
+    except OSError:  # not there, or not for us
+        return None
+
+
+def _keep(code: Code, kept: Path) -> None:
+    """Keep it; where another process does not get along with it, an empty file says so."""
+    try:
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        _replace(kept, code.written())
+        if not _works(kept):
+            _replace(kept, NO_USE)
+        _forget_old(kept.parent)
+    except OSError:  # a home that cannot be written to: compiled anew each time
+        return
+
+
+def _works(kept: Path) -> bool:
+    """Whether a process of its own can load and call it: LLVM ends one that it cannot link."""
+    try:
+        done = subprocess.run(  # noqa: S603 - this very Python, with a text of ours
+            [sys.executable, "-c", TRIAL, str(kept)],
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            capture_output=True,
+            timeout=PATIENCE,
+            check=False,
+        )
+    except (OSError, subprocess.SubprocessError):
+        return False
+    return done.returncode == 0
+
+
+def _forget_old(folder: Path) -> None:
+    """Leave the newest few engines, with what was compiled for them."""
+    engines = sorted(folder.glob("sysid_engine_*.kernel"), key=lambda one: one.stat().st_mtime)
+    for old in engines[:-KEPT]:
+        for file in (old, old.with_suffix(".py"), *folder.glob(f"__pycache__/{old.stem}.*")):
+            with suppress(OSError):  # another process uses or removes it
+                file.unlink()
+
+
+def tried(kept: Path) -> None:
+    """Load and call what was kept, for a run without samples: it works, or the process ends."""
+    code = Code.read(kept.read_bytes())
+    found = linked(code) if code is not None else None
+    if found is None:
+        sys.exit(1)
+    none, some = np.zeros((0, 2)), np.zeros(ROOM)
+    Kernel(*found).move(
+        none[:, 0], none[:, 0], some, some, some, some, some, some, 0.0, 1.0, plain=True,
+        measured=none, trust=some, out=none,
+    )  # fmt: skip

@@ -1,0 +1,128 @@
+"""Machine code outside Numba: made of what Numba compiled, loaded and linked by LLVM alone."""
+
+import ctypes
+import hashlib
+import json
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import llvmlite
+import llvmlite.binding as llvm
+
+__all__ = ["Code", "code_of", "linked", "machine"]
+
+OF_NUMBA = ("NRT_", "numba_")  # what only a function that raises would call, and ours never does
+
+
+@dataclass(frozen=True)
+class Code:
+    """An object file, and what it takes to call it.
+
+    Args:
+        symbol: the name of the function.
+        needs: names that the process has to provide: of the C library and of Python.
+        content: the file.
+    """
+
+    symbol: str
+    needs: tuple[str, ...]
+    content: bytes
+
+    def written(self) -> bytes:
+        """All of it, for a file."""
+        head = {"symbol": self.symbol, "needs": self.needs, "sha256": _seal(self.content)}
+        return json.dumps(head).encode() + b"\n" + self.content
+
+    @classmethod
+    def read(cls, written: bytes) -> "Code | None":
+        """What was written; None where a byte of it is damaged."""
+        head, _, content = written.partition(b"\n")
+        try:
+            says = json.loads(head)
+            code = cls(says["symbol"], tuple(says["needs"]), content)
+            return code if says["sha256"] == _seal(content) else None
+        except (ValueError, KeyError, TypeError):
+            return None
+
+
+def _seal(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def machine() -> str:
+    """All that decides whether machine code can be used here."""
+    triple, processor = llvm.get_process_triple(), llvm.get_host_cpu_name()
+    features = llvm.get_host_cpu_features().flatten()
+    return f"{llvmlite.__version__}\n{triple}\n{processor}\n{features}"
+
+
+def code_of(made: Any) -> Code:  # noqa: ANN401 - Numba has no types
+    """The object file of what Numba compiled, a ``numba.core.ccallback.CFunc``."""
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    module = llvm.parse_assembly(made.inspect_llvm())
+    symbol = next(one.name for one in module.functions if one.name.startswith("cfunc."))
+    if stubs := "\n".join(_stubs(module)):
+        module.link_in(llvm.parse_assembly(stubs))
+    every = [*module.functions, *module.global_variables]
+    named = [one.name for one in every if one.is_declaration]
+    intrinsic = [found[1] for one in named if (found := re.match(r"llvm\.(\w+)\.f64", one))]
+    needs = [one for one in named if not one.startswith("llvm.")]
+    needs += [one for one in intrinsic if _provided(one)]  # it may be a call, or an instruction
+    return Code(symbol, tuple(needs), _target().emit_object(module))
+
+
+def _stubs(module: Any) -> Iterator[str]:  # noqa: ANN401 - llvmlite has no types
+    """Bodies for what is asked of Numba's own library, which is not there when this is loaded."""
+    for one in module.functions:
+        if one.is_declaration and one.name.startswith(OF_NUMBA):
+            says = re.search(r"declare (.*?@\w+\(.*?\))", str(one))
+            if says:
+                yield f"define {says[1]} {{ unreachable }}"
+
+
+def _target() -> Any:  # noqa: ANN401 - llvmlite has no types
+    """What turns instructions into those of this processor, as Numba sets it."""
+    triple = llvm.get_process_triple()
+    return llvm.Target.from_triple(triple).create_target_machine(
+        cpu=llvm.get_host_cpu_name(),
+        features=llvm.get_host_cpu_features().flatten(),
+        opt=3,
+        reloc="static" if triple.startswith("x86") else "default",
+        codemodel="jitdefault",
+        jit=True,
+    )
+
+
+def linked(code: Code) -> tuple[int, object] | None:
+    """The address of the function, and what must live as long as it is called.
+
+    None where something that it needs is missing: LLVM would end the whole process.
+    """
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    for name in code.needs:
+        place = _provided(name)
+        if not place:
+            return None
+        llvm.add_symbol(name, place)
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target())
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code.content))
+    engine.finalize_object()
+    address = engine.get_function_address(code.symbol)
+    return (address, engine) if address else None
+
+
+def _provided(name: str) -> int | None:
+    """Where Python or the C library has a name."""
+    libraries = [ctypes.pythonapi]
+    if sys.platform == "win32":
+        libraries.append(ctypes.PyDLL("ucrtbase"))
+    for library in libraries:
+        with suppress(ValueError):
+            return ctypes.addressof(ctypes.c_char.in_dll(library, name))
+    return None
