@@ -1,0 +1,145 @@
+"""How long a learner waits for a picture: every widget of every lesson, moved in a real browser.
+
+    python tests/benchmarks/bench_redraw.py [--times N] [NN ...]
+
+Each lesson is opened in JupyterLab, run from top to bottom, and every knob is moved: a slider one
+step, back, and to its farther end; a menu to each of its options; a checkbox there and back. Then
+it is put back, and the next is moved. Time runs, by the page's own clock, from the event of the key
+or click until the new picture is decoded and two frames have begun (the first one paints it).
+Answers to questions are given, too, and wait for their words. With ``--times`` all of this is done
+N times, and the figure of a move is its median. Aim: 1 s; the load is that of the whole machine.
+
+What changes no pixel of its picture is named: a knob that does so at none of its moves is a flaw,
+and one that changes hardly any is worth a look.
+"""
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+from itertools import groupby
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # in the lessons' kernels, too
+
+from playwright.sync_api import Browser, Page, sync_playwright
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+import lab
+from redraw_timed import Move, answered, turned
+
+AIM = 1.0  # [s]
+HARDLY = 0.002  # of the pixels: a small mark that has moved, not a line
+
+
+def loaded() -> str:
+    """How busy the machine is with this and all else, where it says so."""
+    return f"load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "load unknown"
+
+
+def all_moves(page: Page, notebook: Path, *, times: int) -> tuple[list[Move], list[Move]]:
+    """Every move of every knob, and every answer to a question, so many times."""
+    turns, answers = [], []
+    boxes = page.locator(".jp-Notebook .widget-vbox").filter(has_not=page.locator("img")).all()
+    for _ in range(times):
+        for panel in lab.panels(page):
+            drawn_by = lab.drawn_by(panel, notebook)
+            for knob in lab.knobs(panel):
+                turns += turned(page, panel, knob, name=f"{drawn_by}: {knob.name}")
+        for box in boxes:
+            answers += answered(page, box)
+    return turns, answers
+
+
+def typical(moves: list[Move]) -> list[Move]:
+    """Of each move that was made several times the one in the middle."""
+
+    def key(move: Move) -> tuple[str, str]:
+        return move.widget, move.to
+
+    found = []
+    for _, same in groupby(sorted(moves, key=key), key=key):
+        ranked = sorted(same, key=lambda move: move.seconds or 0.0)
+        found.append(ranked[len(ranked) // 2])
+    return found
+
+
+def line(moves: list[Move], *, of: str) -> str:
+    """How many, the median, and the slowest with its name."""
+    timed = sorted((move.seconds, f"{move.widget} → {move.to}") for move in moves if move.seconds)
+    if not timed:
+        return f"    no {of}"
+    slowest, name = timed[-1]
+    widgets = len({move.widget for move in moves})
+    return (
+        f"    {widgets:2} {of}, {len(moves):3} moves: median "
+        f"{median(seconds for seconds, _ in timed):4.2f} s, slowest {slowest:4.2f} s  {name}"
+    )
+
+
+def flaws(turns: list[Move], answers: list[Move]) -> list[str]:
+    """What took too long, and what changed nothing that one sees."""
+    found = [
+        f"over {AIM:g} s: {move.seconds:.2f} s  {move.widget} → {move.to}"
+        for move in [*turns, *answers]
+        if move.seconds and move.seconds > AIM
+    ]
+    for name in dict.fromkeys(move.widget for move in turns):
+        own = [move for move in turns if move.widget == name]
+        blind = [move for move in own if not move.share]
+        said = ", ".join(f"{move.to}{' (words only)' if move.words else ''}" for move in blind)
+        if len(blind) == len(own):
+            found.append(f"KNOB THAT CHANGES NO PIXEL: {name}: {said}")
+        elif blind:
+            found.append(f"no pixel changes: {name} → {said}")
+        most = max(move.share for move in own)
+        if 0 < most < HARDLY:
+            found.append(f"hardly seen: {name}: at most {most:.2%} of the pixels change")
+    found += [f"no words come: {move.widget} → {move.to}" for move in answers if not move.words]
+    unseen = sum(move.unseen for move in [*turns, *answers])
+    return found + ([f"{unseen} moves without a frame: timed until decoded"] if unseen else [])
+
+
+def lesson(notebook: Path, browser: Browser, *, times: int) -> None:
+    """Open, run and turn one lesson, and print its figures."""
+    with tempfile.TemporaryDirectory() as folder, lab.serving(Path(folder)) as address:
+        page = browser.new_page(viewport=lab.SCREEN)
+        page.set_default_timeout(lab.PATIENCE)
+        begin = time.perf_counter()
+        lab.run_all(page, address.format(name=notebook.name))
+        opened = time.perf_counter() - begin
+        errors = len(lab.outputs(page, "error"))
+        turns, answers = (typical(all_) for all_ in all_moves(page, notebook, times=times))
+        page.close()
+    print(f"{notebook.stem:28} opened and run {opened:5.1f} s, {errors} errors   {loaded()}")
+    print(line(turns, of="knobs"))
+    print(line(answers, of="questions"))
+    for flaw in flaws(turns, answers):
+        print(f"      {flaw}")
+    sys.stdout.flush()
+
+
+def main() -> None:
+    """Time the lessons asked for, or all."""
+    parser = argparse.ArgumentParser(description="Move every widget of every lesson.")
+    parser.add_argument("lessons", nargs="*", help="numbers: 00 09; all where none is given")
+    parser.add_argument("--times", type=int, default=1, help="how often each move is made")
+    asked: Any = parser.parse_args()
+    print(f"aim {AIM:g} s   {loaded()}   {os.cpu_count()} cores")
+    with sync_playwright() as driver:
+        found = lab.installed_browser()
+        if found is None:
+            sys.exit(f"no browser found: install one of {', '.join(lab.BROWSERS)}")
+        browser = driver.chromium.launch(executable_path=found, args=lab.FLAGS, headless=True)
+        for notebook in lab.LESSONS:
+            if not asked.lessons or notebook.name.startswith(tuple(asked.lessons)):
+                lesson(notebook, browser, times=asked.times)
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()

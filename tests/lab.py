@@ -1,0 +1,202 @@
+"""JupyterLab over a copy of the lessons, and what a learner does in it: run all, turn a knob."""
+
+import contextlib
+import json
+import os
+import re
+import secrets
+import shutil
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+LESSONS = sorted((ROOT / "lessons").glob("*.ipynb"))
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = [
+    "--no-sandbox",  # a container runs as root, where the sandbox cannot start
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+SETTINGS = {
+    "apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False},
+    "notebook-extension/tracker": {"windowingMode": "none"},  # every cell is in the page
+}
+SCREEN = {"width": 1280, "height": 900}
+PATIENCE = 60_000  # [ms] for anything to appear, on a busy machine
+OFTEN = 100  # [ms] between two looks; a page that nobody sees draws no frames to wait for
+KINDS = {  # of knobs, and what there is to turn
+    "slider": ".noUi-handle",
+    "menu": "select",
+    "checkbox": "input[type=checkbox]",
+    "button": "button",
+}
+
+
+def installed_browser():
+    """Where the browser is; None where there is none."""
+    return next(filter(None, map(shutil.which, BROWSERS)), None)
+
+
+@contextlib.contextmanager
+def serving(home):
+    """Fresh JupyterLab on a free local port, over a copy of the lessons: its address."""
+    (home / "lessons").mkdir()
+    for notebook in LESSONS:
+        shutil.copy(notebook, home / "lessons")
+    for name, setting in SETTINGS.items():
+        path = home / "settings" / "@jupyterlab" / f"{name}.jupyterlab-settings"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(setting), encoding="utf-8")
+    token = secrets.token_hex(16)
+    with (home / "lab.log").open("wb") as log:
+        server = subprocess.Popen(
+            _command(home, token), env=_environment(home), stdout=log, stderr=log
+        )
+    try:
+        yield f"http://127.0.0.1:{_port(home, server)}/lab/tree/{{name}}?token={token}"
+    finally:
+        server.terminate()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            server.wait(timeout=20)
+        server.kill()
+
+
+def run_all(page, address):
+    """Open a notebook, choose Run > Run All Cells, and wait until the last cell is done."""
+    page.goto(address)
+    page.locator("#jp-main-statusbar").get_by_text("| Idle").wait_for()  # the kernel is there
+    page.locator(".lm-MenuBar-itemLabel", has_text="Run").first.click()
+    page.locator(".lm-Menu-itemLabel").get_by_text("Run All Cells", exact=True).click()
+    page.wait_for_function(
+        """() => {
+            const prompts = [...document.querySelectorAll(
+                '.jp-CodeCell .jp-InputPrompt')].map(prompt => prompt.textContent.trim());
+            return prompts.length && prompts.every(text => /^\\[\\d+\\]:$/.test(text));
+        }""",
+        polling=OFTEN,
+    )
+    page.locator("#jp-main-statusbar").get_by_text("| Idle").wait_for()
+
+
+def outputs(page, kind):
+    """The texts of all outputs of a kind: ``error``, ``stderr``."""
+    where = f'[data-mime-type="application/vnd.jupyter.{kind}"]'
+    return page.locator(where).all_inner_texts()
+
+
+def panels(page):
+    """Every group of knobs with the picture that they draw."""
+    return page.locator(".jp-Notebook .widget-vbox").filter(has=page.locator("img")).all()
+
+
+def drawn_by(panel, notebook):
+    """The function that draws a panel's picture, as its cell calls it: ``live(NAME, …)``."""
+    index = panel.evaluate(
+        """panel => [...document.querySelectorAll('.jp-Notebook .jp-Cell')]
+            .indexOf(panel.closest('.jp-Cell'))"""
+    )
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    return re.findall(r"^live\(\s*(\w+)", "".join(cells[index]["source"]), flags=re.MULTILINE)[-1]
+
+
+@dataclass(frozen=True)
+class Knob:
+    """One widget of a panel: its label, its kind, and what there is to turn (a locator)."""
+
+    name: str
+    kind: str
+    grip: object
+
+    @property
+    def place(self):
+        """First, present and last place: options of a menu by number, values of a slider."""
+        if self.kind == "menu":
+            return self.grip.evaluate("menu => [0, menu.selectedIndex, menu.options.length - 1]")
+        if self.kind == "slider":  # what it says aloud is rounded
+            return self.grip.evaluate(
+                """handle => {
+                    const slider = handle.closest('.noUi-target').noUiSlider;
+                    const {min, max} = slider.options.range;
+                    return [min, slider.get(true), max].map(place => Number([place].flat()[0]));
+                }"""
+            )
+        return [0, int(self.kind == "checkbox" and self.grip.is_checked()), 1]
+
+    def turn(self):
+        """Move it by one: a step, an option, a click; back where there is none further on."""
+        _, now, last = self.place
+        onward = now < last
+        if self.kind == "menu":
+            self.grip.select_option(index=now + 1 if onward else now - 1)
+        elif self.kind == "slider":
+            self.grip.press("ArrowRight" if onward else "ArrowLeft")
+        else:
+            self.grip.click()
+
+
+def knobs(panel):
+    """The widgets of a panel, all but the picture, from top to bottom.
+
+    Raises:
+        LookupError: one is of a kind that nobody here knows how to turn.
+    """
+    found = []
+    for widget in panel.locator("> *").all()[:-1]:
+        kinds = [kind for kind, grip in KINDS.items() if widget.locator(grip).count()]
+        if not kinds:
+            what = widget.get_attribute("class")
+            raise LookupError(f"{what} has no {', no '.join(KINDS)}. Add its kind to KINDS.")
+        labels = [*widget.locator("label").all_inner_texts(), widget.inner_text()]
+        name = next(filter(None, (label.strip("\u200b \n") for label in labels)), kinds[0])
+        found.append(Knob(name, kinds[0], widget.locator(KINDS[kinds[0]]).first))
+    return found
+
+
+def _command(home, token):
+    return [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        "--no-browser",
+        "--allow-root",
+        "--ip=127.0.0.1",
+        "--port=0",
+        f"--IdentityProvider.token={token}",
+        f"--ServerApp.root_dir={home / 'lessons'}",
+        "--LabApp.news_url=None",
+        "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+        "--LabApp.extension_manager=readonly",
+    ]
+
+
+def _environment(home):
+    """Everything Jupyter writes goes below ``home``; the project can be imported."""
+    paths = [str(ROOT), os.environ.get("PYTHONPATH", "")]
+    return os.environ | {
+        "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+        "JUPYTER_CONFIG_DIR": str(home / "config"),
+        "JUPYTER_DATA_DIR": str(home / "data"),
+        "JUPYTER_RUNTIME_DIR": str(home / "runtime"),
+        "JUPYTERLAB_SETTINGS_DIR": str(home / "settings"),
+        "JUPYTERLAB_WORKSPACES_DIR": str(home / "workspaces"),
+        "IPYTHONDIR": str(home / "ipython"),
+    }
+
+
+def _port(home, server):
+    """Where the server listens, once it does."""
+    deadline = time.monotonic() + PATIENCE / 1000
+    while time.monotonic() < deadline and server.poll() is None:
+        for path in (home / "runtime").glob("jpserver-*.json"):
+            with contextlib.suppress(json.JSONDecodeError):  # it is just being written
+                return json.loads(path.read_text(encoding="utf-8"))["port"]
+        time.sleep(0.1)
+    log = (home / "lab.log").read_text(encoding="utf-8", errors="replace")
+    raise RuntimeError(f"JupyterLab did not start:\n{log}")
