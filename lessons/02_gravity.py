@@ -574,7 +574,7 @@ def up_and(down_rows: int) -> Picture:
     used = {**forward, "quasistatic-reverse": down.where(slice(down_rows))}
     told = known(used, type="elevator", noise=noise_of(elevator)).about(*SIDES)
     return ellipses(
-        {f"the way up, and {down_rows} rows of the way down": told},
+        {f"the way up; rows of the way down: {down_rows}": told},
         names=("kS [V]", "kG [V]"),
         truth=(truth["kS"], truth["kG"]),
         reach=(0.25, 0.25),

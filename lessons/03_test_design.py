@@ -362,7 +362,8 @@ Table(
 #
 # - **Without steps** (the row "2 ramps") kA is poor, and drags kS along.
 # - **Without ramps** all is lost. Under one constant voltage the rows have only one message: where
-#   the speed ends and how quickly. Two numbers for three unknowns.
+#   the speed ends and how quickly. Two numbers for three unknowns. (If you knew kS from
+#   elsewhere, the other two would follow: the band in the map is narrow.)
 # - **Without the dynamic reverse** this drivetrain loses almost nothing. Forward and reverse are
 #   twins *here*, because the bench made them so.
 #
@@ -384,8 +385,8 @@ except sim.Refusal as refusal:
 # > determined". Neither does the other's work.
 # > ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
 # >
-# > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines. Turn one of them upside
-# > down: does it tell anything that the other one does not?
+# > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines. Turn the picture upside
+# > down: what changes?
 
 # %% [markdown]
 # ## 5 Why reverse? Three reasons

@@ -69,6 +69,22 @@ def test_a_number_lies_in_its_band(value, band):
     )
 
 
+def test_two_marks_of_the_same_number_are_both_seen():
+    (axes,) = gauge({"left": 0.2, "right": 0.2}, BANDS, label="kS [V]", good="fine").figure.axes
+    heights = [float(line.get_ydata()[0]) for line in axes.lines]
+    assert heights == [0.22, -0.22]
+
+
+@pytest.mark.parametrize(
+    ("value", "ends"),
+    # a twentieth of the scale is left beyond a mark outside: (6 + 4)/20 = 0.5, (14 - 0)/20 = 0.7
+    [(0.0, (0.0, 6.0)), (6.0, (0.0, 6.0)), (-4.0, (-4.5, 6.0)), (14.0, (0.0, 14.7))],
+)
+def test_a_mark_outside_the_bands_does_not_stand_on_the_edge(value, ends):
+    (axes,) = gauge({"x": value}, BANDS, label="kS [V]", good="fine").figure.axes
+    assert axes.get_xlim() == pytest.approx(ends)
+
+
 def test_a_change_says_what_grew_and_what_shrank():
     words = [row[2] for row in PICTURES["change"]().table.rows]
     assert words == ["less", "more", "the same"]

@@ -1,7 +1,8 @@
 """A gauge: where a number lies among bands that say what to do about it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from sim.errors import BadRequest
@@ -12,6 +13,8 @@ GOOD = COLORS[2]
 REST = ((COLORS[4], "//"), (COLORS[3], ".."))  # a texture beside each color
 WORST = (COLORS[1], "xx")
 MOST = len(REST) + 2  # bands: the rest, the good one and the worst
+APART = 0.22  # [half a band's height] from the middle, where there are several marks
+ROOM = 0.05  # [share of the scale] beyond a mark that lies outside the bands
 
 
 def gauge(
@@ -27,10 +30,10 @@ def gauge(
     Args:
         values: name -> number.
         bands: name -> where it ends, rising; the last one has no end of its own, and the scale
-            stops there or at the largest number.
+            stops there or beyond the largest number.
         label: of the scale, with unit.
         good: the name of the band that asks for nothing.
-        least: where the scale begins.
+        least: where the scale begins, unless a number is smaller.
 
     Raises:
         BadRequest: there is nothing to show, the ends do not rise, or no band is the good one.
@@ -41,7 +44,7 @@ def gauge(
             f"a gauge needs numbers, and up to {MOST} bands that rise, one of them good",
             advice="Give each band a larger end than the one before it.",
         )
-    low, high = min(least, *values.values()), max(ends[-1], *values.values())
+    low, high = _span(list(values.values()), least=least, last=ends[-1])
     figure, ((axes,),) = panels(1, 1, height=1.5 + 0.3 * len(values))
     _draw(axes, values, bands, good=good, span=(low, high))
     axes.set_xlim(low, high)
@@ -50,6 +53,13 @@ def gauge(
     legend(figure, (axes,), columns=len(bands) + len(values))
     rows = tuple((name, value, band_of(value, bands)) for name, value in values.items())
     return Picture(figure, _words(rows, bands, label, low), Table(("which", label, "band"), rows))
+
+
+def _span(values: Sequence[float], *, least: float, last: float) -> tuple[float, float]:
+    """Where the scale begins and ends: with the bands, or a little beyond what lies outside."""
+    low, high = min(least, *values), max(last, *values)
+    room = ROOM * (high - low)
+    return low - room * (low < least), high + room * (high > last)
 
 
 def _draw(
@@ -69,10 +79,11 @@ def _draw(
         axes.barh(0, stop - start, left=start, height=1.0, color=color, hatch=hatch, alpha=0.45,
                   edgecolor=PAPER, linewidth=0.0, label=name)  # fmt: skip
         start = stop
-    for index, (name, value) in enumerate(values.items()):
-        axes.plot(value, 0, MARKERS[index % len(MARKERS)], color=INK, markersize=9, clip_on=False,
+    heights = np.linspace(APART, -APART, len(values)) if len(values) > 1 else (0.0,)
+    for index, ((name, value), place) in enumerate(zip(values.items(), heights, strict=True)):
+        axes.plot(value, place, MARKERS[index % len(MARKERS)], color=INK, markersize=9, clip_on=False,
                   label=name, zorder=5)  # fmt: skip
-        axes.annotate(shown(value), (value, 0), xytext=(0, 9 + 12 * index), ha="center",
+        axes.annotate(shown(value), (value, place), xytext=(0, 9), ha="center",
                       textcoords="offset points", fontsize=9, color=INK, zorder=6,
                       bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8})  # fmt: skip
 
