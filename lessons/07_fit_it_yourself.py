@@ -158,7 +158,9 @@ for ramp in RAMPS:
 
 print(f"You said: {guess_line}; {guess_ramp}.")
 print(f"True kS: {truth['kS']:.3f} V. kA/kV = {1000 * timescale:.0f} ms.")
-Table(("ramp [V/s]", "kS read off [V]", "kS + (kA/kV)·ramp", "… + half a loop"), tuple(rows))
+Table(
+    ("ramp [V/s]", "kS read off [V]", "kS + (kA/kV)·ramp [V]", "… + half a loop [V]"), tuple(rows)
+)
 
 # %% [markdown]
 # ### Explain
@@ -167,7 +169,7 @@ Table(("ramp [V/s]", "kS read off [V]", "kS + (kA/kV)·ramp", "… + half a loop
 # climbs by `ramp/kV` each second, so all the way along `kA·a = (kA/kV)·ramp` volts go into speeding
 # up. The line cannot know that. It books them under kS.
 #
-# (Most of the rest is half a loop, 10 ms: a row holds the speed of *now* and the voltage that is
+# (The last column adds half a loop, 10 ms: a row holds the speed of *now* and the voltage that is
 # applied *from now on*, so in each row the ramp is on average half a loop ahead of the speed. What
 # then remains is noise; section 4 shows how noise bends a line.)
 #
@@ -176,9 +178,10 @@ Table(("ramp [V/s]", "kS read off [V]", "kS + (kA/kV)·ramp", "… + half a loop
 # >
 # > **Source says:** SysId does not read lines off a plot. It fits all four tests in one go, and the
 # > thing it explains is the acceleration. Its window has no voltage–velocity plot either: it shows
-# > velocity over time, acceleration over velocity, and the time steps.
+# > velocity over time, acceleration over velocity, and the time steps. (Its predecessor,
+# > frc-characterization, [had one](https://github.com/wpilibsuite/frc-characterization/issues/7).)
 # > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
-# > [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
+# > [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
 # > **Try it:** the slope in the picture above is good. How far off is the intercept at 2 V/s?
 #
@@ -189,7 +192,7 @@ Table(("ramp [V/s]", "kS read off [V]", "kS + (kA/kV)·ramp", "… + half a loop
 #
 # Every row of the log is one equation: V, v and a are numbers, the gains are the unknowns. Three
 # rows give three equations, and three equations have one solution. So let us take three rows: one
-# slow, one fast, one that accelerates.
+# slow, one fast, one that accelerates. (All go forward, so sgn(v) is 1.)
 #
 # The acceleration is not in the log. `np.gradient` takes it from neighbors: the change of velocity
 # divided by the change of time.
@@ -218,9 +221,10 @@ Table(
 # no way to tell. A thousand rows do: no gains can fit all of them, so we take the gains that **miss
 # them least**.
 #
-# "Least" needs a rule. Ours is the oldest: square each miss, add them up, make the sum small. It is
-# called **least squares**, or a *regression*. Squares, because a miss up and a miss down must not
-# cancel, and because there is a formula for the answer.
+# "Least" needs a rule. Ours is the usual one: square each miss, add them up, make the sum small. It
+# is called **least squares**. (Fitting a model to data in such a way is called a *regression*.)
+# Squares, because a miss up and a miss down must not cancel, and because there is a formula for the
+# answer.
 #
 # **Try it by hand** on six samples of the ramp. Move both sliders until the sum at the bottom is as
 # small as you can make it.
@@ -332,6 +336,11 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 # > a = −(kV/kA)·v + (1/kA)·V − (kS/kA)·sgn(v)
 #
 # Call the three numbers α, β and γ. Then kA = 1/β, kV = −α/β and kS = −γ/β.
+#
+# (That is for the analysis type *Simple*. With gravity, SysId gives the table more columns: ones
+# for *Elevator*, cos θ and sin θ for *Arm*. kG comes out of their numbers, and for an arm the
+# sensor's offset, too.
+# [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 
 
 # %%
@@ -374,21 +383,27 @@ curves(
 )
 
 # %% [markdown]
-# Acceleration on the left is the better choice, and it is SysId's. It is not immune: the velocity
-# is still a column, and it is noisy too, so in the end kA drifts the other way. Bear that in mind
-# when somebody shows you gains from a rattling gearbox.
+# Acceleration on the left is the better choice, and it is SysId's, for this very reason: its source
+# says that least squares "performs best with the noisiest variable as the dependent variable". That
+# is the one on the left. It is not immune: the velocity is still a column, and it is noisy too. So
+# α shrinks, β with it, and kA, which is 1/β, grows. Bear that in mind when somebody shows you gains
+# from a rattling gearbox.
 
 # %% [markdown]
 # ## 5 What SysId does before it fits
 #
-# SysId's fit is the five lines above. Before it come four steps:
+# SysId's fit is the five lines above. Before it come four steps. (In italics: names of boxes in
+# SysId's window.)
 #
-# 1. **Threshold.** Quasistatic rows slower than a threshold are dropped: at standstill, friction is
-#    whatever the voltage is, and says nothing about kS.
-# 2. **Median filter** on the velocity, if you ask for it (*Window Size*). It replaces each value by
-#    the middle one of its neighbors. Off by default.
+# 1. **Threshold** (*Velocity Threshold*). Quasistatic rows slower than a threshold are dropped: at
+#    standstill, friction is whatever the voltage is, and says nothing about kS.
+# 2. **Median filter** on the velocity, if you ask for it (*Window Size*, up to 15 samples). It
+#    replaces each value by the middle one of its neighbors. Off by default.
 # 3. **Acceleration** from the two neighbors, divided by the **mean** time step of the test.
-# 4. **Trim the dynamic tests:** only from the peak of acceleration to 90 % of the top speed.
+# 4. **Trim the dynamic tests** (*Test Duration*): only from the peak of acceleration to 90 % of the
+#    top speed, unless you set the box.
+#
+# ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 #
 # Here they are. Each is a line or two, and each can be switched.
 
@@ -473,7 +488,7 @@ print(
 # > **Source says:** SysId cuts the dynamic test at 90 % of the top speed by itself (*Test
 # > Duration*). The danger of a long test is to the hardware. It *is* a danger to home-made fits
 # > that do not trim.
-# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** `trim=False` in the next section.
 
@@ -482,7 +497,7 @@ print(
 #
 # A real robot program misses a loop now and then. Our log shall too: one row in twenty is missing.
 # Then we fit the **same data** with five choices made differently, one at a time:
-# which side is noisy, the threshold, the filter, the time step, the trim.
+# what stands on the left side, the threshold, the filter, the time step, the trim.
 #
 # **Predict:**
 
@@ -551,7 +566,13 @@ live(
     try_choices,
     left=widgets.Dropdown(options=["acceleration", "voltage"], description="left side"),
     threshold=widgets.FloatSlider(
-        min=0, max=1.5, step=0.05, value=0.05, description="threshold", continuous_update=False
+        min=0,
+        max=1.5,
+        step=0.05,
+        value=0.05,
+        description="threshold [m/s]",
+        style={"description_width": "initial"},
+        continuous_update=False,
     ),
     median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median"),
     mean_dt=widgets.Checkbox(value=True, description="mean time step"),
@@ -573,7 +594,9 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 #   uses the mean, so gaps in the log cost it accuracy in kA. kV does not care.
 # - **Trim.** Rows at full speed hold no acceleration, only noise. They dilute the few that do.
 # - **Threshold** hardly matters *here*, because our encoder is quiet at rest. With a noisy one,
-#   standstill rows have a random sgn(v). Try `replace(robot.sensor, noise_speed=1e-9)`.
+#   standstill rows have a random sgn(v). Try it in a cell of your own:
+#   `noisy = replace(robot, sensor=replace(robot.sensor, noise_speed=1e-9))`, then
+#   `my_fit(simulate(noisy, routine, rng=rng), threshold=0.0)`.
 #
 # And beware of luck: with a filter that makes kA smaller and noise that makes it larger, two wrongs
 # can hit the truth. On another robot they will not.
@@ -589,7 +612,7 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 #   its velocity with the measured one. Mistakes add up on the way. SysId's score is the
 #   **simulated velocity R²**.
 #
-# First the picture. The thin black line is the simulation with the gains of SysId's recipe:
+# First the picture. The dotted black line is the simulation with the gains of SysId's recipe:
 
 
 # %%
@@ -610,11 +633,14 @@ time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds=1.0)
 #
 # > R² = 1 − (sum of squared misses) / (sum of squared distances from the mean)
 #
-# so 1 is perfect, and 0 is no better than always guessing the mean.
+# so 1 is perfect, and 0 is no better than always guessing the mean. (For the velocity we take the
+# two forward tests; SysId takes all four.)
 
 # %%
 explained = np.column_stack([v, volts, np.sign(v)]) @ [alpha, beta, gamma]
 acceleration_r2 = 1 - np.sum((a - explained) ** 2) / np.sum((a - a.mean()) ** 2)
+unknowns = 3
+adjusted = 1 - (1 - acceleration_r2) * (a.size - 1) / (a.size - unknowns - 1)
 
 forward = ("quasistatic-forward", "dynamic-forward")
 seen = np.concatenate([log.of(test)[0].velocity for test in forward])
@@ -623,21 +649,27 @@ rmse = np.sqrt(np.mean((seen - said) ** 2))
 textbook = 1 - np.sum((seen - said) ** 2) / np.sum((seen - seen.mean()) ** 2)
 sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
 
-print(f"acceleration R²         by hand {acceleration_r2:.3f}   SysId {recipe.acceleration_r2:.3f}")
-print(f"simulated velocity R²   by hand {sysids:.3f}   SysId {recipe.simulated_velocity_r2:.3f}")
+print(f"acceleration R²         by hand {acceleration_r2:.4f}")
+print(f"the same, adjusted      by hand {adjusted:.4f}   SysId {recipe.acceleration_r2:.4f}")
+print(f"simulated velocity R²   by hand {sysids:.3f}    SysId {recipe.simulated_velocity_r2:.3f}")
 print(f"the same, textbook R²   by hand {textbook:.4f}")
 print(f"RMSE, the typical miss  by hand {rmse:.4f} m/s")
 print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} in the textbook's sense (means left in).")
 
 # %% [markdown]
+# *Adjusted* means: a little is taken off for each unknown, because every further column fits some
+# of the noise by luck. With hundreds of rows it hardly matters.
+# ([SysId's source: OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/OLS.cpp))
+#
 # > **Lesson says:** "R² value is above 0.9 in the analyzer."
 # >
 # > **Source says:** there are two. The *acceleration* R² "rarely goes above 0.5, even on very good
-# > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² should be above 0.9.
+# > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² (in SysId's window: *Sim
+# > velocity R²*) should be above 0.9.
 # > ([Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
-# > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). Nothing
-# > is squared, no mean is taken off, so its 0.9 asks for more than it seems to.
-# > ([SysId's source: AnalyzerPlot.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/view/AnalyzerPlot.cpp))
+# > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). The
+# > ratio is not squared, no mean is taken off, so its 0.9 asks for more than it seems to.
+# > ([SysId's source: AnalyzerPlot.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/view/AnalyzerPlot.cpp))
 # > (The docs page calls the acceleration the *independent* variable. In the code it is the one that
 # > is explained, on the left.)
 # >
@@ -682,8 +714,8 @@ Table(("log", "acceleration R²", "simulated velocity R²", "kV ÷ true", "kA ÷
 # - **A low R² is not a failure.** Logging faster makes each difference of neighbors noisier, and
 #   the acceleration R² drops. The gains are as good as before.
 # - **A high R² is not a success.** A wrong ratio or a wrong sign gives the *same* R² to the last
-#   digit: it is a perfect log of another robot. And the asked-for voltage gives nearly the highest
-#   R² in the table, with the worst kA.
+#   digit: it is a perfect log of another robot. And the asked-for voltage gives the highest
+#   acceleration R² in the table, with a kA that is far too large.
 #
 # What does catch them: signs, kV and kA against what motors and mass predict (lesson 1), forward
 # against reverse, and looking at the plots (lesson 6).
@@ -712,8 +744,9 @@ Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tupl
 # noise inflates kA, kS has to give way, down to zero and below.
 #
 # A negative kS is therefore rarely about friction. Ask first: **why is kA too large?** Noise, a
-# voltage that was asked for but never arrived, a slipping wheel, a lurch. (The other common cause
-# is gravity fitted with the type *Simple*: lesson 2.)
+# voltage that was asked for but never arrived, a slipping wheel, a lurch. (For an arm or an
+# elevator, look at the analysis type before that: gravity fitted as *Simple* gives nonsense of
+# either sign, lesson 2.)
 
 # %% [markdown]
 # ## 9 A filter is not free
@@ -750,8 +783,10 @@ curves(
 
 # %% [markdown]
 # After a step the velocity rises with the timescale kA/kV. A window that is longer than that
-# flattens the rise itself: the filter removes what you came to measure. WPILib's docs call it
-# "eating" the acceleration data, and warn that kA then tends toward zero.
+# flattens the rise itself: the filter removes what you came to measure. WPILib's docs warn of that
+# for mechanisms that are light for their motors: the filter may "eat" the acceleration data, and kA
+# tends toward zero.
+# ([Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 #
 # A window of 3 to 5 helps a rattling encoder on a *slow* mechanism. On a fast one, log faster, or
 # fix the rattle.
@@ -759,12 +794,16 @@ curves(
 # %% [markdown]
 # ## 10 From gains to a first kP
 #
-# SysId also suggests a feedback gain, kP: how many volts to add per unit of velocity error. It
-# comes out of the gains and **three settings**, and the settings are yours:
+# SysId also suggests a feedback gain, kP: for a velocity loop, how many volts to add per unit of
+# velocity error. It comes out of kV, kA and **three settings**, and the settings are yours (in
+# italics: their names in SysId's window):
 #
-# - **q**, the velocity error you are willing to see;
-# - **r**, the volts you are willing to spend on it;
-# - the **delay** of the measurement.
+# - **q**, the velocity error you are willing to see (*Max Velocity Error*);
+# - **r**, the volts you are willing to spend on it (*Max Control Effort*);
+# - the **delay** of the measurement (*Measurement Delay*).
+#
+# (A *Gain Preset* for your motor controller sets the delay, how often the loop runs, and the unit
+# of its output. Here the last two stay those of WPILib's own loop: 20 ms, and volts.)
 #
 # A method called LQR (*linear-quadratic regulator*) finds the kP that balances the two. Small q and
 # large r mean a large kP. A delay makes it smaller, because late corrections shake.
@@ -792,7 +831,7 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
 
     return curves(
         QS,
-        {f"{r:.0f} V, {delay} ms late": [suggested(float(error)) for error in QS]},
+        {f"{r:g} V, {delay} ms late": [suggested(float(error)) for error in QS]},
         xlabel="q, the allowed velocity error [m/s]",
         ylabel="kP [V·s/m]",
         levels={"the source lesson's": 0.62},
@@ -826,7 +865,7 @@ for name, q, delay in (
     ("1.5 m/s, the default in SysId's code", 1.5, 0.0),
     ("a quarter of the top speed, what its window sets", at_load, 0.0),
     ("what the source lesson's kP stands for", 3.43, 0.0),
-    ("1.5 m/s, measured 112 ms late, as by a NEO itself", 1.5, 0.112),
+    ("1.5 m/s, 112 ms late: SysId's number for a NEO's encoder", 1.5, 0.112),
 ):
     kp = velocity_loop(kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay).kp
     rows.append((name, q, kp))
@@ -834,6 +873,9 @@ Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 
 # %% [markdown]
 # Same gains, same method, very different kP's. Start with one of them, and tune on the robot.
+# ([SysId's source: Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/view/Analyzer.cpp)
+# for the quarter, [FeedbackControllerPreset.hpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/include/wpi/sysid/analysis/FeedbackControllerPreset.hpp)
+# for the delays)
 #
 # And remember where kA enters here: a kA that is wrong by a factor of two gives a wrong kP, without
 # any warning.
@@ -862,7 +904,8 @@ time_series(own, dynamic_seconds=1.0)
 
 # %% [markdown]
 # Fit it with SysId's recipe, and with your own five lines. For a log in rotations, gains per radian
-# (which is what the bench computes in) become gains per rotation: times 2π.
+# (which is what the bench computes in) become gains per rotation: times 2π. *One standard error*
+# is an estimate of how far noise alone moves a gain from its true value.
 
 # %%
 best = fit(own, method="sysid").in_log_units()

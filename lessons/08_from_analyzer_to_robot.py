@@ -67,6 +67,11 @@ Table(
 )
 
 # %% [markdown]
+# *One standard error* says how far noise alone may have moved a number. Here it is tiny, because
+# the bench's fit also follows the position, which hardly shakes. It knows nothing of what the model
+# leaves out. On a robot that is far more (lesson 9): believe two or three digits.
+
+# %% [markdown]
 # ## 2 Constants that explain themselves
 #
 # The source lesson puts the numbers into `Constants.java`, in a class of their own, each with its
@@ -102,7 +107,7 @@ Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows
 # sysid fit my_log.wpilog --paste java
 # ```
 #
-# Here is the same for our shooter. Each number has as many digits as its error deserves:
+# Here is the same for our shooter. Each number has as many digits as its error allows:
 
 # %%
 print(snippet(found, language="java", season=2026, name="shooter"))
@@ -140,8 +145,9 @@ print(f"You said: {guess_season}.")
 # radian: *as the code counts that calls the feedforward*. Two rules:
 #
 # - **A unit conversion belongs in one place.** In the constant, or at the call; never in both.
-# - **kP belongs to its loop.** A PIDController whose output you give to `setVoltage` wants volts. A
-#   motor controller's own loop may put out a duty cycle from −1 to 1: then divide volts by 12.
+# - **kP belongs to its loop.** A PIDController whose output you give to `setVoltage` needs a kP in
+#   volts per unit of error. A motor controller's own loop may put out a duty cycle from −1 to 1:
+#   then divide that kP by 12.
 
 # %% [markdown]
 # ## 3 The class, and its slots
@@ -315,7 +321,8 @@ display(guess_radian, guess_rotation)
 # %%
 def follower(gains: str, kp: float) -> Picture:
     """The profile, and what the wheel makes of it."""
-    return chase(TIME, TARGET, {gains: follow(GAINS[gains], kp)}, unit="rot/s", title=f"kP = {kp}")
+    title = f"kP = {kp:g} V per rot/s"
+    return chase(TIME, TARGET, {gains: follow(GAINS[gains], kp)}, unit="rot/s", title=title)
 
 
 live(
@@ -336,10 +343,10 @@ follower("per radian, fed rotations", 0.0)
 # And all of them at once, without and with feedback:
 
 # %%
-SOME = 0.2  # [V·s/rot]
+SOME = 0.2  # [V per rot/s]
 print(f"You said: {guess_radian}; {guess_rotation}.")
 Table(
-    ("gains", "top speed [rot/s]", "typical miss, kP = 0", f"typical miss, kP = {SOME}"),
+    ("gains", "top speed [rot/s]", "typical miss [rot/s]", f"with kP = {SOME} [rot/s]"),
     tuple(
         (name, float(follow(one).max()), miss(TARGET, follow(one)).typical,
          miss(TARGET, follow(one, SOME)).typical)
@@ -359,7 +366,8 @@ Table(
 # - **kA left out:** good where the target is steady, late on the slopes. For many mechanisms that
 #   is all you need; WPILib's docs say that kA can be left out, and AdvantageKit's swerve template
 #   calls the drive's kA "unnecessary in most cases".
-#   ([AdvantageKit docs: TalonFX Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
+#   ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html),
+#   [AdvantageKit docs: TalonFX Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
 # - **kP hides it.** Look at the right column. With feedback, wrong units become a smaller miss: it
 #   "works", only badly, and everybody turns kP. If a good kP does not help, suspect the unit.
 #
@@ -447,19 +455,20 @@ late = {0: "measured at once", 2: "measured 40 ms late", 6: "measured 120 ms lat
 suggested = found.feedback()["velocity"].kp
 print(f"kP that the fit suggests, for WPILib's own loop: {suggested:.3f} V per rot/s.")
 shaking = follow(measured, 0.6, late=6)
-chase(TIME, TARGET, {"kP 0.6, 120 ms late": shaking, "kP 0": follow(measured)}, unit="rot/s")
+chase(TIME, TARGET, {"kP = 0.6, 120 ms late": shaking, "kP = 0": follow(measured)}, unit="rot/s")
 
 # %%
 away = [
     (f"{kp}", *(miss(TARGET, follow(measured, kp, late=loops)).typical for loops in late))
     for kp in (0.1, 0.3, 0.6, 1.2)
 ]
-Table(("kP [V per rot/s]", *(f"miss, {name} [rot/s]" for name in late.values())), tuple(away))
+Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical miss [rot/s]")
 
 # %% [markdown]
 # A correction that comes late corrects what is no longer wrong. With a late measurement a large kP
 # makes things worse, until it swings. Motor controllers differ: in SysId's presets a Phoenix 6
 # velocity is 1 ms late, that of a NEO's own encoder 112 ms.
+# ([SysId's source: FeedbackControllerPreset.hpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/include/wpi/sysid/analysis/FeedbackControllerPreset.hpp))
 #
 # > **Lesson says:** "SysId suggests kP = 0.62 — start here, tune on carpet with fresh battery."
 # >
@@ -512,10 +521,11 @@ def sag(kp: float, *, told: dict[str, float]) -> float:
 
 
 print(f"You said: {guess_arm}.")
-print(f"Empty: kG {bare['kG']:.2f} V, kA {bare['kA']:.3f}. Loaded: kG {loaded['kG']:.2f} V, "
-      f"kA {loaded['kA']:.3f}. kV and kS stay.")  # fmt: skip
+for name, one in (("Empty: ", bare), ("Loaded:", loaded)):
+    print(f"{name} kG {one['kG']:.2f} V, kA {one['kA']:.3f} V·s²/rad.")
+print("kV and kS stay.")
 Table(
-    ("kP [V/rad]", "empty arm's gains: sags [°]", "missing kG ÷ kP [°]", "loaded arm's gains [°]"),
+    ("kP [V/rad]", "empty arm's gains [°]", "missing kG ÷ kP [°]", "loaded arm's gains [°]"),
     tuple(
         (
             f"{kp:.0f}",
@@ -525,6 +535,7 @@ Table(
         )
         for kp in (1.0, 2.0, 5.0, 10.0)
     ),
+    caption="How far the loaded arm hangs below level",
 )
 
 # %% [markdown]
@@ -553,8 +564,8 @@ Table(("carriage", "kS [V]", "kG [V]", "kV [V·s/m]", "kA [V·s²/m]"), tuple(ro
 # ## 7 Place three gain sets
 #
 # Three fits, and somebody forgot to write down of what. They come from the bench's **drivetrain**,
-# **elevator** and **shooter** (per radian). The feedforward must get the right class and the right
-# slots. Whose are they?
+# **elevator** and **shooter**. kV and kA are per meter or per radian; the table does not say which,
+# on purpose. The feedforward must get the right class and the right slots. Whose are they?
 
 # %%
 sets = {"set 1": "retoohs", "set 2": "niartevird", "set 3": "rotavele"}  # read it backward
@@ -589,8 +600,9 @@ for name, one in fits.items():
 Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(rows))
 
 # %% [markdown]
-# The clues: a kG means gravity. (12 − kS)/kV is the top speed; a drivetrain reaches a few m/s, a
-# wheel hundreds of rad/s. And kA/kV is how slowly it answers: a heavy wheel takes its time.
+# The clues: a kG means gravity. (12 − kS)/kV is the top speed (with gravity, take kG off as well):
+# a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV is how slowly it answers: a
+# heavy wheel takes its time.
 
 # %% [markdown]
 # ## 8 Which mechanisms, and when

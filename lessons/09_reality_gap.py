@@ -52,6 +52,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from textwrap import fill
 
 import ipywidgets as widgets
 import numpy as np
@@ -83,7 +84,7 @@ validation = simulate(robot, sim.Routine(1.0, 2.0, timeout=3.0, kinds=FOUR), rng
 held_out = simulate(
     robot, sim.Routine(step=3.5, timeout=4.0, kinds=("triangle", "multistep")), rng=rng
 )
-print(f"{len(EFFECTS)} effects are in the bench's catalogue: {', '.join(EFFECTS)}.")
+print(fill(f"{len(EFFECTS)} effects are in the bench's catalogue: {', '.join(EFFECTS)}.", 90))
 
 # %% [markdown]
 # Two of them are in today's robot. Its team does not know which: they have four Kraken X60, 60 kg,
@@ -156,7 +157,7 @@ base = fitted((), Model("simple", truth), log)
 # work is done by one line, `least_squares`: turn all knobs a little, see which way the sum of
 # squared misses falls, go there, repeat.)
 #
-# Before you look. The team's robot has kA = 0.19 V·s²/m; they do not know that. **Predict:**
+# Before you look. The bench knows the true kA of the team's robot; the team does not. **Predict:**
 
 # %%
 guess_ka = Guess(
@@ -190,7 +191,7 @@ print(f"You said: {guess_ka}.")
 time_series(log, beside=model_log, names=("log", "simulation"), dynamic_seconds=1.0)
 
 # %% [markdown]
-# The colored curves are the log, the thin black ones the simulation. Look at the start of the
+# The colored curves are the log, the dotted black ones the simulation. Look at the start of the
 # steps: the curves have different *shapes*. No kA makes them agree.
 #
 # (SysId's kA looks fine here. That is luck. The two fits bend in different places: SysId's recipe
@@ -199,8 +200,9 @@ time_series(log, beside=model_log, names=("log", "simulation"), dynamic_seconds=
 # ### How large is that?
 #
 # In meters per second a gap says little. We count it in **noises**: how far the sensor shakes by
-# itself. Smooth motion has no jerks, so what changes from sample to sample *three times over* is
-# shaking. Then a gap of 1 means: nothing is left but noise.
+# itself. To find that, take the change from sample to sample, then the change of these changes, and
+# once more. Of a smooth motion hardly anything is left after three rounds; what is left is shaking.
+# Then a gap of 1 means: nothing is missing but noise.
 
 
 # %%
@@ -222,8 +224,8 @@ print(f"The velocity shakes by {shaking:.4f} m/s.")
 print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, validation):.1f}.")
 
 # %% [markdown]
-# (1.4826 turns a median into a standard deviation, the usual measure of scatter. 20 = 1² + 3² + 3²
-# + 1² is by how much a third difference enlarges the square of noise.)
+# (1.4826 turns a median into a standard deviation, the usual measure of scatter. A third difference
+# enlarges the square of noise by 1² + 3² + 3² + 1² = 20.)
 
 # %% [markdown]
 # ## 3 The residual microscope
@@ -276,9 +278,12 @@ suspects = {
 }
 
 # %% [markdown]
-# The four hidden things are: **friction that differs forward and reverse** · **a velocity that is
-# averaged** over 0.12 s · **a tired battery**, and a log of asked-for volts · **breakaway
-# friction**, more at a crawl than at speed (its name is *Stribeck*).
+# The four hidden things are, in no order:
+#
+# - **friction that differs forward and reverse**;
+# - **a velocity that is averaged** over the last tenth of a second or so;
+# - **a tired battery**, and a log of asked-for volts;
+# - **breakaway friction**, more at a crawl than at speed (its name is *Stribeck*).
 #
 # Look at each robot below, then say which is which. (No buttons? `guess_a.value = "battery"`.)
 
@@ -326,8 +331,8 @@ Table(("robot", *sides), tuple(rows), caption="Share of the missing volts that a
 #
 # - **A, direction.** Forward lacks volts, reverse has too many, at every speed alike. (A slope
 #   under the robot looks the same. To tell them apart, turn the robot around.)
-# - **B, time since the jump.** The mean velocity of the last 0.12 s is *late*. Right after a jump
-#   the robot seems to get volts too few by far, and a moment later nothing is missing.
+# - **B, time since the jump.** The mean of the last velocities is *late*. Right after a jump the
+#   robot seems to get volts too few by far, and a moment later nothing is missing.
 # - **C, battery.** The lower the battery, the more is missing. The other view lights up, too: a
 #   battery is lowest just after a jump. Two sides can see the same thing; take the brighter one,
 #   and think of a test that moves one and not the other.
@@ -396,6 +401,7 @@ gap_bars({name: both_gaps(model) for name, model in models.items()})
 #   never fits worse. If you judge by it, everything is an improvement.
 # - The gap of the *validation* shows who understood something. Compare `current-limit` there with
 #   the base model: on the log it looks like a find.
+# - `delay` comes close to the best. It is late, too: the two look alike (section 6).
 #
 # Look through the microscope with any of them in place:
 
@@ -512,7 +518,9 @@ gap_bars({name: {"log": gap(m, log), "held out": gap(m, held_out)} for name, m i
 # ## 6 What your data cannot tell
 #
 # Another team, another drivetrain, and this one *does* have a current limit: above a certain push,
-# its motors give no more. They record a gentle log, with a 2.5 V step. Later they drive a 6 V step.
+# its motors give no more. (The model counts the limit in volts: those that are left to drive the
+# current once the back-EMF is paid for.) They record a gentle log, with a 2.5 V step. Later they
+# drive a 6 V step.
 #
 # We give the model limits from very low to very high, and draw the gap of both logs.
 #
@@ -597,9 +605,18 @@ story.plot_gap()
 # %%
 true_parts = {part.effect: part.parameters for part in robot.hidden}
 their_parts = {part.effect: part.parameters for part in story.model.parts}
-rows = [(gain, second.gains[gain], story.model.gains[gain], value) for gain, value in truth.items()]
+UNITS = {"kS": "V", "kV": "V·s/m", "kA": "V·s²/m", "window": "s", "extra": "V", "slow": "m/s"}
+rows = [
+    (f"{gain} [{UNITS[gain]}]", second.gains[gain], story.model.gains[gain], value)
+    for gain, value in truth.items()
+]
 rows += [
-    (f"{name}: {key}", last[name][key], their_parts.get(name, {}).get(key, "not named"), value)
+    (
+        f"{name}: {key} [{UNITS[key]}]",
+        last[name][key],
+        their_parts.get(name, {}).get(key, "not named"),
+        value,
+    )
     for name, parameters in true_parts.items()
     for key, value in parameters.items()
 ]
@@ -639,7 +656,8 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # `gap.html` holds every picture of section 7 and needs no network. Logs of another type need
 # `--type arm` or `--type elevator`.
 #
-# Or here, in the notebook. Put the files' names in; if there is a log of exercise 12, it is taken:
+# Or here, in the notebook. Put the files' names in; if there is a log of exercise 12, it is taken.
+# (Where the battery was not recorded, its view is missing.)
 
 # %%
 mine = sorted(Path("..", "exercises", "exercise12", "data").glob("*/log.wpilog"))

@@ -152,7 +152,21 @@ def test_a_small_error_looks_small():
 def test_misses_are_squared_and_summed():
     picture = misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]")
     assert [row[3] for row in picture.table.rows] == [1.0, 1.0]  # 3 - 2 and 5 - 4
-    assert "the sum of their squares is 2.00" in picture.alt
+    assert "the sum of their squares is 2.00 V²" in picture.alt
+
+
+@pytest.mark.parametrize(
+    ("label", "headed", "squared"),
+    [
+        ("y [V]", "miss [V]", "2.00 V²."),
+        ("y [m/s]", "miss [m/s]", "2.00 (m/s)²."),
+        ("y", "miss", "2.00."),
+    ],
+)
+def test_misses_have_the_unit_of_what_is_missed(label, headed, squared):
+    picture = misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel=label)
+    assert picture.table.header[-1] == headed
+    assert picture.alt.endswith(squared)
 
 
 def test_the_table_of_a_curve_is_short():

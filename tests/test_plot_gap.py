@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from html_tags import Tags
+from matplotlib.colors import to_rgba
 
 import sim
 from sim.duty_cycle import Battery, by_duty_cycle
@@ -13,6 +14,7 @@ from sim.mechanisms import MECHANISMS
 from sim.model import Model
 from sim.plot import gap_bars, microscope, views
 from sim.plot.microscope import missing_volts
+from sim.plot.picture import PAPER
 from sim.replay import replay
 from sim.simulate import simulate
 
@@ -77,7 +79,9 @@ def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
 def test_without_a_record_of_the_battery_there_are_three_sides():
     log = simulate(DRIVETRAIN, ROUTINE, rng=np.random.default_rng(1))
     assert "battery voltage" not in views(log, simulated(log), TRUTH.gains)
-    assert len(microscope(log, simulated(log), TRUTH.gains).table.rows) == 3
+    picture = microscope(log, simulated(log), TRUTH.gains)
+    assert len(picture.table.rows) == 3
+    assert picture.alt.startswith("Three views")
 
 
 def test_a_simulation_of_another_log_is_refused():
@@ -90,6 +94,14 @@ def test_a_gap_bar_says_its_numbers():
     picture = gap_bars({"base": {"log": 3.0, "held out": 12.0}, "+ x": {"log": 1, "held out": 2}})
     assert "base: log 3.00, held out 12.0" in picture.alt
     assert picture.table.rows[0] == ("base", 3.0, 12.0)
+
+
+def test_a_number_at_the_noise_is_not_struck_through_by_its_line():
+    axes = gap_bars({"base": {"log": 0.96}}).figure.axes[0]
+    (number,) = axes.texts
+    (line,) = (one for one in axes.lines if one.get_label() == "the noise")
+    assert number.get_zorder() > line.get_zorder()
+    assert number.get_bbox_patch().get_facecolor() == to_rgba(PAPER)
 
 
 @pytest.mark.parametrize("gaps", [{}, {"a": {}}, {"a": {"log": 1.0}, "b": {"other": 1.0}}])

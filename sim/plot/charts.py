@@ -169,22 +169,37 @@ def misses(
     axes.set_xlabel(xlabel, color=INK)
     axes.set_ylabel(ylabel, color=INK)
     axes.legend(fontsize=8)
-    total = float(np.sum((up - said) ** 2))
-    _corner(axes, f"sum of squared misses: {shown(total)}")
+    total = f"{shown(float(np.sum((up - said) ** 2)))}{_squared(ylabel)}"
+    _corner(axes, f"sum of squared misses: {total}")
     alt = (
         f"{across.size} samples of {ylabel} over {xlabel}, and the line {shown(intercept)} + "
         f"{shown(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show the misses; the sum of "
-        f"their squares is {shown(total)}."
+        f"their squares is {total}."
     )
     rows = tuple(
         (shown(float(a)), float(b), float(c), float(b - c))
         for a, b, c in zip(across, up, said, strict=True)
     )
-    return Picture(figure, alt, Table((xlabel, ylabel, "the line says", "miss"), rows))
+    unit = f" {bracket}" if (bracket := _bracket(ylabel)) else ""
+    header = (xlabel, ylabel, f"the line says{unit}", f"miss{unit}")
+    return Picture(figure, alt, Table(header, rows))
 
 
 def _row(name: str, numbers: Sequence[float]) -> tuple[Cell, ...]:
     return (name, *numbers)
+
+
+def _bracket(label: str) -> str:
+    """The unit of a label with its brackets; empty if it has none."""
+    return f"[{label.partition('[')[2]}" if "[" in label else ""
+
+
+def _squared(label: str) -> str:
+    """The square of a label's unit, to stand behind a number."""
+    unit = _bracket(label).strip("[]")
+    if not unit:
+        return ""
+    return f" {unit}²" if unit.isalpha() else f" ({unit})²"
 
 
 def _corner(axes: Axes, text: str) -> None:

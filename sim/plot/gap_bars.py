@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from sim.errors import BadRequest
-from sim.plot.picture import COLORS, INK, REFERENCE, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, shown
 
 HATCHES = ("", "///", "..")  # a log each: color never speaks alone
@@ -40,6 +40,7 @@ def gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
             axes.annotate(
                 shown(float(value)), (value, place), xytext=(4, 0), textcoords="offset points",
                 va="center", fontsize=8, color=INK,
+                bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},  # over the noise's line
             )  # fmt: skip
     axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2, label="the noise")
     axes.set_yticks(range(len(gaps)), list(gaps))

@@ -27,6 +27,7 @@ CLOSE = (0.0, 0.03, 0.07, 0.11, 0.15, 0.21, 0.31, 0.51, 1.01)  # [s] after a jum
 CELLS = 8  # of speed, and of the battery's voltage
 MOST = 300  # samples of a side that are drawn: more would cover each other, and take their time
 FEWEST = 3  # samples of which a mean says anything
+NUMBERS = {3: "Three", 4: "Four"}  # views: a log without the battery's voltage has one less
 EASY = 0.98  # [quantile] of the samples that is drawn: one wild row must not flatten the rest
 SPEED, SINCE, BATTERY, DIRECTION = (
     "speed", "time since the voltage jumped", "battery voltage", "direction",
@@ -150,9 +151,9 @@ def microscope(log: Log, simulated: Sequence[Array], gains: Mapping[str, float])
     typical = float(np.sqrt(np.mean(lacking**2)))
     told = ", ".join(f"{name} {_percent(view.explains)}" for name, view in found.items())
     alt = (
-        f"Four views of the volts that the simulation lacks, {shown(typical)} V typically: each "
-        f"sample as a pale dot, and the mean of each cell with its error. Of the squared volts, "
-        f"the means explain: {told}."
+        f"{NUMBERS[len(found)]} views of the volts that the simulation lacks, {shown(typical)} V "
+        f"typically: each sample as a pale dot, and the mean of each cell with its error. Of the "
+        f"squared volts, the means explain: {told}."
     )
     return Picture(figure, alt, Table(("seen over", "explains", "cell means [V]"), tuple(
         (name, _percent(view.explains), _listed(view)) for name, view in found.items()
