@@ -530,7 +530,7 @@ worn = replace(wheel, drag=wheel.drag + 0.03)
 Table(
     ("gains", "reached [rpm]", "off 4000 rpm by"),
     tuple(
-        (name, f"{rpm:.0f}", f"{100 * (rpm / 4000 - 1):+.1f} %".replace("-", "−"))
+        (name, f"{rpm:.0f}", f"{round(rpm / 40 - 100, 1) + 0.0:+.1f} %".replace("-", "−"))
         for name, rpm in (
             ("measured", reached(wheel, gains)),
             ("kV guessed 5 % too low", reached(wheel, gains | {"kV": 0.95 * gains["kV"]})),

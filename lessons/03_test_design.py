@@ -484,13 +484,13 @@ print(f"You said: {guess_way}.")
 Table(
     (
         "ramp [V/s]",
-        "1 m/s after [m]",
+        "distance to 1 m/s [m]",
         "kV·v²/(2·ramp) [m]",
         "voltage after 10 ft [V]",
-        "gone after 10 s [m]",
+        "distance in 10 s [m]",
     ),
     tuple(rows),
-    caption="At 2 V/s there is no row of 10 s: the battery's 12 V are used up after 6 s",
+    caption="A ramp of 2 V/s reaches the battery's 12 V after 6 s, and ends there",
 )
 
 # %% [markdown]

@@ -81,8 +81,8 @@ def _draw(
         start = stop
     heights = np.linspace(APART, -APART, len(values)) if len(values) > 1 else (0.0,)
     for index, ((name, value), place) in enumerate(zip(values.items(), heights, strict=True)):
-        axes.plot(value, place, MARKERS[index % len(MARKERS)], color=INK, markersize=9, clip_on=False,
-                  label=name, zorder=5)  # fmt: skip
+        axes.plot(value, place, MARKERS[index % len(MARKERS)], color=INK, markersize=9,
+                  clip_on=False, label=name, zorder=5)  # fmt: skip
         axes.annotate(shown(value), (value, place), xytext=(0, 9), ha="center",
                       textcoords="offset points", fontsize=9, color=INK, zorder=6,
                       bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8})  # fmt: skip
