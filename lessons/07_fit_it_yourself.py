@@ -338,8 +338,8 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 # Call the three numbers α, β and γ. Then kA = 1/β, kV = −α/β and kS = −γ/β.
 #
 # (That is for the analysis type *Simple*. With gravity, SysId gives the table more columns: ones
-# for *Elevator*, cos θ and sin θ for *Arm*. kG comes out of their numbers, and for an arm the
-# sensor's offset, too.
+# for *Elevator*, cos θ and sin θ of the arm's angle θ for *Arm*. kG comes out of their numbers, and
+# for an arm the sensor's offset, too.
 # [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 
 
@@ -594,9 +594,8 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 #   uses the mean, so gaps in the log cost it accuracy in kA. kV does not care.
 # - **Trim.** Rows at full speed hold no acceleration, only noise. They dilute the few that do.
 # - **Threshold** hardly matters *here*, because our encoder is quiet at rest. With a noisy one,
-#   standstill rows have a random sgn(v). Try it in a cell of your own:
-#   `noisy = replace(robot, sensor=replace(robot.sensor, noise_speed=1e-9))`, then
-#   `my_fit(simulate(noisy, routine, rng=rng), threshold=0.0)`.
+#   standstill rows have a random sgn(v), and kA suffers, the more the longer it stands. (Try it:
+#   the last point of section 14.)
 #
 # And beware of luck: with a filter that makes kA smaller and noise that makes it larger, two wrongs
 # can hit the truth. On another robot they will not.
@@ -1025,6 +1024,12 @@ quick
 #
 # - Make `my_fit` print how far forward-only and reverse-only gains differ.
 # - Fit the shooter with a window of 15. Why does it survive?
-# - Give the robot a noisy standstill (section 6), and find the threshold that repairs the fit.
+# - Give the robot a noisy standstill and a slow ramp, and find the threshold that helps kA:
+#
+#   ```python
+#   noisy = replace(robot, sensor=replace(robot.sensor, noise_speed=1e-9))
+#   slow_log = simulate(noisy, sim.Routine(ramp=0.25, step=3.5), rng=np.random.default_rng(0))
+#   my_fit(slow_log, threshold=0.0)
+#   ```
 #
 # Next: lesson 8, from the analyzer to the robot.

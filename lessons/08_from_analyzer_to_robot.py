@@ -346,7 +346,7 @@ follower("per radian, fed rotations", 0.0)
 SOME = 0.2  # [V per rot/s]
 print(f"You said: {guess_radian}; {guess_rotation}.")
 Table(
-    ("gains", "top speed [rot/s]", "typical miss [rot/s]", f"with kP = {SOME} [rot/s]"),
+    ("gains", "top speed [rot/s]", "miss [rot/s], kP = 0", f"miss [rot/s], kP = {SOME}"),
     tuple(
         (name, float(follow(one).max()), miss(TARGET, follow(one)).typical,
          miss(TARGET, follow(one, SOME)).typical)
