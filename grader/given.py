@@ -1,14 +1,33 @@
 """What a learner is given to work on, written where it is not there as it was made."""
 
+import hashlib
+import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from grader.issued import Issued, issued
+from grader.kept import keep, place_of
 from grader.variant import folder_name
 from sim.errors import BadRequest
+from sim.work.cache import read
+
+if TYPE_CHECKING:
+    from sim.log import Log
 
 Made = str | bytes | Callable[[Path], None]
+
+
+def written(log: "Log") -> Made:
+    """A log as a file, in the format that the file's name asks for."""
+
+    def write_to(path: Path) -> None:
+        from sim.formats import write  # noqa: PLC0415 - not where the file is there already
+
+        write(log, path)
+
+    return write_to
 
 
 def hand_out(
@@ -41,9 +60,14 @@ def hand_out(
         return
     place = (folder / next(iter(files))).relative_to(exercise.parents[1]).as_posix()
     there = any((folder / name).is_file() for name in files)
+    known = place_of(exercise, student, "files")
+    if known is not None and read(known) == _seals(folder, files):
+        return
     try:
         folder.mkdir(parents=True, exist_ok=True)
         news = [_put(made, folder / name) for name, made in files.items()]
+        if known is not None:
+            keep(known, _seals(folder, files))
     except OSError as error:
         raise BadRequest(
             f"your {what} cannot be written: {error.strerror}",
@@ -66,6 +90,15 @@ def _whole(files: Mapping[str, Made], folder: Path, of_class: Issued) -> None:
                 where=str(folder),
                 advice="Unpack your class's zip file once more.",
             )
+
+
+def _seals(folder: Path, names: Iterable[str]) -> bytes:
+    """What tells whether any of these files was changed."""
+    found = {}
+    for name in names:
+        content = read(folder / name)
+        found[name] = "" if content is None else hashlib.sha256(content).hexdigest()
+    return json.dumps(found, sort_keys=True).encode()
 
 
 def _put(made: Made, path: Path) -> bool:

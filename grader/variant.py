@@ -2,8 +2,8 @@
 
     seed = HMAC-SHA256(secret, "student/exercise")
 
-What was drawn is never written down: whoever grades draws it again. A class has a secret of its
-own, which only whoever grades the class holds (`of_class`).
+What is drawn for a class is never written down: whoever grades draws it again, with a secret that
+only whoever grades the class holds (`of_class`).
 """
 
 import hashlib
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 __all__ = [
-    "SELF_STUDY", "folder_name", "generator", "of_class", "once_each", "same", "seed",
+    "SELF_STUDY", "alone", "folder_name", "generator", "of_class", "once_each", "same", "seed",
     "student_name",
 ]  # fmt: skip
 
@@ -39,6 +39,11 @@ def of_class(secret: bytes) -> Iterator[None]:
         yield
     finally:
         _SECRET.reset(token)
+
+
+def alone() -> bool:
+    """Whether numbers are drawn for self-study, and not for a class."""
+    return _SECRET.get() == SELF_STUDY
 
 
 def seed(student: str, exercise: str, *, secret: bytes | None = None) -> int:

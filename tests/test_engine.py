@@ -14,7 +14,7 @@ from sim.effects import EFFECTS
 from sim.effects.drag import EFFECT as DRAG
 from sim.engine import NO_TRUST, NO_WIRES, State, arrays, constants, finest, move
 from sim.engine import kernel as kernel_room
-from sim.engine.compose import CACHE, compose, folder, is_compiled
+from sim.engine.compose import compose, is_compiled
 from sim.engine.kernel import NO_USE
 from sim.engine.machine_code import Code, linked
 from sim.engine.wires import CUT
@@ -22,6 +22,7 @@ from sim.errors import BadRequest
 from sim.mechanisms import MECHANISMS
 from sim.model import Model, Part
 from sim.simulate import connected
+from sim.work.cache import CACHE, folder
 
 GAINS = {"kS": 0.2, "kV": 2.0, "kA": 0.3}
 PLAIN = Model("simple", GAINS)

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.answer import Asked, Band, number
 from grader.check import NotReached, Wrong, check
-from grader.given import hand_out
+from grader.given import hand_out, written
 from grader.submission import read_answers
 from grader.variant import folder_name
 
@@ -65,8 +65,6 @@ class Answers:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the learner's logs, where they are not there as they were made."""
-    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
-
     variant = draw(student)
     logs = {
         "log": variant.log,
@@ -74,7 +72,7 @@ def prepare(student: str, *, say: Callable[[str], None]) -> None:
         "held-out": variant.held_out,
     }
     made = {
-        f"{name}{suffix}": partial(write, log)
+        f"{name}{suffix}": written(log)
         for name, log in logs.items()
         for suffix in (".wpilog", ".csv")
     }

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from grader.kept import kept
 from grader.variant import generator, once_each
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ class Variant:
 
 
 @once_each
+@kept
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one."""
     from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed

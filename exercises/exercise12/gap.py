@@ -15,8 +15,10 @@ COARSE = 0.01  # [s] step while a search looks around
 LEAST = {"kS": 0.0, "kV": 1e-9, "kA": 1e-9}
 ROBUST, THIRD = 1.4826, math.sqrt(20.0)  # of a median deviation, of a third difference
 STARTS = 2  # of each effect
-ENOUGH = 60  # simulations of one search
-TRUST = 1e-5  # [share] a change below it is none
+ENOUGH = 200  # simulations of one search
+TRUST = 1e-5  # [share] of the squares: a step that gains less is the last
+PROBE = 1e-3  # [share of a value] by which it is moved to see what that does
+FIRST_DAMPING, MOST_DAMPING = 1e-3, 1e6  # [1] of a step; beyond it nothing gains any more
 FAR = 1e4  # [noises] a simulation that ran away is this far off, and no farther
 
 
@@ -123,28 +125,42 @@ def _searched(
     least: Sequence[float],
     most: Sequence[float],
 ) -> "Array":
+    """Values whose simulation leaves the smallest squares: Levenberg and Marquardt's steps.
+
+    Values that stand at a bound and want to go beyond it stay there.
+    """
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-    from scipy.optimize import least_squares  # noqa: PLC0415 - the same
 
     unit = noise(log)
-    begin = np.clip(np.array(first, dtype=float), least, most)
-    scale = np.maximum(np.abs(begin), 1e-6)
+    values = np.clip(np.array(first, dtype=float), least, most)
+    scale = np.maximum(np.abs(values), 1e-6)
 
-    def left(values: "Array") -> "Array":
+    def left(at: "Array") -> "Array":
         with np.errstate(over="ignore", invalid="ignore"):
-            off = errors(model(np.clip(values * scale, least, most)), log, step=COARSE) / unit
+            off = errors(model(at), log, step=COARSE) / unit
         return np.clip(np.nan_to_num(off, nan=FAR), -FAR, FAR)
 
-    found = least_squares(
-        left,
-        begin / scale,
-        bounds=(np.array(least) / scale, np.array(most) / scale + 1e-12),
-        diff_step=1e-3,
-        xtol=TRUST,
-        ftol=TRUST,
-        max_nfev=ENOUGH,
-    )
-    return np.clip(found.x * scale, least, most)
+    rest, damping, used = left(values), FIRST_DAMPING, 1
+    while used < ENOUGH and damping < MOST_DAMPING:
+        ahead = [values + scale * one for one in PROBE * np.eye(values.size)]
+        table = np.column_stack([(left(at) - rest) / PROBE for at in ahead])
+        used += values.size
+        slope = table.T @ rest
+        free = np.where(slope > 0.0, values > least, values < most) & np.any(table, axis=0)
+        square = table[:, free].T @ table[:, free]
+        before = float(rest @ rest)
+        while free.any() and damping < MOST_DAMPING:
+            by = np.zeros(values.size)
+            by[free] = -np.linalg.solve(square + damping * np.diag(np.diag(square)), slope[free])
+            tried = np.clip(values + scale * by, least, most)
+            after, used = left(tried), used + 1
+            if float(after @ after) < before:
+                values, rest, damping = tried, after, damping / 10.0
+                break
+            damping *= 10.0
+        if before - float(rest @ rest) < TRUST * before:
+            break
+    return values
 
 
 def _start(log: "Log") -> dict[str, float]:

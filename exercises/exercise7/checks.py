@@ -2,12 +2,11 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.check import Check, Wrong, check
-from grader.given import hand_out
+from grader.given import hand_out, written
 from grader.submission import read_answers
 
 from .drawn import LOGS, Case, draw
@@ -32,10 +31,8 @@ class Answers:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the learner's logs, where they are not there as they were made."""
-    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
-
     made: dict[str, Made] = {
-        f"log{number:02}{suffix}": partial(write, case.log)
+        f"log{number:02}{suffix}": written(case.log)
         for suffix in (".wpilog", ".csv")
         for number, case in enumerate(draw(student), start=1)
     }

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from grader.kept import kept
 from grader.variant import generator, once_each
 
 if TYPE_CHECKING:
@@ -62,6 +63,7 @@ class Case:
 
 
 @once_each
+@kept
 def draw(student: str) -> tuple[Case, ...]:
     """A learner's logs, always the same ones."""
     rng = generator(student, "exercise7")

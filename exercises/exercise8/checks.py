@@ -2,11 +2,10 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from grader.check import NotReached, Wrong, check
-from grader.given import hand_out
+from grader.given import hand_out, written
 from grader.submission import read_answers
 
 from .blame import blame
@@ -28,9 +27,7 @@ class Answers:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the learner's log, where it is not there as it was made."""
-    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
-
-    made = dict.fromkeys(("log.wpilog", "log.csv"), partial(write, draw(student).log))
+    made = dict.fromkeys(("log.wpilog", "log.csv"), written(draw(student).log))
     hand_out(made, exercise=HERE, student=student, what="log", say=say)
 
 

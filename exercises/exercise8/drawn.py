@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from grader.answer import Asked, gains_asked
+from grader.kept import kept
 from grader.variant import generator, once_each
 
 from .left import left
@@ -62,6 +63,7 @@ class Variant:
 
 
 @once_each
+@kept
 def draw(student: str) -> Variant:
     """A learner's log, always the same one."""
     rng = generator(student, "exercise8")

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.answer import Asked, Band, Key, gains_asked, judge, number
 from grader.check import Wrong, check
 from grader.consequence import Consequence
-from grader.given import hand_out
+from grader.given import hand_out, written
 from grader.submission import read_answers
 from grader.variant import generator, seed
 
@@ -97,9 +97,7 @@ def _alike(asked: Mapping[str, Asked]) -> bool:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the learner's log, where it is not there as it was made."""
-    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
-
-    made = dict.fromkeys(FILES_MADE, partial(write, draw(student).log))
+    made = dict.fromkeys(FILES_MADE, written(draw(student).log))
     hand_out(made, exercise=HERE, student=student, what="log", say=say)
 
 

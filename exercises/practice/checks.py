@@ -4,7 +4,7 @@ import math
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -13,7 +13,7 @@ from grader.answer import Asked, Band, judge, number
 from grader.check import Check, NotReached, Wrong, check
 from grader.course import find_course
 from grader.exercise import Exercise
-from grader.given import hand_out
+from grader.given import hand_out, written
 from grader.submission import read_answers
 from grader.word import word
 from sim.errors import Refusal
@@ -105,8 +105,6 @@ class Answers:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the log of exercise 9, and write down the parts of its mechanism."""
-    from sim.formats import write  # noqa: PLC0415 - numpy only where it is needed
-
     variant = NINTH.draw(student)
     parts = of_bench(variant).parts
     if parts is None:
@@ -120,7 +118,7 @@ motor = "{parts.motor.name}"
 free_speed = {rpm:.0f}  # [rpm] of the motor at 12 V, by its data sheet
 ratio = {parts.ratio:.6g}  # turns of the motor for one of the mechanism
 {wheel}"""
-    made = {"given.toml": told, "log.wpilog": partial(write, variant.log)}
+    made = {"given.toml": told, "log.wpilog": written(variant.log)}
     hand_out(made, exercise=HERE, student=student, what="log", say=say)
 
 

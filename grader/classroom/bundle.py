@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-KINDS = (".py", ".toml", ".md", ".java")  # of an exercise's files; its data are drawn, not sent
-CODE = ("grader", "sim")
+from grader.fingerprint import files
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,7 @@ def bundle(course: Path) -> Bundle:
     """The exercises of a course, packed; the same files give the same bytes."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in _files(course / "exercises"):
+        for path in files(course / "exercises"):
             info = zipfile.ZipInfo(path.relative_to(course).as_posix())  # its time is always 1980
             archive.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
     content = stream.getvalue()
@@ -55,22 +54,3 @@ def _unpacked(given: Bundle) -> Path:
 
 
 _KEPT: list[tempfile.TemporaryDirectory[str]] = []
-
-
-def fingerprint(course: Path) -> str:
-    """A text that changes with whatever decides a result: exercises, examiner and bench."""
-    found = hashlib.sha256()
-    packages = [Path(__file__).resolve().parents[2] / name for name in CODE]
-    for top in (course / "exercises", *packages):
-        for path in _files(top):
-            found.update(f"{top.name}/{path.relative_to(top).as_posix()}\0".encode())
-            found.update(hashlib.sha256(path.read_bytes()).digest())
-    return found.hexdigest()
-
-
-def _files(top: Path) -> list[Path]:
-    return sorted(
-        path
-        for path in top.rglob("*")
-        if path.suffix in KINDS and not {"data", "__pycache__"} & {*path.relative_to(top).parts}
-    )

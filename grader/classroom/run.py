@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from grader.classroom.bundle import bundle, fingerprint
+from grader.classroom.bundle import bundle
 from grader.classroom.grading import Graded, Job, grade_one, ungraded
 from grader.classroom.handed_in import HandedIn
 from grader.classroom.store import Store, digest
 from grader.exercise import Exercise
+from grader.fingerprint import fingerprint
 from sim.work.cluster import done_on_cluster
 from sim.work.here import WorkerLost, done_here, started
 
@@ -61,7 +62,7 @@ class Class:
 
     def _made_by(self) -> str:
         """What decides the results besides what was handed in."""
-        course = fingerprint(self.course)
+        course = fingerprint(self.course / "exercises")
         return f"{course} run by {_robotpy()}" if self.run else course
 
 

@@ -165,14 +165,16 @@ def grade_file(
     """Grade an answer, note the score, and show the result; the exit code."""
     from grader.course import save  # noqa: PLC0415 - --help has to start at once
     from grader.issued import issued, only_there  # noqa: PLC0415 - the same
+    from grader.kept import keeping  # noqa: PLC0415 - the same
     from grader.report import received, to_json, to_lines  # noqa: PLC0415 - the same
 
     of_class = issued(folder)
     if of_class and one.personal and of_class.is_for(who):
         show(received(one, file))
         raise only_there(one.name, of_class)
-    one.prepare(who, say=complain)
-    result = one.grade(file, student=who)
+    with keeping():
+        one.prepare(who, say=complain)
+        result = one.grade(file, student=who)
     gradable = result.status != "ungradable"
     noted = progress.with_score(who, one.name, score=result.score, max_score=result.max_score)
     if gradable and noted != progress:  # kept before anything is shown: a reader may stop reading

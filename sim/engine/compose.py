@@ -8,13 +8,9 @@ new engine.
 
 import hashlib
 import inspect
-import os
 import sys
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from types import ModuleType
-
-import platformdirs
 
 import sim.engine.hooks
 import sim.engine.stepping
@@ -22,8 +18,8 @@ import sim.engine.wires
 from sim.effect import Effect
 from sim.engine.kernel import Kernel, kept_at, kernel
 from sim.errors import BadRequest
+from sim.work.cache import folder
 
-CACHE = "SYSID_CACHE"  # environment variable: another folder for what was compiled
 CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
 
 HOOKS: Mapping[str, tuple[str, str, str]] = {
@@ -98,12 +94,6 @@ def _seal(effects: Mapping[str, Effect], text: str) -> str:
         for act in effect.acts.values()
     ]
     return hashlib.sha256("\n".join([text, *sources]).encode()).hexdigest()
-
-
-def folder() -> Path:
-    """Where engines are kept."""
-    asked = os.environ.get(CACHE)
-    return Path(asked or platformdirs.user_cache_dir("sysid-course", appauthor=False))
 
 
 def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:

@@ -14,16 +14,15 @@ import os
 import subprocess
 import sys
 import tempfile
-from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
 from typing import Any
-from uuid import uuid4
 
 import numpy as np
 
 from sim.engine.machine_code import Code, code_of, linked, machine
 from sim.log import Array
+from sim.work import cache
 
 __all__ = ["Kernel", "kept_at", "kernel", "tried"]
 
@@ -101,7 +100,7 @@ def kernel(text: str, kept: Path) -> Kernel:
         text: of the module, as composed.
         kept: where it is kept.
     """
-    content = _read(kept)
+    content = cache.read(kept)
     code = Code.read(content) if content else None
     if code is not None and (found := linked(code)):
         return Kernel(*found)
@@ -139,30 +138,16 @@ def _of_file(text: str, kept: Path) -> Any:  # noqa: ANN401 - Numba has no types
 def _written(path: Path, text: str) -> Path:
     """The module's file, whole."""
     if not path.exists():
-        _replace(path, text.encode())
+        cache.keep(path, text.encode())
     return path
-
-
-def _replace(path: Path, content: bytes) -> None:
-    part = path.with_name(f"{path.stem}.{uuid4().hex}.part")
-    part.write_bytes(content)
-    part.replace(path)
-
-
-def _read(kept: Path) -> bytes | None:
-    try:
-        return kept.read_bytes()
-    except OSError:  # not there, or not for us
-        return None
 
 
 def _keep(code: Code, kept: Path) -> None:
     """Keep it; where another process does not get along with it, an empty file says so."""
     try:
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        _replace(kept, code.written())
+        cache.keep(kept, code.written())
         if not _works(kept):
-            _replace(kept, NO_USE)
+            cache.keep(kept, NO_USE)
         _forget_old(kept.parent)
     except OSError:  # a home that cannot be written to: compiled anew each time
         return
@@ -183,13 +168,11 @@ def _works(kept: Path) -> bool:
     return done.returncode == 0
 
 
-def _forget_old(folder: Path) -> None:
+def _forget_old(where: Path) -> None:
     """Leave the newest few engines, with what was compiled for them."""
-    engines = sorted(folder.glob("sysid_engine_*.kernel"), key=lambda one: one.stat().st_mtime)
-    for old in engines[:-KEPT]:
-        for file in (old, old.with_suffix(".py"), *folder.glob(f"__pycache__/{old.stem}.*")):
-            with suppress(OSError):  # another process uses or removes it
-                file.unlink()
+    for old in cache.older(where.glob("sysid_engine_*.kernel"), than=KEPT):
+        beside = where.glob(f"__pycache__/{old.stem}.*")
+        cache.forget((old, old.with_suffix(".py"), *beside))
 
 
 def tried(kept: Path) -> None:

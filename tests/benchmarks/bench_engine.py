@@ -13,10 +13,10 @@ import numpy as np
 from timing import HEADER, line, seconds
 
 from sim.effects import EFFECTS
-from sim.engine.compose import CACHE
 from sim.mechanisms import MECHANISMS
 from sim.routine import Routine
 from sim.simulate import simulate
+from sim.work.cache import CACHE
 
 ROUTINE = Routine(ramp=0.5, step=3.5)
 VARIANTS = 1000
