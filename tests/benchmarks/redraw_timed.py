@@ -2,9 +2,11 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
-from lab import OFTEN, Knob
+import psutil
+from lab import Knob
 from playwright.sync_api import Page
 
 GIVE_UP = 8_000  # [ms] after which a move has changed nothing
@@ -30,7 +32,6 @@ ARM = """([panel, patience]) => {
         const all = after.reduce((sum, image) => sum + image.length, 0);
         return after.reduce((sum, image, i) => sum + count(image, before[i]), 0) / (all || 1);
     };
-    window.before = html;
     window.redrawn = new Promise(resolve => {
         let begin = null;
         for (const kind of ['keydown', 'click', 'input', 'change'])
@@ -63,6 +64,7 @@ class Move:
         widget: which: the function that draws, and the label.
         to: where it was moved to.
         seconds: until the new picture was on the screen; None where nothing changed.
+        work: processor seconds that the lesson's kernel spent on it.
         share: of the picture's pixels that changed.
         words: whether any text below the picture changed, or that of the answer.
         unseen: whether the page drew no frame, so that time ends with the decoded picture.
@@ -71,6 +73,7 @@ class Move:
     widget: str
     to: str
     seconds: float | None
+    work: float
     share: float
     words: bool
     unseen: bool
@@ -82,24 +85,28 @@ Act = Callable[[], object]
 def moved(page: Page, panel: Any, act: Act, *, widget: str, to: str) -> Move:
     """Act on a panel, and wait until what came of it is on the screen."""
     page.evaluate(ARM, [panel.element_handle(), GIVE_UP])
+    before = _spent()
     act()
-    return Move(widget, to, **page.evaluate("window.redrawn"))
+    seen = page.evaluate("window.redrawn")
+    return Move(widget, to, work=_spent() - before, **seen)
+
+
+def _spent() -> float:
+    """Processor seconds of the kernel; only those of its own, below this very process."""
+    times = [process.cpu_times() for process in _kernels()]
+    return float(sum(one.user + one.system for one in times))
+
+
+def _kernels() -> list[psutil.Process]:
+    below = psutil.Process().children(recursive=True)
+    return [process for process in below if "ipykernel_launcher" in process.cmdline()]
 
 
 def turned(page: Page, panel: Any, knob: Knob, *, name: str) -> Iterator[Move]:
     """All moves of a knob, which is back where it was afterwards."""
-    panel.locator("> *").last.evaluate("shown => { window.first = shown.innerHTML; }")
     _, begun, _ = knob.place
-    for to, act in _acts(knob):
+    for to, act in chain(_there(knob), _back(knob, begun)):
         yield moved(page, panel, act, widget=name, to=to)
-    if knob.kind == "slider":
-        _put_back(knob, begun)
-    if knob.kind != "button":
-        page.wait_for_function(
-            "panel => panel.lastElementChild.innerHTML === window.first",
-            arg=panel.element_handle(),
-            polling=OFTEN,
-        )
 
 
 def answered(page: Page, box: Any) -> Iterator[Move]:
@@ -114,8 +121,8 @@ def answered(page: Page, box: Any) -> Iterator[Move]:
         yield moved(page, box, lambda line=line: line.press("Enter"), widget=name, to="1")
 
 
-def _acts(knob: Knob) -> Iterator[tuple[str, Act]]:
-    """What a knob is moved to, and how; what it is moved back to is a move, too."""
+def _there(knob: Knob) -> Iterator[tuple[str, Act]]:
+    """What a knob is moved to, and how; a menu or a checkbox ends where it began."""
     first, now, last = knob.place
     if knob.kind == "slider":
         there, back = ("ArrowRight", "ArrowLeft") if now < last else ("ArrowLeft", "ArrowRight")
@@ -133,11 +140,13 @@ def _acts(knob: Knob) -> Iterator[tuple[str, Act]]:
             yield "a click back", knob.grip.click
 
 
-def _put_back(knob: Knob, place: float) -> None:
-    """A slider to where it was: by the number beside it, or by steps where that is a name."""
-    slider = knob.grip.locator("xpath=ancestor::*[contains(@class, 'widget-inline-hbox')]")
-    number = slider.locator(".widget-readout")
-    number.fill(f"{place:g}")
-    number.press("Enter")
-    while round(away := knob.place[1] - place, 6):
-        knob.grip.press("ArrowLeft" if away > 0 else "ArrowRight")
+def _back(knob: Knob, begun: float) -> Iterator[tuple[str, Act]]:
+    """How a slider gets back: by the number beside it, or by steps where that is no number."""
+    if knob.kind != "slider":
+        return
+    beside = knob.grip.locator("xpath=ancestor::*[contains(@class, 'widget-inline-hbox')]")
+    number = beside.locator(".widget-readout")
+    if number.inner_text() in {f"{knob.place[1]:.{digits}f}" for digits in range(4)}:
+        yield "typed back", lambda: (number.fill(f"{begun:g}"), number.press("Enter"))
+    while round(away := knob.place[1] - begun, 6):
+        yield "a step back", lambda: knob.grip.press("ArrowLeft" if away > 0 else "ArrowRight")
