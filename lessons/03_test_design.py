@@ -328,7 +328,7 @@ def map_picture(runs: str, gains: str) -> Picture:
 
 live(
     map_picture,
-    runs=widgets.Dropdown(options=list(SETS), description="runs"),
+    runs=widgets.Dropdown(options=list(SETS), description="runs", layout={"width": "25em"}),
     gains=widgets.Dropdown(options=["kS and kA", "kS and kV", "kV and kA"], description="gains"),
 )
 
