@@ -94,19 +94,27 @@ def flaws(turns: list[Move], answers: list[Move]) -> list[str]:
         if move.seconds and move.seconds > AIM
     ]
     for name in dict.fromkeys(move.widget for move in turns):
-        own = [move for move in turns if move.widget == name]
-        blind = [move for move in own if not move.share]
-        which = ", ".join(f"{move.to}{' (words only)' if move.words else ''}" for move in blind)
-        if len(blind) == len(own):
-            found.append(f"KNOB THAT CHANGES NO PIXEL: {name}: {which}")
-        elif blind:
-            found.append(f"no pixel changes: {name} → {which}")
-        most = max(move.share for move in own)
-        if 0 < most < HARDLY:
-            found.append(f"hardly seen: {name}: at most {most:.2%} of the pixels change")
+        found += unseen(name, [move for move in turns if move.widget == name])
     found += [f"no words come: {move.widget} → {move.to}" for move in answers if not move.words]
-    unseen = sum(move.unseen for move in [*turns, *answers])
-    return found + ([f"{unseen} moves without a frame: timed until decoded"] if unseen else [])
+    frameless = sum(move.unseen for move in [*turns, *answers])
+    return found + ([f"{frameless} moves without a frame, timed until decoded"] * (frameless > 0))
+
+
+def unseen(name: str, moves: list[Move]) -> list[str]:
+    """What of one knob's moves nobody sees in the picture."""
+    blind = [move for move in moves if not move.share]
+    which = ", ".join(f"{move.to}{' (words only)' if move.words else ''}" for move in blind)
+    most = max(move.share for move in moves)
+    if not most:
+        return [f"KNOB THAT CHANGES NO PIXEL: {name}: {which}"]
+    found = [f"no pixel changes: {name} → {which}"] if blind else []
+    if most < HARDLY:
+        found += [f"hardly seen: {name}: at most {most:.2%} of the pixels change"]
+    alike: dict[int, list[str]] = {}
+    for move in moves:
+        if not move.to.endswith(("back", "step")):  # back is meant to look as before
+            alike.setdefault(move.looks, []).append(move.to)
+    return found + [f"alike: {name} → {' = '.join(to)}" for to in alike.values() if len(to) > 1]
 
 
 def lesson(notebook: Path, browser: Browser, *, times: int) -> None:

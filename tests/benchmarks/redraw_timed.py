@@ -32,6 +32,8 @@ ARM = """([panel, patience]) => {
         const all = after.reduce((sum, image) => sum + image.length, 0);
         return after.reduce((sum, image, i) => sum + count(image, before[i]), 0) / (all || 1);
     };
+    const looks = () => drawn().reduce((sum, image) => image.reduce(
+        (all, color) => (Math.imul(all, 31) + color) | 0, sum), 0);
     window.redrawn = new Promise(resolve => {
         let begin = null;
         for (const kind of ['keydown', 'click', 'input', 'change'])
@@ -45,12 +47,12 @@ ARM = """([panel, patience]) => {
             const unseen = await Promise.race([frame().then(frame), late(500)]) === 'late';
             const end = unseen ? decoded : performance.now();
             resolve({seconds: (end - begin) / 1000, unseen, share: changed(),
-                     words: shown.innerText !== words});
+                     looks: looks(), words: shown.innerText !== words});
         });
         watch.observe(shown, {subtree: true, childList: true, characterData: true});
         late(patience).then(() => {
             watch.disconnect();
-            resolve({seconds: null, unseen: false, share: 0, words: false});
+            resolve({seconds: null, unseen: false, share: 0, looks: looks(), words: false});
         });
     });
 }"""
@@ -66,6 +68,7 @@ class Move:
         seconds: until the new picture was on the screen; None where nothing changed.
         work: processor seconds that the lesson's kernel spent on it.
         share: of the picture's pixels that changed.
+        looks: a number that two pictures share when all their pixels are the same.
         words: whether any text below the picture changed, or that of the answer.
         unseen: whether the page drew no frame, so that time ends with the decoded picture.
     """
@@ -75,6 +78,7 @@ class Move:
     seconds: float | None
     work: float
     share: float
+    looks: int
     words: bool
     unseen: bool
 
