@@ -72,6 +72,20 @@ def test_a_lesson_becomes_a_page_slides_and_a_part_of_the_handout(lesson, tmp_pa
         assert name in pages
 
 
+def test_a_page_shows_nobodys_own_data(lesson, tmp_path):
+    own = tmp_path / "exercises" / "exercise12" / "data" / "ann"
+    own.mkdir(parents=True)
+    (own / "log.wpilog").write_bytes(b"mine")
+    (own.parents[1] / "answers.toml").write_text("", encoding="utf-8")
+    code = "from pathlib import Path\nprint(sorted(p.name for p in Path('..').rglob('*.*')))"
+    build([lesson("01_look", MARKDOWN("# Lesson 1: Look"), CODE(code))], tmp_path / "out")
+
+    page = (tmp_path / "out" / "01_look.html").read_text("utf-8")
+
+    assert "answers.toml" in page
+    assert "log.wpilog" not in page
+
+
 def test_a_lesson_that_fails_is_one_line_and_leaves_no_page(lesson, tmp_path, monkeypatch, capsys):
     lesson("01_broken", MARKDOWN("# Lesson 1"), CODE("1 / 0"))
     (tmp_path / "exercises").mkdir()

@@ -1,6 +1,7 @@
-"""A lesson's notebook, run from top to bottom in the folder it stands in."""
+"""A lesson's notebook, run from top to bottom in a copy of its course that nobody worked in."""
 
 import os
+import shutil
 import subprocess
 import tempfile
 from pathlib import Path
@@ -8,6 +9,7 @@ from typing import Any
 
 from sim.errors import BadRequest
 
+COPIED = ("lessons", "exercises", "solutions")
 LONGEST_CELL = 120  # [s] after which a cell counts as hung
 
 
@@ -22,15 +24,15 @@ def execute(path: Path) -> Any:  # noqa: ANN401 - nbformat has no types
     from nbclient.exceptions import CellExecutionError, CellTimeoutError  # noqa: PLC0415 - the same
 
     notebook = nbformat.read(path, 4)  # type: ignore[no-untyped-call] # nbformat has no types
+    course = path.parents[1]
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as home:
         client = NotebookClient(
             notebook,
             timeout=LONGEST_CELL,
             kernel_name="python3",
-            resources={"metadata": {"path": str(path.parent)}},
+            resources={"metadata": {"path": str(_copied(course, Path(home)) / path.parent.name)}},
         )
-        course = str(path.parents[1])
-        paths = (course, os.environ.get("PYTHONPATH", ""))
+        paths = (str(course), os.environ.get("PYTHONPATH", ""))
         environment = {
             **os.environ,
             "PYTHONPATH": os.pathsep.join(filter(None, paths)),
@@ -47,3 +49,12 @@ def execute(path: Path) -> Any:  # noqa: ANN401 - nbformat has no types
                 advice="Run the lesson in JupyterLab to see which.",
             ) from None
     return notebook
+
+
+def _copied(course: Path, to: Path) -> Path:
+    """The course without anybody's own data: a page shows what everybody sees."""
+    for name in COPIED:
+        if (course / name).is_dir():
+            left = shutil.ignore_patterns("data", "__pycache__", ".*")
+            shutil.copytree(course / name, to / name, ignore=left)
+    return to

@@ -60,7 +60,10 @@ def refuse_unknown(
     ]
     if not unknown:
         return
-    said = " and ".join(f"{name} ± {_size(errors[name])}" for name in unknown)
+    said = " and ".join(
+        f"{name} ± {_size(errors[name])}" if math.isfinite(errors[name]) else name
+        for name in unknown
+    )
     pair = {"kS", "kG"} <= set(unknown) and type != "simple"
     raise NotIdentifiable(
         f"this log cannot tell {said}",
@@ -93,4 +96,4 @@ def refuse_astray(followed: Followed, *, log: Log, hint: str = "") -> None:
 
 
 def _size(error: float) -> str:
-    return f"{error:.2g}" if math.isfinite(error) else "anything"
+    return f"{error:.2g}" if math.isfinite(error) else "any amount"

@@ -73,7 +73,7 @@ def choices(
     alt = (
         f"Dots show {name}, {len(values)} of them; a dashed line marks the truth, "
         f"{shown(truth)}{' ' + unit if unit else ''}. "
-        + " ".join(f"{way}: {shown(value)}, off by {off}." for way, value, off in rows)
+        + " ".join(f"“{way}”: {shown(value)}, off by {off}." for way, value, off in rows)
     )
     return Picture(figure, alt, Table(("which", label, "off by"), tuple(rows)))
 
@@ -126,11 +126,12 @@ def curves(
     axes.legend(fontsize=8)
     said = [f"{ylabel} over {xlabel}."]
     said += [
-        f"{name} goes from {shown(float(y[0]))} at {x[0]:g} to {shown(float(y[-1]))} at {x[-1]:g}."
+        f"“{name}” goes from {shown(float(y[0]))} at {x[0]:g} to {shown(float(y[-1]))} at "
+        f"{x[-1]:g}."
         for name, y in lines.items()
     ]
     said += [
-        f"A dashed line marks {name}, {shown(level)}." for name, level in (levels or {}).items()
+        f"A dashed line marks “{name}”, {shown(level)}." for name, level in (levels or {}).items()
     ]
     if marked is not None:
         said.append(f"A star marks {shown(marked[1])} at {marked[0]:g}.")

@@ -83,7 +83,7 @@ def chase(
         f"A target velocity over time, between {shown(float(np.min(target)))} and "
         f"{shown(float(np.max(target)))} {unit}, and what followed it; below, what each misses. "
         + " ".join(
-            f"{name} misses by {shown(one.typical)} {unit} typically and by "
+            f"“{name}” misses by {shown(one.typical)} {unit} typically and by "
             f"{shown(one.largest)} {unit} at most."
             for name, one in found.items()
         )

@@ -50,7 +50,7 @@ def ellipses(
     _finish(axes, names=names, truth=truth, reach=reach)
     axes.legend(fontsize=8)
     alt = f"How well {names[0]} and {names[1]} are known together: 95 of 100 fits fall inside. "
-    alt += " ".join(f"{name}: {_words(info, names)}" for name, info in told.items())
+    alt += " ".join(f"“{name}”: {_words(info, names)}" for name, info in told.items())
     return Picture(figure, alt, _table(told, names))
 
 

@@ -20,7 +20,7 @@ from sim.plot.picture import (
     legend,
     panels,
 )
-from sim.plot.table import Table
+from sim.plot.table import Cell, Table
 from sim.plot.thin import outline
 from sim.units import Unit, unit
 
@@ -153,16 +153,25 @@ def _tests_table(runs: Mapping[int, Run], per: Unit) -> Table:
         )
         for run in runs.values()
     )
-    header = ("test", "samples", "lasts [s]", "first V", "last V", f"fastest [{per.symbol}/s]")
+    header = ("test", "samples", "lasts [s]", "first [V]", "last [V]", f"fastest [{per.symbol}/s]")
     return Table(header, rows, caption="The log in numbers")
+
+
+def _two(value: Cell) -> str:
+    return f"{value:.2f}".replace("-", "−")
 
 
 def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
     said = "Four panels over time: voltage above velocity, quasistatic tests left, dynamic tests "
     said += "right, forward as circles on a solid line, reverse as squares on a dashed line."
     for test, _, lasts, first, last, fastest in table.rows:
-        said += f" In {test} the voltage goes from {first:.2f} to {last:.2f} V in {lasts:.1f} s, "
-        said += f"and the velocity reaches {fastest:.2f} {per.symbol}/s."
+        goes = (
+            f"stays at {_two(first)} V for"
+            if first == last
+            else (f"goes from {_two(first)} to {_two(last)} V in")
+        )
+        said += f" In {test} the voltage {goes} {lasts:.1f} s, "
+        said += f"and the velocity reaches {_two(fastest)} {per.symbol}/s."
     for kind in KINDS:
         there = [way for way in DIRECTIONS if any(row[0] == f"{kind}-{way}" for row in table.rows)]
         if len(there) < len(DIRECTIONS):

@@ -182,6 +182,14 @@ def _stray(one: _Ramps, *, top: float) -> float | None:
     return float(np.sqrt(np.mean((up - slope * across) ** 2)))
 
 
+def _two(value: float) -> str:
+    return f"{value:.2f}".replace("-", "−")
+
+
+def _way(way: str) -> str:
+    return "in reverse" if way == "reverse" else way
+
+
 def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> str:
     said = "Two panels of voltage over velocity: the whole ramp, and the part near standstill."
     for one in ramps:
@@ -189,9 +197,9 @@ def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top
         moving = _moving(one, top=top)
         tests = f"{one.way} test" if one.runs == 1 else f"{one.runs} {one.way} tests"
         said += f" The {one.velocity.size} samples of the {tests} reach "
-        said += f"{one.velocity[index]:.2f} {per.symbol}/s at {one.voltage[index]:.2f} V"
-        said += f"; they move {one.way}, faster than {MOVING * top:.2f} {per.symbol}/s, "
-        said += f"from {one.voltage[moving][0]:.2f} V on" if moving.any() else "nowhere"
+        said += f"{_two(one.velocity[index])} {per.symbol}/s at {_two(one.voltage[index])} V"
+        said += f"; they move {_way(one.way)}, faster than {MOVING * top:.2f} {per.symbol}/s, "
+        said += f"from {_two(one.voltage[moving][0])} V on" if moving.any() else "nowhere"
         stray = _stray(one, top=top)
         if stray is not None:
             said += f"; in motion they stray {stray:.3f} V from a straight line"

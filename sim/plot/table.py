@@ -1,6 +1,7 @@
 """A table of a few numbers, for eyes and for screen readers."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import TypeAlias
@@ -8,6 +9,7 @@ from typing import TypeAlias
 Cell: TypeAlias = str | float
 
 DIGITS = 3  # significant ones: more than any gain of a robot deserves
+NUMERIC = (*"+-−±<>≤≥~≈.–—",)  # what a number may begin with, and what stands where there is none
 LONGEST = 1e5  # a larger number is written with an exponent
 
 
@@ -29,11 +31,17 @@ class Table:
     def html(self) -> str:
         """The table in HTML that takes its colors from the page it stands in."""
         caption = f"<caption>{escape(self.caption)}</caption>" if self.caption else ""
-        head = "".join(_cell("th", name, first=i == 0) for i, name in enumerate(self.header))
+        left = self._left
+        head = "".join(
+            _cell("th", name, left=way) for name, way in zip(self.header, left, strict=True)
+        )
         body = "".join(
             "<tr>"
-            + _cell("th", shown(row[0]), first=True, scope="row")
-            + "".join(_cell("td", shown(cell)) for cell in row[1:])
+            + _cell("th", shown(row[0]), left=True, scope="row")
+            + "".join(
+                _cell("td", shown(cell), left=way)
+                for cell, way in zip(row[1:], left[1:], strict=True)
+            )
             + "</tr>"
             for row in self.rows
         )
@@ -48,20 +56,34 @@ class Table:
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         text = [
             "  ".join(
-                cell.ljust(width) if index == 0 else cell.rjust(width)
-                for index, (cell, width) in enumerate(zip(line, widths, strict=True))
+                cell.ljust(width) if way else cell.rjust(width)
+                for cell, width, way in zip(line, widths, self._left, strict=True)
             ).rstrip()
             for line in lines
         ]
         return "\n".join([self.caption, *text] if self.caption else text)
 
+    @property
+    def _left(self) -> list[bool]:
+        """Of each column, whether it holds words, and not numbers."""
+        columns = zip(*self.rows, strict=True) if self.rows else ((),) * len(self.header)
+        return [place == 0 or _words(column) for place, column in enumerate(columns)]
+
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         return {"text/plain": str(self), "text/html": self.html}
 
 
-def _cell(tag: str, text: str, *, first: bool = False, scope: str = "col") -> str:
-    """One cell: names to the left, numbers to the right, one under the other."""
-    style = f"text-align:{'left' if first else 'right'};padding:0.1em 0.7em"
+def _words(column: Sequence[Cell]) -> bool:
+    """Whether no cell of a column begins as a number does, and one says something."""
+    return any(column) and all(
+        isinstance(cell, str) and not cell[:1].isdigit() and cell[:1] not in NUMERIC
+        for cell in column
+    )
+
+
+def _cell(tag: str, text: str, *, left: bool, scope: str = "col") -> str:
+    """One cell: words to the left, numbers to the right, one under the other."""
+    style = f"text-align:{'left' if left else 'right'};padding:0.1em 0.7em"
     if tag == "td":
         return f'<td style="{style}">{escape(text)}</td>'
     weight = "normal" if scope == "row" else "bold"
