@@ -80,7 +80,7 @@ Table(
 # | voltage V | the motor controller | every fit |
 # | velocity v | the encoder | every fit |
 # | acceleration a | SysId computes it from v and the time | nobody logs it |
-# | position | the encoder | arms (gravity depends on the angle); motion start |
+# | position | the encoder | arms (gravity depends on the angle); finding when motion starts |
 #
 # > **Lesson says:** log position, velocity and applied voltage, "all three are required for
 # > regression".
@@ -89,7 +89,8 @@ Table(
 # > drivetrain or a shooter then uses only velocity and voltage.
 # > ([WPILib docs: Loading Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
 # >
-# > **Try it:** in the last cell of this section, throw the positions away and fit again.
+# > **Try it:** the last cell of this section throws the positions away and fits again. Do the gains
+# > change?
 #
 # Here is the log of a routine that is wired right. Its settings are those of the source lesson.
 
@@ -162,8 +163,9 @@ Table(
 # > **Lesson says:** a ramp that is "typically 0.5 V/s", a step that is "typically 3–7V", and "Start
 # > with a step voltage of 3–4V, not 7V".
 # >
-# > **Source says:** the library's default step is what the table shows, and its maintainer finds
-# > it "almost always too much": wheels slip, and slipping data is not what the model describes.
+# > **Source says:** the library's default step is what the table shows, and one of its maintainers
+# > finds it "almost always too much": wheels slip, and slipping data is not what the model
+# > describes.
 # > ([allwpilib issue 7794](https://github.com/wpilibsuite/allwpilib/issues/7794))
 # >
 # > **Try it:** wheels slip when the motors push harder than the carpet can hold. That takes about
@@ -197,15 +199,15 @@ for mass in (60.0, 30.0):
 # out instead.
 #
 # (`Mechanism`'s log callback may be `null` too, but only if another logger records the motors for
-# you: CTRE's SignalLogger, or URCL for REV. The same page says how. In this course you write it.)
+# you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In this course you write it.)
 
 # %% [markdown]
 # ### Mechanism, first callback: drive
 #
 # The routine hands you a voltage; you hand it to **every** motor of the mechanism. Three rules:
 #
-# 1. **Open loop.** No PID, no `VelocityVoltage`, no Motion Magic. A controller that corrects the
-#    motion would be in the data, and SysId would measure the controller.
+# 1. **Open loop.** Nothing corrects the motion: no PID, no `VelocityVoltage`, no Motion Magic. A
+#    controller that corrects the motion would be in the data, and SysId would measure it, too.
 # 2. **A voltage, not a share of the battery.** `set(0.3)` means "30 % of whatever the battery gives
 #    now". The battery gives less when motors draw current, so the voltage is not what you think.
 # 3. **Every motor.** Or you measure a robot that drags dead motors along.
@@ -270,7 +272,8 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine;
 #
 # public class Drive extends SubsystemBase {
-#   // A TalonFX counts turns of the motor: divide by the gear ratio, multiply by the wheel.
+#   // A TalonFX counts turns of the motor (if no SensorToMechanismRatio is set):
+#   // divide by the gear ratio, multiply by the wheel's circumference.
 #   private static final double METERS_PER_TURN = Math.PI * 0.1016 / 6.75;
 #
 #   private final TalonFX m_left = new TalonFX(1);
@@ -438,8 +441,8 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # ### What the loop really does
 #
 # A detail for the curious, and for whoever compares this bench with a robot. The test command
-# starts its timer in one loop and drives from the loop after the next on. So the first voltage of
-# a ramp is not zero:
+# starts its timer in one loop, and drives for the first time two loops later. (That is what we saw
+# when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is not zero:
 
 # %%
 ramp = right.of("quasistatic-forward")[0]
@@ -462,8 +465,8 @@ guess_gain = Guess(
     "none of them",
 )
 guess_factor = Guess(
-    "2. Somebody logs turns of the wheel and calls them meters. The wheel is 4 inches wide. What "
-    "happens to kV?",
+    "2. Somebody logs turns of the wheel and calls them meters. The wheel measures 4 inches "
+    "across. What happens to kV?",
     "it is right anyway",
     "3.1 times too small",
     "6.3 times too small",
@@ -530,8 +533,8 @@ programs = {
 }
 
 # %% [markdown]
-# Now choose a program. The upper picture shows what its log says, and in thin black what really
-# happened. The lower one shows each gain it leads to, divided by the true one: 1 is right.
+# Now choose a program. The upper picture shows what its log says, and as a thin dotted line what
+# really happened. The lower one shows each gain it leads to, divided by the true one: 1 is right.
 
 
 # %%
@@ -609,8 +612,10 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # > **Lesson says:** the default path is `/home/lvuser/logs/`.
 # >
 # > **Source says:** on a 2026 roboRIO, a FAT32 USB stick comes first: `/u/logs`. Without one, it is
-# > `/home/lvuser/logs`. A 2027 Systemcore without a stick has `/home/systemcore/logs`.
+# > `/home/lvuser/logs`.
 # > ([WPILib docs: Data Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html))
+# > A 2027 Systemcore without a stick has `/home/systemcore/logs`: that is from the source code of
+# > WPILib 2027, which is not released yet, and no page of the docs says it so far.
 # >
 # > **Try it:** find yesterday's log of your robot before you need today's.
 #
@@ -636,7 +641,7 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 #             voltage -> m_leader.set(voltage.in(Volts) / 12.0),
 #             log ->
 #                 log.motor("shooter")
-#                     .voltage(m_lastRequest) // saved by the caller
+#                     .voltage(m_lastRequest) // saved in another method
 #                     .angularPosition(Radians.of(m_leader.getPosition().getValueAsDouble()))
 #                     .angularVelocity(
 #                         RadiansPerSecond.of(m_leader.getVelocity().getValueAsDouble())),
@@ -653,7 +658,7 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 #
 # 1. `set(voltage / 12)` asks for a share of the battery, not for a voltage. Use `setVoltage`.
 # 2. `m_lastRequest` is what was *asked for*. Log `getMotorVoltage()`.
-# 3. A TalonFX gives **rotations**. Wrapping the number in `Radians` makes kV too large by 2π.
+# 3. A TalonFX gives **rotations**. Wrapping the number in `Radians` makes kV 2π times too large.
 # 4. `onTrue`: the test goes on after the button is released. Use `whileTrue`.
 # 5. `kForward` twice: there is no dynamic reverse test, and SysId asks for all four.
 #
@@ -684,12 +689,15 @@ from grader import Quick
 
 quick = Quick(
     (
-        "A drive callback calls motor.set(volts / 12). Which gain is wrong when the "
-        "battery gives 11 V?"
+        "A drive callback calls motor.set(volts / 12), and the log holds volts. Which gains are "
+        "wrong when the battery gives 11 V all the time?"
     ),
     {
         "none": "A share of 11 V is not the same share of 12 V.",
-        "only kA": "The voltage is off in every row of the log, also at a steady speed.",
+        "only kA": (
+            "That is a battery that sags for a moment. Here the voltage is off in every row, also "
+            "at a steady speed."
+        ),
         "all three": "The log says more volts than the motors got, in every row.",
     },
     right="all three",
@@ -715,8 +723,8 @@ quick
 # describe the limit.
 # </details>
 #
-# **3.** Both fits in the table have a simulated velocity R² near 0.99, one has kA twice as large.
-# Which one is right?
+# **3.** Two logs of one robot, both with a simulated velocity R² near 0.99. One has twice the kA of
+# the other. Which one is right?
 #
 # <details><summary>Answer</summary>
 #

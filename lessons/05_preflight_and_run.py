@@ -90,7 +90,7 @@ Table(
 # A ramp of `r` volts per second does nothing until the voltage is above kS. From then on the speed
 # grows by `r/kV` each second. So after `t` seconds of motion
 #
-# > v ≈ r·t / kV,  and the way is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
+# > v ≈ r·t / kV,  and the distance is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
 #
 # (This leaves out that the robot lags a little behind the voltage. The bench does not.)
 #
@@ -138,7 +138,9 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
 slow = drive(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=HALL)
 print(f"You said: {guess_room}; {guess_ten}.")
 print(f"0.5 V/s for 10 s goes {slow.rests:.1f} m, that is {slow.rests / FOOT:.0f} feet.")
-Table(("ramp [V/s]", "2 m/s after [s]", "way until then [m]", "kV·v²/(2·ramp) [m]"), tuple(rows))
+Table(
+    ("ramp [V/s]", "2 m/s after [s]", "distance until then [m]", "kV·v²/(2·ramp) [m]"), tuple(rows)
+)
 
 # %% [markdown]
 # *Slow is safe* sounds right, and it is wrong here. A slow ramp spends a long time at middle
@@ -184,8 +186,9 @@ print(f"On blocks: kV ÷ true = {lifted['kV'] / TRUTH['kV']:.2f}")
 print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 
 # %% [markdown]
-# kV hardly minds here (a real robot also has less friction on blocks). kA is that of a robot
-# without a robot.
+# kV hardly minds here (a real robot also has less friction on blocks). kA is that of bare wheels,
+# and of no use for a robot that carries its own weight. (A tenth of the inertia should give a tenth
+# of kA. The fit misses even that: the rise is now over by the third sample.)
 
 # %% [markdown]
 # ## 3 Doing it: the runway
@@ -201,8 +204,8 @@ print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 guess_stop = Guess(
     "Tape at 7 m, wall at 12 m, a ramp of 1 V/s. Where does the robot stand?",
     "right at the tape",
-    "about 1 m behind it",
-    "about 3 m behind it",
+    "about 1 m past it",
+    "about 3 m past it",
     "at the wall",
 )
 guess_check = Guess(
@@ -255,13 +258,14 @@ went = drive(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
 top = float(went.velocity.max())
 print(f"You said: {guess_stop}.")
 let_go = float(np.interp(went.released, went.time, went.position))
-print(f"It stands {went.rests - 7.0:.2f} m behind the tape:")
+print(f"It stands {went.rests - 7.0:.2f} m past the tape:")
 print(f"  the thumb costs {let_go - 7.0:.2f} m, the brakes {went.rests - let_go:.2f} m.")
 print(f"  v²/(2·μ·g) at {top:.2f} m/s would be {top**2 / (2 * GRIP * 9.81):.2f} m.")
 
 # %% [markdown]
-# Where to put the tape: your room, minus the thumb, minus the brakes, minus a good reserve. And one
-# piece of tape for each direction. Going back is the same test from the other end.
+# Where to put the tape: start from the wall. Go back by what the thumb costs, by what the brakes
+# cost, and by a good reserve. Put the tape there, and one piece for each direction. Going back is
+# the same test from the other end.
 #
 # ### Now skip a check
 #
@@ -406,7 +410,8 @@ for name, robot in (("charged", ROBOT), ("tired", TIRED)):
         out = "brownout" if lowest < robot.brownout else "no"
         rows.append((f"{name}, {step:g} V", lowest, out, *(each / TRUTH["kA"] for each in ka)))
 
-print({name: f"{one.brownout} V" for name, one in CONTROLLERS.items()})
+for name, one in CONTROLLERS.items():
+    print(f"{name} takes the motors off below {one.brownout} V")
 Table(
     (
         "battery, step",
@@ -420,9 +425,12 @@ Table(
 )
 
 # %% [markdown]
-# As long as nothing browns out, the tired battery gives the same kA, if you log what arrived. A
-# brownout spoils both. So: charge it anyway, begin with a small step, and log the applied voltage.
-# A fresh battery costs nothing. The rule of thumb is 12 V or more at rest, just off the charger.
+# As long as nothing browns out, the tired battery gives the same kA, in both columns: this robot
+# asks for a *voltage*, and its motor controllers make up for the sag. (Lesson 4's share of the
+# battery does not.) A brownout spoils both columns, and the asked-for one far more. So: charge it
+# anyway, begin with a small step, and log the applied voltage. The source lesson's rule is 12 V or
+# more at rest. A battery fresh from the charger shows more than that. (The threshold of a
+# Systemcore is the default in WPILib 2027, which is not released yet.)
 #
 # ### Encoder
 #
@@ -437,7 +445,8 @@ Table(
 #
 # ### Guard
 #
-# With the guard off, press all four buttons. Nothing may move. (Lesson 4 has three kinds of guard.)
+# Enable the robot with the guard *off*, that is: the tests are locked. (If your guard is Test mode,
+# enable in Teleop.) Press all four buttons. Nothing may move. (Lesson 4 has three kinds of guard.)
 # And one person does nothing but wait to press *Disable*. In the 2026 Driver Station the **Enter**
 # key disables, and the **space bar** is the emergency stop: it works even if another window is in
 # front, and the roboRIO has to be rebooted afterwards.
@@ -475,7 +484,8 @@ print(f"kA ÷ true: {arrived:.2f} if the log holds what arrived, {asked:.2f} if 
 # - **One mechanism per log.** WPILib: if you run a second routine "without extracting the log or
 #   power-cycling the roboRIO in between, analysis will fail".
 # - **Each test once.** If one went wrong, begin a new log and run all four again. CTRE's page says
-#   the same: SysId cannot sort out two tests of one kind.
+#   the same. (The text beside the class `SysIdRoutine` says that you may choose between repeats in
+#   the tool. SysId 2026 has no such choice: it takes the first one.)
 
 # %% [markdown]
 # ## 5 Where is my log?
@@ -485,8 +495,8 @@ print(f"kA ÷ true: {arrived:.2f} if the log holds what arrived, {asked:.2f} if 
 # ├─ WPILib (DataLogManager; the routine of lesson 4 uses it): a .wpilog file
 # │   Was a Driver Station connected while the program ran?
 # │   ├─ no  → its name still has TBD in it, and the next start of the program deletes it
-# │   └─ yes → is there a USB stick in it (for a roboRIO: formatted FAT32)?
-# │       ├─ yes → /u/logs
+# │   └─ yes → is there a USB stick in the controller (for a roboRIO: formatted FAT32)?
+# │       ├─ yes → the folder logs on the stick: /u/logs on a roboRIO
 # │       └─ no  → which controller?
 # │           ├─ roboRIO (2026)    → /home/lvuser/logs
 # │           └─ Systemcore (2027) → /home/systemcore/logs
@@ -538,8 +548,9 @@ Table(
 # - **The stick:** robot off, pull it out. It has a folder `logs`.
 #
 # (2027: Systemcore and its tools are new. The folders above, and file names that begin with WPILIB
-# where those of 2026 begin with FRC, are those of WPILib's development branch. If something looks
-# different, believe the docs of your season.)
+# where those of 2026 begin with FRC, are those of WPILib's development branch. Where a Systemcore
+# has its stick is not settled: that code says `/u/logs`, teams who test one write `/U/logs`. If
+# something looks different, believe the docs of your season.)
 
 # %% [markdown]
 # ## 6 On the real robot, step by step
@@ -560,8 +571,8 @@ Table(
 #
 # Any order of the four tests will do. Forward, then reverse, has the robot back where it was.
 #
-# **Do 10 before anybody packs up.** It takes a minute, and a rerun takes five. Tomorrow it takes an
-# evening.
+# **Do step 10 before anybody packs up.** It takes a minute, and a rerun takes five. Tomorrow it
+# takes an evening.
 #
 # Here are steps 9 to 11 with a log of the bench. `sim.write` makes the kind of file a robot makes:
 
@@ -722,8 +733,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Slower needs *more* room for the same speed: d = kV·v²/(2·r). Half the ramp, twice the way. In a
-# short room take a steeper ramp, and let go earlier.
+# Slower needs *more* room for the same speed: d = kV·v²/(2·r). Half the ramp, twice the distance.
+# In a short room take a steeper ramp, and let go earlier.
 # </details>
 #
 # **2.** A teammate says: "SysId switches all limits off, so watch out." Right?

@@ -29,13 +29,15 @@
 # Give a fit any log, and it gives you three numbers. It does not know that a wheel slipped, or that
 # the battery was empty. It finds the numbers that miss *those* data least.
 #
-# > In, out: the fit believes the log. So somebody has to read the log first. That is you.
+# > The fit believes the log: nonsense in, nonsense out. So somebody has to read the log first. That
+# > is you.
 #
 # Our robot today is the bench's drivetrain. We know its true gains, so we can tell how wrong an
 # answer is. On your robot you cannot, and that is the point of this lesson.
 
 # %%
 from dataclasses import replace
+from textwrap import fill
 
 import ipywidgets as widgets
 import numpy as np
@@ -71,7 +73,7 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
-print(f"kA/kV = {1000 * TAU:.0f} ms: as long as it takes to get most of the way to a new speed")
+print(f"kA/kV = {1000 * TAU:.0f} ms: by then nearly two thirds of a new speed is reached")
 
 # %% [markdown]
 # ## 2 The model: what a sound log looks like
@@ -162,11 +164,11 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 #
 # The source lesson names four *contaminations*. Five more are common in the field.
 #
-# | | what happened | what to do |
+# | fault | what happened | what to do |
 # |---|---|---|
 # | **the source lesson's four** | | |
 # | encoder slip | the encoder loses its grip on the shaft for a while | fix it, run again |
-# | brownout | the battery sinks, the motors are cut, the log tells a voltage | charge, run again |
+# | brownout | the battery sinks, the motors are cut, the log shows a voltage | charge, run again |
 # | hard stop | it hits its end, the voltage goes on | trim, or run again |
 # | timing gaps | the robot program stalls, samples are missing | find the stall, run again |
 # | **five from the field** | | |
@@ -232,7 +234,7 @@ def position_slope(log: sim.Log) -> Picture:
         "velocity in the log": run.velocity[part],
         "slope of the position": np.gradient(run.position, run.time)[part],
     }
-    return curves(since[part], lines, xlabel="time [s]", ylabel="velocity [m/s]")
+    return curves(np.round(since[part], 2), lines, xlabel="time [s]", ylabel="velocity [m/s]")
 
 
 PLOTS = {
@@ -268,8 +270,8 @@ look("current limit", "over time")
 look("velocity filter", "velocity and position's slope")
 
 # %% [markdown]
-# What each of them does to the gains. (The two **R²** are SysId's scores. 1 is perfect, 0 is no
-# better than a guess, and below zero is worse than one. Section 5 is about them.)
+# What each of them does to the gains. (The two **R²** are SysId's scores. 1 is perfect. 0 says: the
+# gains explain nothing. Below zero it is worse than nothing. Section 5 is about them.)
 
 
 # %%
@@ -411,15 +413,23 @@ def trimmed(end: float, threshold: float, median: int) -> Picture:
     return choices(ratios(end, threshold, median), truth=1.0, name="found ÷ true")
 
 
+WHOLE = {"description_width": "initial"}  # a slider's name is not cut off
+
 live(
     trimmed,
     threshold=widgets.FloatSlider(
-        min=0, max=1, step=0.05, value=0, description="threshold", continuous_update=False
+        min=0, max=1, step=0.05, description="threshold [m/s]", style=WHOLE, continuous_update=False
     ),
     end=widgets.FloatSlider(
-        min=1, max=6, step=0.1, value=6, description="ramp ends", continuous_update=False
+        min=1,
+        max=6,
+        step=0.1,
+        value=6,
+        description="ramp ends [s]",
+        style=WHOLE,
+        continuous_update=False,
     ),
-    median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median"),
+    median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median of"),
 )
 
 # %% [markdown]
@@ -444,8 +454,8 @@ Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tr
 # - Each knob repairs something else. None of them repairs all. (The threshold takes away both the
 #   trembling and the stop, since at this stop the encoder is quiet. The wild readings stay.)
 # - **More is not better.** A median of 15 samples is longer than the rise itself: it flattens what
-#   you came to measure, and kA is gone. A threshold of 1 m/s drops the part of the ramp where kS
-#   shows.
+#   you came to measure, and half of kA is gone. A threshold of 1 m/s drops the part of the ramp
+#   where kS shows.
 #
 # ### Do not trim for beauty
 #
@@ -533,7 +543,14 @@ grid(sort="error of kA", truth="reveal")
 # %% [markdown]
 # The whole table, with what was done to each log, and both R²:
 
+
 # %%
+def percent(share: float) -> str:
+    """A share with its sign, on one line; no minus before a zero."""
+    whole = round(100 * share)
+    return f"{whole:+d}\N{NO-BREAK SPACE}%".replace("-", "−") if whole else "0\N{NO-BREAK SPACE}%"
+
+
 CASE_HEADER = ("log", "what happened", "kS off", "kV off", "kA off", ACC, SIM)
 Table(
     CASE_HEADER,
@@ -541,7 +558,7 @@ Table(
         (
             case.name,
             case.story,
-            *(f"{100 * case.off(gain):+.0f} %".replace("-", "−") for gain in OFF),
+            *(percent(case.off(gain)) for gain in OFF),
             case.fit.acceleration_r2,
             case.fit.simulated_velocity_r2,
         )
@@ -566,7 +583,7 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 #
 # - **The simulated velocity R² asks:** is the simulated velocity near the measured one? Velocity is
 #   mostly kV·v, and kV comes out right in nearly all of them. kA decides a fraction of a second.
-#   So kA may be off by half, and the score hardly moves.
+#   So kA may be off by half, and the score hardly changes.
 # - **kV is robust, kA is fragile, kS in between.** Many samples tell kV. A handful tells kA.
 # - **The acceleration R² is the more sensitive of the two.** Sort by it: spikes, lurch and the
 #   worst slips sink to the bottom. But it is *blind* to a wrong voltage, a wrong ratio and a wrong
@@ -589,7 +606,7 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 # 2. **kV against motors and gears**, within 10 %. (Lesson 1. The bench has no drag; a real robot is
 #    often a few percent above.)
 # 3. **kA against motors and mass**, within 25 %.
-# 4. **Acceleration R² not below 0.2**, as the docs say.
+# 4. **Acceleration R² not below 0.2**: below that, the docs call kA dubious.
 # 5. **Somebody looked:** at the plots of section 3. Here a program looks, `inspect`.
 
 # %%
@@ -618,8 +635,8 @@ by_signs = sum(found["signs"] for found in caught.values())
 print(f"Caught by their signs alone: {by_signs}.  By nothing: {', '.join(escaped)}.")
 
 # %% [markdown]
-# The sound log is in the list of those that nothing catches, as it should be. What else is in it
-# would hurt your robot, and only a person who knows the robot will find it. A velocity filter, for
+# The sound log is in the list of those that nothing catches, as it should be. The others in that
+# list are spoiled, and only a person who knows the robot will find out. A velocity filter, for
 # example: look into your motor controller's settings.
 #
 # A sixth check costs one line: **fit forward and reverse apart.** Friction that differs does not
@@ -646,7 +663,8 @@ print(f"It knows {len(FAULTS)} faults.")
 seen = inspect(gallery["encoder slip"])
 for damage in seen.damages:
     print(f"{damage.fault} in {damage.where.test}, confidence {damage.confidence:.2f}")
-    print(f"  {damage.evidence}\n  {damage.advice}")
+    for text in (damage.evidence, damage.advice):
+        print(fill(text, width=90, initial_indent="  ", subsequent_indent="  "))
 time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 
 # %% [markdown]
@@ -701,9 +719,10 @@ quick
 #
 # Something mechanical stuck and let go: slack in a chain, a skipped tooth, a tight bearing. (An
 # encoder that slipped only if position, a second sensor or the current show that the mechanism did
-# *not* move.) The few samples of the jump count a lot, because misses are squared: kS comes out too
-# small or negative, kA too large, kV hardly moves, and R² stays above 0.9. See "lurch" in the
-# table. Fix the mechanism and run again. A median filter or a trim only salvages.
+# *not* move.) The few samples of the jump
+# count a lot, because a fit squares its misses: three times as far off counts nine times. So kS
+# comes out too small or negative, kA too large, kV hardly changes, and R² stays above 0.9. See
+# "lurch" in the table. Fix the mechanism and run again. A median filter or a trim only salvages.
 # </details>
 #
 # **3.** "All our R² are above 0.97, so the gains are fine." What do you ask?

@@ -100,6 +100,22 @@ def test_the_picture_says_what_it_shows():
     assert dict(picture.table.rows)["pushes the wall for [s]"] == "never"
 
 
+@pytest.mark.parametrize(("tape", "side"), [(3.0, "left"), (7.0, "left"), (10.5, "right")])
+def test_the_motors_words_stand_off_the_tape_and_off_the_wall(tape, side):
+    picture = runway(gone(RAMP, wall=12.0, tape=tape))
+
+    (words,) = (text for text in picture.figure.axes[0].texts if text.get_text() == "motors off")
+    assert words.get_ha() == side  # the tape is passed before, the wall comes after
+
+
+def test_the_brownout_line_is_named_with_its_volts_and_not_covered():
+    went = gone(RAMP, wall=12.0)
+
+    (words,) = runway(went).figure.axes[2].texts
+    assert words.get_text() == f"dashed: brownout below {went.brownout:g} V"
+    assert words.xy[1] == 0.0
+
+
 def test_the_picture_of_an_accident_says_so():
     went = gone(RAMP, wall=12.0)
     picture = runway(went)

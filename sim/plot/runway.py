@@ -11,6 +11,7 @@ from sim.runway import Drive
 
 LONG, WIDE = 0.8, 0.8  # [m] of a robot with its bumpers, as drawn
 BEHIND = 1.2  # [m] of floor behind the start
+ROOMY = 0.25  # [share of the floor] that two words need between a line and the wall's own word
 SEEN, TAPE, BUMP = COLORS[0], COLORS[3], COLORS[1]
 LIT = "#F5C2A3"  # a paler vermilion: words over it stay legible
 
@@ -34,9 +35,9 @@ def runway(drive: Drive, *, moment: float = 1.0) -> Picture:
     speed.set_ylabel("speed [m/s]", color=INK)
     _over_time(battery, drive, drive.battery, now)
     battery.axhline(drive.brownout, color=REFERENCE, linestyle="--", linewidth=1.0)
-    battery.annotate(
-        "brownout below", (0.0, drive.brownout), xytext=(2, 2), textcoords="offset points",
-        fontsize=8, color=INK, bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.6},
+    battery.annotate(  # at the floor of the picture: a battery that gives in dips through the line
+        f"dashed: brownout below {drive.brownout:g} V", (0.0, 0.0), xytext=(3, 3),
+        textcoords="offset points", fontsize=8, color=INK,
     )  # fmt: skip
     battery.set_ylim(0.0, 1.12 * float(drive.battery.max()))
     battery.set_ylabel("battery [V]", color=INK)
@@ -52,7 +53,7 @@ def _floor(axes: Axes, drive: Drive, now: int) -> None:
     axes.set_xlim(-BEHIND, wall + 0.06 * (wall + BEHIND))
     axes.set_ylim(-1.0, 1.0)
     axes.set_yticks([])
-    axes.set_xlabel("way from the start [m]", color=INK)
+    axes.set_xlabel("distance from the start [m]", color=INK)
     axes.axvspan(wall, wall + 10.0, facecolor="#DDDDDD", edgecolor=INK, hatch="xxx", linewidth=1.0)
     _sign(axes, wall, "wall", ha="right", below=True)
     axes.axvline(0.0, color=INK, linewidth=1.0, linestyle=":")
@@ -62,7 +63,8 @@ def _floor(axes: Axes, drive: Drive, now: int) -> None:
     if drive.hit is None:
         there = float(np.interp(drive.released, drive.time, drive.position))
         axes.axvline(there, color=INK, linewidth=1.2, linestyle=":")
-        _sign(axes, there, "motors off", ha="right", below=True)
+        near = wall - there < ROOMY * (wall + BEHIND)
+        _sign(axes, there, "motors off", ha="right" if near else "left", below=True)
     _robot(axes, rests, fill=False)
     _robot(axes, float(drive.position[now]), fill=True)
     if drive.hit is not None:
