@@ -625,14 +625,14 @@ caught = {
 Table(
     ("log", *CHECKS),
     tuple(
-        (name, *("caught" if c else "-" for c in found.values())) for name, found in caught.items()
+        (name, *("caught" if c else "·" for c in found.values())) for name, found in caught.items()
     ),
 )
 
 # %%
 escaped = [name for name, found in caught.items() if not any(found.values())]
 by_signs = sum(found["signs"] for found in caught.values())
-print(f"Caught by their signs alone: {by_signs}.  By nothing: {', '.join(escaped)}.")
+print(f"Caught by their signs alone: {by_signs}.  By nothing: {'; '.join(escaped)}.")
 
 # %% [markdown]
 # The sound log is in the list of those that nothing catches, as it should be. The others in that

@@ -115,6 +115,7 @@ def _lamp(axes: Axes, drive: Drive) -> None:
         fontsize=10,
         color=INK,
         loc="right",
+        x=0.99,  # its frame ends with the floor
         bbox={"facecolor": LIT if out else PAPER, "edgecolor": INK, "boxstyle": "round,pad=0.3"},
     )
 
