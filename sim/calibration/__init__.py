@@ -96,7 +96,7 @@ _RECIPES = (
     ),
     _Recipe(
         "asked volts, 7 V step",
-        "120 A limit, good battery (20 mΩ); the log holds the volts that were asked for",
+        "a 120 A limit, good battery (20 mΩ); the log holds the volts that were asked for",
         setup=drivetrains.GOOD_BATTERY,
         spoil=harm.as_asked(drivetrains.GOOD_BATTERY),
     ),
@@ -139,7 +139,7 @@ _RECIPES = (
     ),
     _Recipe(
         "friction differs",
-        "0.15 V forward, 0.45 V in reverse",
+        "friction 0.15 V forward, 0.45 V in reverse",
         setup=drivetrains.LEANING,
     ),
     _Recipe("wrong gear ratio", "the encoder's distances are divided by 1.25", spoil=harm.ratio),
