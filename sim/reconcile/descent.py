@@ -5,7 +5,7 @@ pushes at random.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -19,7 +19,9 @@ LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which q is 
 SCANNED = (-12, -9, -6, -4, -2)  # powers of it: what pushes is first thought too large
 SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size that are worth another look
 SURELY_MORE = 10.0  # [of -2 log L]
+HALVINGS = 3  # of the best start: what an effect offers may be too large for what is subtle
 ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
+Begun = tuple[float, Point]  # what a start promises, and where it begins
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
 
 
@@ -76,11 +78,12 @@ def better(problem: Problem, point: Point, *, steps: int, enough: float = ENOUGH
 def promise(
     problem: Problem, point: Point, hypothesis: Hypothesis,
     more: Sequence[Mapping[str, float]], *, kept: Array,
-) -> list[tuple[float, Point]]:  # fmt: skip
+) -> list[Begun]:  # fmt: skip
     """What each start of a suspect may gain once the gains have adjusted to it, and its point.
 
     A start that goes too far is tried again at the part of it that would gain most, if what it does
-    were proportional to its size.
+    were proportional to its size; the best of all is halved while that promises more, for what does
+    not act in proportion (free play, a limit) and is smaller than every start.
 
     Args:
         problem: the measurements.
@@ -94,28 +97,42 @@ def promise(
         rest = problem.white(point, ahead)
         return np.asarray(rest - kept @ (kept.T @ rest))
 
-    def tried(one: Mapping[str, float]) -> Point:
-        return problem.at(hypothesis, {**point.values, **one}, point.starts, point.q)
+    def begun(one: Mapping[str, float]) -> tuple[float, Point]:
+        other = problem.at(hypothesis, {**point.values, **one}, point.starts, point.q)
+        if not math.isfinite(other.cost):
+            return -math.inf, other
+        after = off(other.ahead)
+        return square - float(after @ after), other
 
     now = off(point.ahead)
     square = float(now @ now)
     found = []
     for one in more:
-        other = tried(one)
-        if not math.isfinite(other.cost):
+        gained, other = begun(one)
+        if not math.isfinite(gained):
             continue
-        after = off(other.ahead)
-        gained = square - float(after @ after)
-        change = after - now
+        change = off(other.ahead) - now
         along = float(change @ change)
         part = -float(change @ now) / along if along > 0.0 else 0.0
         found.append((gained, other))
         if SMALL_PART < part < LARGE_PART and part**2 * along > gained + SURELY_MORE:
-            less = tried(_smaller(hypothesis, one, part))
-            if math.isfinite(less.cost):
-                after = off(less.ahead)
-                found.append((square - float(after @ after), less))
-    return found
+            found.append(begun(_smaller(hypothesis, one, part)))
+    if found:
+        found += _halved(hypothesis, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
+    return [one for one in found if math.isfinite(one[0])]
+
+
+def _halved(
+    hypothesis: Hypothesis, names: Sequence[str], best: Begun,
+    begun: Callable[[Mapping[str, float]], Begun],
+) -> Iterator[Begun]:  # fmt: skip
+    """Half of the best start, and half of that, as long as it promises more."""
+    for _ in range(HALVINGS):
+        half = begun(_smaller(hypothesis, {name: best[1].values[name] for name in names}, 0.5))
+        if not half[0] > best[0]:
+            return
+        yield half
+        best = half
 
 
 def _smaller(hypothesis: Hypothesis, one: Mapping[str, float], part: float) -> dict[str, float]:

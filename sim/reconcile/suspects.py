@@ -6,7 +6,7 @@ each change of voltage, as two bodies do, is tried on the lively runs first.
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from sim.effect import Effect
@@ -15,12 +15,13 @@ from sim.evidence import Evidence
 from sim.reconcile.descent import adjusting, better, promise, settle
 from sim.reconcile.friction import varied
 from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.problem import Point, Problem
+from sim.reconcile.problem import STEPWISE, Point, Problem
 
 TRIED, KEPT = 8, 4  # suspects that go downhill a little, and to the end
 A_LITTLE = 2  # steps
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
 CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
+STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
 LIVELIEST = 2  # starts of two bodies that are simulated over all runs
 OWN: dict[str, tuple[str, ...]] = {"elevator": ("constant-load",), "arm": ("gravity-cosine",)}
 """Base type -> the effects that it has already."""
@@ -134,12 +135,24 @@ def _begun(
         if effect.kind == "two-body":
             lively = lively or _Lively(problem, point)
             more = lively.best(hypothesis, more)
+        more += _steps_below(effect, more)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))
         begun = promise(problem, point, hypothesis, more, kept=kept)
         if begun:
             found.append(max(begun, key=lambda one: one[0]))
     return sorted(found, key=lambda one: -one[0])
+
+
+def _steps_below(
+    effect: Effect, starts: Sequence[Mapping[str, float]]
+) -> Iterator[dict[str, float]]:
+    """The least start, and less and less of what acts by a threshold: no slope leads down to it."""
+    names = [f"{effect.name}.{name}" for name in effect.names if name in STEPWISE]
+    if names and starts:
+        least = min(starts, key=lambda one: one[names[0]])
+        for power in range(1, STEPS_BELOW + 1):
+            yield {**least, **{name: least[name] * STEP_BELOW**power for name in names}}
 
 
 class _Lively:
