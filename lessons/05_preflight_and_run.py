@@ -305,6 +305,9 @@ live(
 )
 
 # %% [markdown]
+# With 3 and 4 the floor shows nothing: the robot drives as always. What they spoil is the log, and
+# nobody sees that in the pit. The second half below does.
+#
 # No menu? Here is the battery that was not charged, in the step:
 
 # %%

@@ -25,7 +25,7 @@ from sim.units import unit
 JUMP = 0.5  # [V] from one sample to the next; a ramp never rises so fast
 CLOSE = (0.0, 0.03, 0.07, 0.11, 0.15, 0.21, 0.31, 0.51, 1.01)  # [s] after a jump, edges of cells
 CELLS = 8  # of speed, and of the battery's voltage
-MOST = 300  # samples of a side that are drawn: more would cover each other, and take their time
+MOST = 200  # samples of a side that are drawn: more would cover each other, and take their time
 FEWEST = 3  # samples of which a mean says anything
 NUMBERS = {3: "Three", 4: "Four"}  # views: a log without the battery's voltage has one less
 EASY = 0.98  # [quantile] of the samples that is drawn: one wild row must not flatten the rest
@@ -206,7 +206,7 @@ def _sorted(lacking: Array, at: Array, edges: Array, cell: NDArray[np.intp]) -> 
 
 def _draw(axes: Axes, view: View, *, high: float) -> None:
     inside = np.flatnonzero((view.at >= view.edges[0]) & (view.at <= view.edges[-1]))
-    inside = inside[:: max(1, inside.size // MOST)]
+    inside = inside[:: max(1, -(-inside.size // MOST))]
     axes.plot(
         view.at[inside], view.volts[inside], ".", color=COLORS[4], markersize=2.5, alpha=0.6,
         label="samples",
