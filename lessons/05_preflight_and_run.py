@@ -305,9 +305,6 @@ live(
 )
 
 # %% [markdown]
-# With 3 and 4 the floor shows nothing: the robot drives as always. What they spoil is the log, and
-# nobody sees that in the pit. The second half below does.
-#
 # No menu? Here is the battery that was not charged, in the step:
 
 # %%
@@ -318,6 +315,9 @@ morning("2 battery", STEP, moment=1.0)
 # below a threshold. Then the robot controller takes the motors off, to keep itself alive: that is a
 # *brownout*. The battery recovers at once, the motors come back, and so on. The robot crawls. (Our
 # bench lets the motors back as soon as they may; a real robot stutters at a rhythm of its own.)
+#
+# With 3 and 4 skipped, the floor shows nothing: the robot drives as always. What they spoil is the
+# log, and that nobody sees in the pit.
 #
 # ### What the log is worth
 #
