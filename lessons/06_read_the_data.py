@@ -541,7 +541,7 @@ live(
 grid(sort="error of kA", truth="reveal")
 
 # %% [markdown]
-# The whole table, with what was done to each log, and both R²:
+# Here is what was done to each log, and the whole table with both R²:
 
 
 # %%
@@ -551,20 +551,25 @@ def percent(share: float) -> str:
     return f"{whole:+d}\N{NO-BREAK SPACE}%".replace("-", "−") if whole else "0\N{NO-BREAK SPACE}%"
 
 
-CASE_HEADER = ("log", "what happened", "kS off", "kV off", "kA off", ACC, SIM)
-Table(
-    CASE_HEADER,
-    tuple(
-        (
-            case.name,
-            case.story,
-            *(percent(case.off(gain)) for gain in OFF),
-            case.fit.acceleration_r2,
-            case.fit.simulated_velocity_r2,
-        )
-        for case in all_cases
+display(
+    Table(
+        ("log", "what happened"),
+        tuple((case.name, case.story) for case in all_cases),
+        caption="60 kg, four Kraken X60; ramp 1 V/s for 7 s, step 3.5 V if not said otherwise",
     ),
-    caption="60 kg, four Kraken X60; ramp 1 V/s for 7 s, step 3.5 V if not said otherwise",
+    Table(
+        ("log", "kS off", "kV off", "kA off", ACC, SIM),
+        tuple(
+            (
+                case.name,
+                *(percent(case.off(gain)) for gain in OFF),
+                case.fit.acceleration_r2,
+                case.fit.simulated_velocity_r2,
+            )
+            for case in all_cases
+        ),
+        caption="What SysId's recipe makes of it",
+    ),
 )
 
 # %%
