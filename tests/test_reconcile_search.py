@@ -1,18 +1,29 @@
-"""Where a search begins: what is small, and what acts by a threshold, is found all the same."""
+"""Where a search begins, and which path it goes: what is small or masked is found as well."""
 
+import math
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from reconcile_made import SESSIONS, bench, session, told
 
+from sim.fit.seen import Noise
 from sim.model import Part
 from sim.reconcile.descent import adjusting, promise
+from sim.reconcile.gates import Gap
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
-from sim.reconcile.problem import Problem
+from sim.reconcile.problem import Point, Problem
+from sim.reconcile.round import Round, Weighed
+from sim.reconcile.rounds import best_path, turnings
+from sim.reconcile.story import Tried
+from sim.reconcile.suspects import Suspect
+from sim.reconcile.thresholds import MAJOR
+from sim.reconcile.weighing import simplest
 
 BAND = 0.25  # [V] of an elevator whose ramps begin at 1.5 V upward, and at once downward
+RIPPLE, RIPPLES = 0.04, 12.0  # [V] less than what is everyday, and how often along the way
 SUBTLE, FAR = 0.3, 8.0  # [1] of an ordinary size, and how much too large a start may be
 
 
@@ -46,3 +57,104 @@ def test_a_start_that_is_far_too_large_is_halved():
     assert at_once < 0.0  # so far off that nothing else would ever have been tried
     assert most > 0.0
     assert best.values["backlash.slack"] == pytest.approx(truth, rel=1.0)
+
+
+# -- which path is gone ---------------------------------------------------------------------------
+
+
+def model(effect, score, *, gap, others=()):
+    """A round, as far as choosing a path asks: what it added, how likely, how far off."""
+    suspect = Suspect(effect, NOWHERE, score)
+    weighed = tuple(
+        Weighed(
+            Suspect(name, NOWHERE, 0.0),
+            Gap(gap, gap),
+            Tried(name, more, 0.9, admitted=good, why=""),
+        )
+        for name, more, good in others
+    )
+    return Round(suspect, Gap(gap, gap), Gap(gap, gap), weighed=weighed)
+
+
+NOWHERE = Point(Hypothesis("simple"), {}, np.empty(0), 0.0, np.zeros((2, 2)), np.empty((0, 2)), 0.0)
+ONE_NOISE = Problem((), Noise(1.0, 1.0, (0.0, 0.0)))
+FIRST = [("drag", 400.0, True), ("delay", 300.0, True), ("spring", 200.0, False)]
+THEN = [("cogging", 90.0, True), ("stribeck", 80.0, True), ("delay", 10.0, True)]
+
+
+def gone(*, end):
+    return [
+        model("", 1000.0, gap=9.0, others=FIRST),
+        model("drag", 600.0, gap=5.0, others=THEN),
+        model("cogging", 510.0, gap=end),
+    ]
+
+
+def test_other_paths_turn_off_early_where_an_admitted_effect_came_near():
+    found = [(place, one.suspect.effect) for place, one in turnings(gone(end=4.0))]
+
+    # spring was not admitted, and a delay of 10 is no ninth of what cogging explained
+    assert found == [(0, "delay"), (1, "stribeck")]
+
+
+@pytest.mark.parametrize(
+    ("end", "other", "taken"),
+    [
+        (4.0, (300.0, 1.2), True),  # likelier and nearer
+        (4.0, (300.0, 4.5), False),  # likelier, and farther off on runs it was not fitted to
+        (4.0, (505.0, 3.9), False),  # hardly likelier
+        (1.2, (300.0, 1.0), False),  # the first path does not stray: no other is gone
+    ],
+)
+def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
+    monkeypatch, end, other, taken
+):
+    done = gone(end=end)
+    score, gap = other
+    path = [done[0], model("delay", score, gap=gap)]
+    monkeypatch.setattr(sys.modules[best_path.__module__], "_gone", lambda *_: path)
+
+    found = best_path(ONE_NOISE, done, None, (), lambda *_: None)
+
+    assert (found is path) is taken
+
+
+# -- which of two is taken ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "taken"),
+    [
+        (("drag", 45.0, 0.74), ("heating", 43.0, 0.58), "heating"),  # the validation prefers it
+        (("drag", 45.0, 0.74), ("heating", 43.0, 0.735), "drag"),  # hardly: the likelier
+        (("drag", 45.0, 0.74), ("heating", 30.0, 0.58), "drag"),  # surely likelier
+        (("spring", 45.0, 0.58), ("drag", 43.0, 0.74), "drag"),  # fewer parameters go first
+    ],
+)
+def test_of_two_about_as_likely_the_validation_decides(one, other, taken):
+    weighed = [
+        Weighed(at(name), Gap(1.0, 1.0), Tried(name, score, gap, admitted=True, why=""))
+        for name, score, gap in (one, other)
+    ]
+
+    assert simplest(weighed).suspect.effect == taken
+
+
+def at(effect):
+    hypothesis = Hypothesis("simple") + effect
+    return Suspect(effect, replace(NOWHERE, hypothesis=hypothesis), 0.0)
+
+
+# -- what is no alarm -----------------------------------------------------------------------------
+
+
+def test_a_ripple_that_any_robot_has_is_minor_however_much_of_the_gap_it_takes():
+    turns = 2.0 * math.pi * RIPPLES / bench("elevator").scale.reach
+
+    story = told(
+        sessions("elevator", "cogging", cosine=RIPPLE, sine=0.0, turns=turns), type="elevator"
+    )
+
+    assert [(one.effect, one.size) for one in story.findings] == [("cogging", "minor")]
+    assert story.gap_after < MAJOR * story.gap_before  # but for its size it would be major
+    assert story.verdict == "nothing-missing"

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -9,7 +10,8 @@ from sim.effects import EFFECTS
 from sim.reconcile.damage import Damaged
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.remainder import Moment
-from sim.reconcile.rounds import Round, apart
+from sim.reconcile.round import Round
+from sim.reconcile.second_thoughts import apart
 from sim.reconcile.story import (
     AMBIGUOUS,
     EXPLAINED,
@@ -58,7 +60,12 @@ def findings_of(
         effects = []
     effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
     effects.sort(key=lambda one: (one.size != "major", _everyday(one, last), -one.score))
-    return (*faults, *effects)
+    return (*faults, *(_no_alarm(one, last) for one in effects))
+
+
+def _no_alarm(one: Finding, last: Point) -> Finding:
+    """The same; what any robot has a little of is minor, however much of a small gap it takes."""
+    return replace(one, size="minor") if _everyday(one, last) else one
 
 
 def _everyday(one: Finding, last: Point) -> bool:

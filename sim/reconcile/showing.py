@@ -14,7 +14,7 @@ from sim.reconcile.aside import Aside
 from sim.reconcile.gates import errors_of, rms
 from sim.reconcile.lanes import lanes
 from sim.reconcile.problem import Problem
-from sim.reconcile.rounds import Round, shown_of
+from sim.reconcile.round import Round, shown_of
 from sim.reconcile.story import Chapter
 from sim.reconcile.usable import repeated
 from sim.reconcile.where import map_of

@@ -68,3 +68,10 @@ STRAYS = 2.5
 
 A complete model of an arm, whose runs end where small errors of friction have added up, leaves two.
 """
+
+NEAR = 0.25
+"""[1] of the best score of its round, from which an effect may begin another path where the first
+one strays: what resembles two effects at once is far likelier than each of them alone."""
+
+PATHS = 1
+"""Other paths that are gone where the first one strays: each takes as long as the first."""

@@ -1,0 +1,97 @@
+"""Second thoughts: what an earlier effect is worth beside the later ones, and what would do better.
+
+Of two effects that mask each other, the first that is found may be a third one that resembles both.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from sim.effects import EFFECTS
+from sim.evidence import gather
+from sim.log import Log
+from sim.reconcile.descent import settle
+from sim.reconcile.gates import Fold, Gap, outside
+from sim.reconcile.problem import Problem
+from sim.reconcile.round import Round
+from sim.reconcile.suspects import Suspect, judged, suspects
+from sim.reconcile.thresholds import CLOSE, SURE, SURER
+from sim.reconcile.weighing import WIDENS, gained, why_not
+
+ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
+
+
+def reconsidered(
+    problem: Problem, done: list[Round], log: Log, parts: Sequence[Fold]
+) -> list[Round]:
+    """The same, with an earlier effect in another's place where that is likelier by now."""
+    last = done[-1]
+    for place in range(1, len(done) - 1):
+        effect = done[place].suspect.effect
+        others = _others(done, place)
+        if not others:
+            continue
+        reduced = without(problem, last.suspect, effect)
+        if reduced.score - last.suspect.score < SURE:  # it has become needless
+            gap = outside(problem, reduced.point, parts)
+            rest = [*done[:place], *done[place + 1 : -1]]
+            return [
+                *rest,
+                replace(last, suspect=replace(reduced, effect=last.suspect.effect), gap=gap),
+            ]
+        model = reduced.point.hypothesis.model(reduced.point.values)
+        evidence = gather(log, dict(model.gains), type=reduced.point.hypothesis.type)
+        found = suspects(problem, reduced.point, evidence, only=others, seeds=last.seeds)
+        if not found or gained(last.suspect, found[0]) < CLOSE:
+            continue
+        gap = outside(problem, found[0].point, parts)
+        if why_not(gap, last.gap, SURER) == WIDENS:
+            continue
+        return _replaced(done, place, found[0], gap)
+    return done
+
+
+def _others(done: Sequence[Round], place: int) -> list[str]:
+    """Effects that looked like one that was added, or are known to."""
+    effect = done[place].suspect.effect
+    had = {one.suspect.effect for one in done}
+    tried = done[place - 1].tried
+    best = max((one.score for one in tried), default=0.0)
+    alike = [one.effect for one in tried if one.score > ALIKE * best]
+    return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
+
+
+def _replaced(done: Sequence[Round], place: int, found: Suspect, gap: Gap) -> list[Round]:
+    """The rounds with another effect in the place of one."""
+    last = done[-1]
+    old = done[place]
+    swapped = replace(old.suspect, effect=found.effect)
+    middle = [*done[:place], replace(old, suspect=swapped, rivals=()), *done[place + 1 : -1]]
+    end = replace(found, effect=last.suspect.effect)
+    return [*middle, replace(last, suspect=end, gap=gap, rivals=())]
+
+
+def missed_by(problem: Problem, done: list[Round], parts: Sequence[Fold]) -> list[Round]:
+    """The same, each with what the last model would be without its effect."""
+    if len(done) <= 2:  # noqa: PLR2004 - one effect: what it brought is what it is worth
+        return done
+    last = done[-1].suspect
+    told = [done[0]]
+    for one in done[1:]:
+        reduced = without(problem, last, one.suspect.effect)
+        gap = outside(problem, reduced.point, parts)
+        told.append(replace(one, lost=reduced.score - last.score, bare=gap))
+    return told
+
+
+def without(problem: Problem, suspect: Suspect, effect: str) -> Suspect:
+    """A model without one of its effects, fitted anew."""
+    point = suspect.point
+    hypothesis = point.hypothesis - effect
+    values = {name: point.values[name] for name in hypothesis.names}
+    begin = problem.at(hypothesis, values, point.starts, point.q)
+    return judged(problem, settle(problem, begin))
+
+
+def apart(effect: str, other: str) -> str:
+    """The test that tells two effects apart; empty where none is known."""
+    return EFFECTS[effect].apart.get(other, "") or EFFECTS[other].apart.get(effect, "")

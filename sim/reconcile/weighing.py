@@ -1,0 +1,91 @@
+"""Weighing: each suspect of a round against the gates, and the one that is taken."""
+
+from collections.abc import Sequence
+
+from sim.effects import EFFECTS
+from sim.evidence import gather
+from sim.log import Log
+from sim.reconcile.gates import Fold, Gap, outside
+from sim.reconcile.problem import Problem
+from sim.reconcile.round import Round, Weighed
+from sim.reconcile.story import Tried
+from sim.reconcile.suspects import Suspect, suspects
+from sim.reconcile.thresholds import (
+    AS_GOOD,
+    CLOSE,
+    NARROWER,
+    NOT_WIDER,
+    SIMPLER,
+    SURE,
+    SURER,
+)
+
+HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
+TINY = 1e-300  # no gap at all
+
+
+def weigh(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> list[Weighed]:
+    """The suspects of a round, each against the gates; the likeliest first."""
+    point = now.suspect.point
+    model = point.hypothesis.model(point.values)
+    evidence = gather(log, dict(model.gains), type=point.hypothesis.type)
+    found = []
+    for suspect in suspects(problem, point, evidence, seeds=now.seeds):
+        score = now.suspect.score - suspect.score
+        if score < SURE:
+            tried = Tried(suspect.effect, score, 1.0, admitted=False, why="explains too little")
+            found.append(Weighed(suspect, now.gap, tried))
+            continue
+        gap = outside(problem, suspect.point, parts)
+        why = why_not(gap, now.gap, score)
+        share = gap.velocity / max(now.gap.velocity, TINY)
+        tried = Tried(suspect.effect, score, share, admitted=not why, why=why)
+        found.append(Weighed(suspect, gap, tried))
+    return found
+
+
+def why_not(gap: Gap, before: Gap, score: float) -> str:
+    """The gate that a suspect does not pass; empty if it passes all."""
+    velocity = gap.velocity / max(before.velocity, TINY)
+    position = gap.position / max(before.position, TINY)
+    if velocity > NOT_WIDER and (velocity * position) ** 0.5 > NOT_WIDER:
+        return WIDENS
+    if velocity > NARROWER and ((velocity * position) ** 0.5 > NARROWER or score < SURER):
+        return HARDLY
+    return ""
+
+
+def simplest(admitted: Sequence[Weighed]) -> Weighed:
+    """The likeliest, or one about as likely with fewer parameters.
+
+    Of as many parameters each, about as likely, the one that the validation clearly prefers.
+    """
+    best = admitted[0]
+    top = best.tried.score
+    simpler = EFFECTS[best.suspect.effect].simpler
+    near = [
+        one
+        for one in admitted
+        if top - one.tried.score <= SIMPLER
+        or (one.suspect.effect == simpler and one.tried.score > AS_GOOD * top)
+    ]
+    fewest = min(one.suspect.point.hypothesis.free for one in near)
+    near = [one for one in near if one.suspect.point.hypothesis.free == fewest]
+    likeliest = max(near, key=lambda one: one.tried.score)
+    nearest = min(near, key=lambda one: one.tried.gap)
+    return nearest if nearest.tried.gap < NARROWER * likeliest.tried.gap else likeliest
+
+
+def rivals(best: Weighed, weighed: Sequence[Weighed]) -> tuple[str, ...]:
+    """The effects that explain about as much as the one that was taken."""
+    return tuple(
+        one.suspect.effect
+        for one in weighed
+        if one is not best and one.tried.admitted and best.tried.score - one.tried.score <= CLOSE
+    )
+
+
+def gained(now: Suspect, other: Suspect) -> float:
+    """[of -2 log L] by which another model is likelier; one with fewer values wins when close."""
+    fewer = now.point.hypothesis.free - other.point.hypothesis.free
+    return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)
