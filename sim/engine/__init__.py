@@ -16,7 +16,8 @@ from types import ModuleType
 import numpy as np
 
 from sim.effects import EFFECTS
-from sim.engine.compose import HOOKS, compose, is_compiled, places
+from sim.engine.asked import COARSEST, ORDER, arrays, coarsest, constants, finest, only_delays
+from sim.engine.compose import compose, is_compiled
 from sim.engine.kernel import Kernel
 from sim.engine.stepping import (
     APPLIED,
@@ -32,25 +33,17 @@ from sim.engine.stepping import (
     empty,
 )
 from sim.log import Array
-from sim.model import Model, Part
+from sim.model import Model
 
 __all__ = [
-    "COARSEST", "NO_TRUST", "NO_WIRES", "Lead", "State", "Track", "compiled", "finest", "follow",
-    "move", "ready",
+    "COARSEST", "NO_TRUST", "NO_WIRES", "ORDER", "Lead", "State", "Track", "arrays", "compiled",
+    "constants", "finest", "follow", "move", "ready",
 ]  # fmt: skip
 
-COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
-# middle rule is then far below a thousandth for anything slower than 10 ms
-SEARCHED = 0.01  # [s] the same while a search looks for an effect
-LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] nothing on a robot needs finer ones
-SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
 ONE_AT_A_TIME = Lock()
 NO_WIRES: Array = np.zeros(9)
 UNSEEN: Array = np.zeros((0, 2))
 NO_TRUST: Array = np.zeros((2, 2))
-PLACES = places(EFFECTS)
-NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutral.values()])
-ORDER = {name: place for place, name in enumerate(EFFECTS)}
 
 
 @dataclass(eq=False)
@@ -130,7 +123,7 @@ def move(
     """
     on, parameters = arrays(model)
     out = empty(time.size)
-    simple = not wires.any() and model.type != "arm" and all(map(_only_delays, model.parts))
+    simple = not wires.any() and model.type != "arm" and all(map(only_delays, model.parts))
     longest = step or (math.inf if simple else finest(model))
     kernel = _plain() if plain else _compiled()
     kernel.move(
@@ -193,8 +186,8 @@ def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
     """
     on, parameters = arrays(model)
     fixed = constants(model)
-    simple = model.type != "arm" and all(map(_only_delays, model.parts))
-    longest = math.inf if simple else _searched(model)
+    simple = model.type != "arm" and all(map(only_delays, model.parts))
+    longest = math.inf if simple else coarsest(model)
     memory, session = np.zeros(len(EFFECTS)), None
     out = empty(sum(lead.time.size for lead in leads))
     first, play, kernel = 0, _play(model), _compiled()
@@ -234,62 +227,6 @@ def _play(model: Model) -> float:
             asked = inspect.signature(slack).parameters
             total += float(slack(*(part.parameters[name] for name in asked)))
     return total
-
-
-def _only_delays(part: Part) -> bool:
-    """Whether an effect changes when things happen and are seen, and no force."""
-    return set(EFFECTS[part.effect].acts) <= {"late", "sees"}
-
-
-def constants(model: Model) -> Array:
-    """(8,) what the engine knows of the base model, in the order of ``sim.engine.stepping``."""
-    gains = model.gains
-    level = gains.get("kG", 0.0)
-    low, high = model.travel or (-math.inf, math.inf)
-    return np.array(
-        [
-            gains["kS"],
-            gains["kV"],
-            gains["kA"],
-            level if model.type == "elevator" else 0.0,
-            level if model.type == "arm" else 0.0,
-            gains.get("offset_rad", 0.0),
-            low,
-            high,
-        ]
-    )
-
-
-def arrays(model: Model) -> tuple[Array, Array]:
-    """Which effects are on, then which hooks are needed; and the parameters of all effects."""
-    on = np.zeros(len(EFFECTS) + len(HOOKS) + 1)
-    parameters = NEUTRAL.copy()
-    for part in model.parts:
-        on[ORDER[part.effect]] = 1.0
-        for hook in EFFECTS[part.effect].acts:
-            on[len(EFFECTS) + (*HOOKS, "remembers").index(hook)] = 1.0
-        parameters[PLACES[part.effect]] = [part.parameters[n] for n in EFFECTS[part.effect].names]
-    return on, parameters
-
-
-def finest(model: Model) -> float:
-    """[s] the step that the fastest of a model's effects asks for."""
-    return max(min(COARSEST, SHARE_OF_PACE * _fastest(model)), LEAST_STEP)
-
-
-def _searched(model: Model) -> float:
-    """[s] the same while a search looks for an effect."""
-    return max(min(SEARCHED, 2.0 * SHARE_OF_PACE * _fastest(model)), LEAST_SEARCHED)
-
-
-def _fastest(model: Model) -> float:
-    """[s] the shortest time scale of a model."""
-    paces = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
-    for part in model.parts:
-        pace = EFFECTS[part.effect].pace
-        if pace is not None:
-            paces.append(pace(part.parameters, model.gains))
-    return min(paces)
 
 
 def compiled() -> bool:

@@ -1,0 +1,77 @@
+"""A model as the stepping takes it: its gains and parameters in arrays, and the steps it needs."""
+
+import math
+
+import numpy as np
+
+from sim.effects import EFFECTS
+from sim.engine.compose import HOOKS, places
+from sim.log import Array
+from sim.model import Model, Part
+
+__all__ = ["ORDER", "arrays", "coarsest", "constants", "finest", "only_delays"]
+
+COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
+# middle rule is then far below a thousandth for anything slower than 10 ms
+SEARCHED = 0.01  # [s] the same while a search looks for an effect
+LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] nothing on a robot needs finer ones
+SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
+PLACES = places(EFFECTS)
+NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutral.values()])
+ORDER = {name: place for place, name in enumerate(EFFECTS)}
+
+
+def only_delays(part: Part) -> bool:
+    """Whether an effect changes when things happen and are seen, and no force."""
+    return set(EFFECTS[part.effect].acts) <= {"late", "sees"}
+
+
+def constants(model: Model) -> Array:
+    """(8,) what the engine knows of the base model, in the order of ``sim.engine.stepping``."""
+    gains = model.gains
+    level = gains.get("kG", 0.0)
+    low, high = model.travel or (-math.inf, math.inf)
+    return np.array(
+        [
+            gains["kS"],
+            gains["kV"],
+            gains["kA"],
+            level if model.type == "elevator" else 0.0,
+            level if model.type == "arm" else 0.0,
+            gains.get("offset_rad", 0.0),
+            low,
+            high,
+        ]
+    )
+
+
+def arrays(model: Model) -> tuple[Array, Array]:
+    """Which effects are on, then which hooks are needed; and the parameters of all effects."""
+    on = np.zeros(len(EFFECTS) + len(HOOKS) + 1)
+    parameters = NEUTRAL.copy()
+    for part in model.parts:
+        on[ORDER[part.effect]] = 1.0
+        for hook in EFFECTS[part.effect].acts:
+            on[len(EFFECTS) + (*HOOKS, "remembers").index(hook)] = 1.0
+        parameters[PLACES[part.effect]] = [part.parameters[n] for n in EFFECTS[part.effect].names]
+    return on, parameters
+
+
+def finest(model: Model) -> float:
+    """[s] the step that the fastest of a model's effects asks for."""
+    return max(min(COARSEST, SHARE_OF_PACE * _fastest(model)), LEAST_STEP)
+
+
+def coarsest(model: Model) -> float:
+    """[s] the same while a search looks for an effect."""
+    return max(min(SEARCHED, 2.0 * SHARE_OF_PACE * _fastest(model)), LEAST_SEARCHED)
+
+
+def _fastest(model: Model) -> float:
+    """[s] the shortest time scale of a model."""
+    paces = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
+    for part in model.parts:
+        pace = EFFECTS[part.effect].pace
+        if pace is not None:
+            paces.append(pace(part.parameters, model.gains))
+    return min(paces)
