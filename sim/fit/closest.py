@@ -20,6 +20,7 @@ from sim.log import Array
 STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
 SMALL = 0.0125  # [share of the top speed] error that is small whatever the noise
 HOLDS = 0.05  # [1/s] q over the variance of a velocity: a model that needs more lacks something
+EXACT = 1e-5  # [1/s] the same, that noise alone never asks for: more, and errors come in whiles
 STEPS = 30  # of the search
 LAGS = ("window", "lag")
 TOGETHER = 0.5  # [s] for which what is missing errs one way
@@ -155,10 +156,10 @@ def wider(problem: Problem, point: Point, followed: Followed) -> Iterator[Array]
         point: the best point, with fine slopes.
         followed: how it follows.
     """
-    small = misfits(problem, point, followed)
-    if followed.strays or small:
+    lacks = point.q > EXACT * problem.noise.velocity**2
+    if followed.strays or lacks:
         yield _by_whiles(problem, point)
-    if small:
+    if lacks and not followed.strays:
         alone = problem.at(point.values, point.starts, DEEP * problem.noise.velocity**2)
         yield _by_whiles(problem, problem.sloped(alone))
 

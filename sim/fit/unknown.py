@@ -60,10 +60,11 @@ def refuse_unknown(
     ]
     if not unknown:
         return
-    said = " and ".join(
-        f"{name} ± {_size(errors[name])}" if math.isfinite(errors[name]) else name
+    each = [
+        f"{name} (± {errors[name]:.2g})" if math.isfinite(errors[name]) else name
         for name in unknown
-    )
+    ]
+    said = " and ".join(filter(None, [", ".join(each[:-1]), each[-1]]))
     pair = {"kS", "kG"} <= set(unknown) and type != "simple"
     raise NotIdentifiable(
         f"this log cannot tell {said}",
