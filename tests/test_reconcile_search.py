@@ -8,17 +8,18 @@ import numpy as np
 import pytest
 from reconcile_made import SESSIONS, bench, session, told
 
+from sim.evidence import gather
 from sim.fit.seen import Noise
 from sim.model import Part
 from sim.reconcile.descent import adjusting, promise
 from sim.reconcile.gates import Gap
 from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import lanes
+from sim.reconcile.lanes import SetAside, lanes
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.round import Round, Weighed
 from sim.reconcile.rounds import best_path, turnings
 from sim.reconcile.story import Tried
-from sim.reconcile.suspects import Suspect
+from sim.reconcile.suspects import Suspect, suspects
 from sim.reconcile.thresholds import MAJOR
 from sim.reconcile.weighing import simplest
 
@@ -57,6 +58,24 @@ def test_a_start_that_is_far_too_large_is_halved():
     assert at_once < 0.0  # so far off that nothing else would ever have been tried
     assert most > 0.0
     assert best.values["backlash.slack"] == pytest.approx(truth, rel=1.0)
+
+
+def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
+    built = bench("drivetrain")
+    log = session(built, "log")
+    runs = [
+        one.without(SetAside(number, 0.0, math.inf)) if "dynamic" in one.test else one
+        for number, one in enumerate(lanes(log))
+    ]
+    problem = Problem.of(runs)
+    base = Hypothesis("simple")
+    values = {name: built.gains[name] for name in base.names}
+    point = problem.at(base, values, np.zeros(len(runs)), problem.noise.velocity**2)
+    evidence = gather(log, dict(base.model(values).gains), type="simple")
+
+    found = suspects(problem, point, evidence, only=["backlash"])
+
+    assert all(math.isfinite(one.score) for one in found)
 
 
 # -- which path is gone ---------------------------------------------------------------------------

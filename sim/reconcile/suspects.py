@@ -160,12 +160,13 @@ class _Lively:
 
     def __init__(self, problem: Problem, point: Point) -> None:
         chosen = [n for n, lane in enumerate(problem.lanes) if "quasistatic" not in lane.test]
-        self.there = bool(chosen)
-        if self.there:
-            self.problem = Problem(tuple(problem.lanes[n] for n in chosen), problem.noise)
-            self.point = self.problem.at(
-                point.hypothesis, point.values, point.starts[chosen], point.q
-            )
+        self.there = False
+        if not chosen:
+            return
+        self.problem = Problem(tuple(problem.lanes[n] for n in chosen), problem.noise)
+        self.point = self.problem.at(point.hypothesis, point.values, point.starts[chosen], point.q)
+        if math.isfinite(self.point.cost):  # else all of them were set aside, or fly off
+            self.there = True
             self.kept = adjusting(self.problem, self.point)
 
     def best(self, hypothesis: Hypothesis, more: list[dict[str, float]]) -> list[dict[str, float]]:
