@@ -12,7 +12,7 @@ from sim.evidence import gather
 from sim.fit.seen import Noise
 from sim.model import Part
 from sim.reconcile.descent import adjusting, promise
-from sim.reconcile.gates import Gap
+from sim.reconcile.gates import Gap, errors_of, rms
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, lanes
 from sim.reconcile.problem import Point, Problem
@@ -21,7 +21,7 @@ from sim.reconcile.rounds import best_path, turnings
 from sim.reconcile.story import Tried
 from sim.reconcile.suspects import Suspect, suspects
 from sim.reconcile.thresholds import MAJOR
-from sim.reconcile.weighing import simplest
+from sim.reconcile.weighing import WIDENS, simplest, why_not
 
 BAND = 0.25  # [V] of an elevator whose ramps begin at 1.5 V upward, and at once downward
 RIPPLE, RIPPLES = 0.04, 12.0  # [V] less than what is everyday, and how often along the way
@@ -162,6 +162,22 @@ def test_of_two_about_as_likely_the_validation_decides(one, other, taken):
 def at(effect):
     hypothesis = Hypothesis("simple") + effect
     return Suspect(effect, replace(NOWHERE, hypothesis=hypothesis), 0.0)
+
+
+@pytest.mark.parametrize("gap", [math.nan, math.inf])
+@pytest.mark.parametrize("before", [1.0, math.inf])
+def test_a_model_that_runs_away_on_the_validation_widens_the_gap(gap, before):
+    assert why_not(Gap(gap, 1.0), Gap(before, 1.0), 1000.0) == WIDENS
+
+
+def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
+    problem = Problem.of(lanes(session(bench("drivetrain"), "log")))
+    track = np.column_stack([problem.measured, problem.measured])[:, [0, 1, 0, 1]]
+    track[-1] = np.nan
+    monkeypatch.setattr(Problem, "track", lambda *_, **__: track)
+    point = replace(NOWHERE, values={"kS": 0.1, "kV": 1.0, "kA": 0.1})
+
+    assert rms(errors_of(problem, point, np.zeros(4), eased=True)).velocity == math.inf
 
 
 # -- what is no alarm -----------------------------------------------------------------------------

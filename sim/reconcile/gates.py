@@ -101,9 +101,12 @@ def errors_of(problem: Problem, point: Point, starts: Array, *, eased: bool = Fa
     track = problem.track(point.hypothesis.model(point.values), starts, NO_TRUST)
     errors = problem.measured - track[:, [0, 3]]
     moves = problem.moving | ((track[:, 1] != 0.0) & problem.telling)
-    if eased:
-        errors = _eased(problem, point, starts, track, moves)
-    return np.asarray(errors[moves])
+    if not eased:
+        return np.asarray(errors[moves])
+    errors = _eased(problem, point, starts, track, moves)
+    flown = ~np.isfinite(track[:, [0, 3]]) & ~np.isnan(problem.measured)
+    errors = np.where(flown, np.inf, errors)  # what runs away is not left out of the mean
+    return np.asarray(errors[moves | flown.any(axis=1)])
 
 
 def _eased(

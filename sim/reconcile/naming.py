@@ -55,7 +55,7 @@ def findings_of(
         for n in range(1, len(done))
     ]
     end = done[-1].gap.velocity / problem.noise.velocity
-    astray = missed(end, problem) > LOST
+    astray = not missed(end, problem) <= LOST  # no number at all is lost, too
     if astray:
         effects = []
     effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
@@ -158,7 +158,7 @@ def verdict_of(
     """
     remains = ""
     share = missed(strays, problem)
-    if share > LOST:
+    if not share <= LOST:
         remains = (
             f"The last model misses {share:.0%} of the motion on runs it was not fitted to: what "
             "was tried is no explanation. Check that voltage, position and velocity are of the "

@@ -3,6 +3,7 @@
 Of two effects that mask each other, the first that is found may be a third one that resembles both.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -33,6 +34,8 @@ def reconsidered(
         reduced = without(problem, last.suspect, effect)
         if reduced.score - last.suspect.score < SURE:  # it has become needless
             gap = outside(problem, reduced.point, parts)
+            if not math.isfinite(gap.velocity + gap.position):
+                continue
             rest = [*done[:place], *done[place + 1 : -1]]
             return [
                 *rest,

@@ -1,5 +1,6 @@
 """Weighing: each suspect of a round against the gates, and the one that is taken."""
 
+import math
 from collections.abc import Sequence
 
 from sim.effects import EFFECTS
@@ -46,6 +47,8 @@ def weigh(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> list
 
 def why_not(gap: Gap, before: Gap, score: float) -> str:
     """The gate that a suspect does not pass; empty if it passes all."""
+    if not math.isfinite(gap.velocity + gap.position):
+        return WIDENS
     velocity = gap.velocity / max(before.velocity, TINY)
     position = gap.position / max(before.position, TINY)
     if velocity > NOT_WIDER and (velocity * position) ** 0.5 > NOT_WIDER:
