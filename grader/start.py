@@ -10,6 +10,7 @@ from pathlib import Path
 from grader.course import Progress
 from grader.exercise import exercises
 from grader.foreground import INTERRUPTED, run
+from grader.kept import keeping
 from grader.report import overview
 from grader.terminal import line, show
 from sim.command import COULD_NOT, DONE
@@ -47,8 +48,9 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     if not compiled():
         _say("Compiling the simulation, once; this takes about ten seconds…")
         ready()
-    for one in found:
-        one.prepare(student, say=_say)
+    with keeping():  # what is drawn now, the first answer need not wait for
+        for one in found:
+            one.prepare(student, say=_say)
     command = "grade"
     if not _on_path(command):
         command = "python -m grader"
