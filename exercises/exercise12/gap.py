@@ -15,9 +15,11 @@ COARSE = 0.01  # [s] step while a search looks around
 LEAST = {"kS": 0.0, "kV": 1e-9, "kA": 1e-9}
 ROBUST, THIRD = 1.4826, math.sqrt(20.0)  # of a median deviation, of a third difference
 STARTS = 2  # of each effect
-ENOUGH = 200  # simulations of one search
-TRUST = 1e-5  # [share] of the squares: a step that gains less is the last
+ROUNDS, ENOUGH = 60, 200  # of one search with effects; simulations of one for gains alone
+TRUST = 1e-5  # [share] a change below it is none
 PROBE = 1e-3  # [share of a value] by which it is moved to see what that does
+USUAL = {"kS": 0.1}  # [V] its size where a search begins with none
+NEAR = 0.5  # [share of a value] that one step changes at most: farther away lie other valleys
 FIRST_DAMPING, MOST_DAMPING = 1e-3, 1e6  # [1] of a step; beyond it nothing gains any more
 FAR = 1e4  # [noises] a simulation that ran away is this far off, and no farther
 
@@ -70,9 +72,7 @@ def with_gains(log: "Log", parts: "Sequence[Part]") -> "Model":
     def model(values: "Array") -> "Model":
         return _model(dict(zip(start, values.tolist(), strict=True)), parts)
 
-    least = [LEAST[name] for name in start]
-    values = _searched(model, log, list(start.values()), least, [math.inf] * len(start))
-    return model(values)
+    return model(_narrowest(model, log, list(start.values())))
 
 
 def with_effects(log: "Log", names: Sequence[str], *, like: "Model | None" = None) -> "Model":
@@ -118,6 +118,56 @@ def with_effects(log: "Log", names: Sequence[str], *, like: "Model | None" = Non
     return best
 
 
+def _narrowest(model: "Callable[[Array], Model]", log: "Log", first: Sequence[float]) -> "Array":
+    """Gains whose simulation leaves the smallest squares: Levenberg and Marquardt's steps.
+
+    Three gains need no more, and whoever waits for a grade does not wait for SciPy to load.
+    """
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    least = np.array(list(LEAST.values()))
+    values = np.maximum(np.array(first, dtype=float), least)
+    usual = np.array([USUAL.get(name, 0.0) for name in LEAST])
+    scale = np.maximum(values, usual)
+    left = _left(model, log)
+    rest, damping, used = left(values), FIRST_DAMPING, 1
+    while used < ENOUGH and damping < MOST_DAMPING:
+        moved = [values + scale * one for one in PROBE * np.eye(values.size)]
+        table = np.column_stack([(left(at) - rest) / PROBE for at in moved])
+        used += values.size
+        slope = table.T @ rest
+        free = ((slope < 0.0) | (values > least)) & np.any(table, axis=0)
+        square = table[:, free].T @ table[:, free]
+        before = float(rest @ rest)
+        while free.any() and damping < MOST_DAMPING:
+            by = np.zeros(values.size)
+            by[free] = -np.linalg.solve(square + damping * np.diag(np.diag(square)), slope[free])
+            far = float(np.max(np.abs(by) * scale / np.maximum(values, usual)))
+            tried = np.maximum(values + scale * by * min(1.0, NEAR / far), least)
+            after, used = left(tried), used + 1
+            if float(after @ after) < before:
+                values, rest, damping = tried, after, damping / 10.0
+                break
+            damping *= 10.0
+        if damping < FIRST_DAMPING and before - float(rest @ rest) < TRUST * before:
+            break
+    return values
+
+
+def _left(model: "Callable[[Array], Model]", log: "Log") -> "Callable[[Array], Array]":
+    """What a model of some values leaves of a log, in noises."""
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    unit = noise(log)
+
+    def left(values: "Array") -> "Array":
+        with np.errstate(over="ignore", invalid="ignore"):
+            off = errors(model(values), log, step=COARSE) / unit
+        return np.clip(np.nan_to_num(off, nan=FAR), -FAR, FAR)
+
+    return left
+
+
 def _searched(
     model: "Callable[[Array], Model]",
     log: "Log",
@@ -125,42 +175,24 @@ def _searched(
     least: Sequence[float],
     most: Sequence[float],
 ) -> "Array":
-    """Values whose simulation leaves the smallest squares: Levenberg and Marquardt's steps.
-
-    Values that stand at a bound and want to go beyond it stay there.
-    """
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+    from scipy.optimize import least_squares  # noqa: PLC0415 - the same
 
-    unit = noise(log)
-    values = np.clip(np.array(first, dtype=float), least, most)
-    scale = np.maximum(np.abs(values), 1e-6)
+    begin = np.clip(np.array(first, dtype=float), least, most)
+    usual = [USUAL.get(name, 1e-6) for name in LEAST] + [1e-6] * (begin.size - len(LEAST))
+    scale = np.maximum(np.abs(begin), usual)
 
-    def left(at: "Array") -> "Array":
-        with np.errstate(over="ignore", invalid="ignore"):
-            off = errors(model(at), log, step=COARSE) / unit
-        return np.clip(np.nan_to_num(off, nan=FAR), -FAR, FAR)
-
-    rest, damping, used = left(values), FIRST_DAMPING, 1
-    while used < ENOUGH and damping < MOST_DAMPING:
-        ahead = [values + scale * one for one in PROBE * np.eye(values.size)]
-        table = np.column_stack([(left(at) - rest) / PROBE for at in ahead])
-        used += values.size
-        slope = table.T @ rest
-        free = np.where(slope > 0.0, values > least, values < most) & np.any(table, axis=0)
-        square = table[:, free].T @ table[:, free]
-        before = float(rest @ rest)
-        while free.any() and damping < MOST_DAMPING:
-            by = np.zeros(values.size)
-            by[free] = -np.linalg.solve(square + damping * np.diag(np.diag(square)), slope[free])
-            tried = np.clip(values + scale * by, least, most)
-            after, used = left(tried), used + 1
-            if float(after @ after) < before:
-                values, rest, damping = tried, after, damping / 10.0
-                break
-            damping *= 10.0
-        if before - float(rest @ rest) < TRUST * before:
-            break
-    return values
+    left = _left(model, log)
+    found = least_squares(
+        lambda values: left(np.clip(values * scale, least, most)),
+        begin / scale,
+        bounds=(np.array(least) / scale, np.array(most) / scale + 1e-12),
+        diff_step=1e-3,
+        xtol=TRUST,
+        ftol=TRUST,
+        max_nfev=ROUNDS,
+    )
+    return np.clip(found.x * scale, least, most)
 
 
 def _start(log: "Log") -> dict[str, float]:

@@ -68,6 +68,18 @@ def _found(room: Any, log: "Log", validation: "Log") -> "Model":  # noqa: ANN401
         else:
             break
         model, gap = best, room.gap(best, validation)
+    return _needed(room, log, validation, model)
+
+
+def _needed(room: Any, log: "Log", validation: "Log", model: "Model") -> "Model":  # noqa: ANN401 - as above
+    """The model without effects that later ones made needless."""
+    for name in [part.effect for part in model.parts]:
+        rest = [part.effect for part in model.parts if part.effect != name]
+        if not rest:
+            break
+        without = room.with_effects(log, rest, like=model)
+        if HELPS * room.gap(without, validation) <= room.gap(model, validation):
+            model = without
     return model
 
 
