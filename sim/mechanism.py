@@ -12,8 +12,7 @@ with ratio G, radius r (1 for what turns), n motors and the moved mass m, or ine
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from sim.battery import CONTROLLERS, Battery
 from sim.effect import Scale
@@ -22,6 +21,9 @@ from sim.errors import BadRequest
 from sim.model import Model, Part
 from sim.motors import Motor
 from sim.units import unit
+
+if TYPE_CHECKING:
+    import numpy as np
 
 LARGEST = 5.0  # [1] size of a hidden effect beyond which nothing would move as a robot does
 ORDINARY_STEP = 3.5  # [V] dynamic test by which effects are sized
@@ -148,7 +150,7 @@ class Mechanism:
             bounded=self.travel is not None,
         )
 
-    def draw(self, rng: np.random.Generator) -> "Mechanism":
+    def draw(self, rng: "np.random.Generator") -> "Mechanism":
         """Another one like it: every field in ``spread`` drawn evenly between its bounds."""
         drawn = {name: float(rng.uniform(*bounds)) for name, bounds in self.spread.items()}
         return replace(self, **drawn)  # type: ignore[arg-type]  # spread names float fields only

@@ -18,6 +18,8 @@ from .gap import compared, gap, noise, with_effects, with_gains
 from .patch import names_of, on_a_bound, parts_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from sim.log import Log
     from sim.model import Model, Part
 
@@ -57,10 +59,16 @@ class Answers:
 
         return parts_of(self.names, self.given, unit(self.variant.log.units))
 
+    def fitted(self, parts: "Sequence[Part]") -> "Model":
+        """Some of the answer's effects, and gains fitted to the log: each selection once."""
+        names = tuple(part.effect for part in parts)
+        if names not in self._fitted:
+            self._fitted[names] = with_gains(self.variant.log, parts)
+        return self._fitted[names]
+
     @cached_property
-    def base(self) -> "Model":
-        """Nothing but gains."""
-        return with_gains(self.variant.log, ())
+    def _fitted(self) -> "dict[tuple[str, ...], Model]":
+        return {}
 
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
@@ -107,11 +115,9 @@ def _alone(answers: Answers) -> str:
         part = answers.parts[0]
     except Wrong:
         return ""
-    log, validation = answers.variant.log, answers.variant.validation
+    validation = answers.variant.validation
     unit = noise(validation)
-    before, after = (
-        gap(model, validation) / unit for model in (answers.base, with_gains(log, [part]))
-    )
+    before, after = (gap(answers.fitted(some), validation) / unit for some in ([], [part]))
     return (
         f". With {part.effect} alone, as you give it, that gap goes from {before:.3g} to "
         f"{after:.3g} times the noise"
@@ -139,11 +145,11 @@ def all_effects(answers: Answers) -> None:
 @check(points=3)
 def held_out(answers: Answers) -> str | None:
     """The model predicts the held-out log, which nothing was fitted to."""
-    log, shown = answers.variant.log, answers.variant.held_out
+    shown = answers.variant.held_out
     unit = noise(shown)
     floor = max(1.0, gap(answers.variant.mechanism.model, shown) / unit)
-    before = gap(answers.base, shown) / unit
-    after = gap(with_gains(log, answers.parts), shown) / unit
+    before = gap(answers.fitted([]), shown) / unit
+    after = gap(answers.fitted(answers.parts), shown) / unit
     seen = f"the gap goes from {before:.3g} to {after:.3g} times the noise"
     if after <= FLOOR * floor:
         return _reported(answers, before=before, after=after, seen=seen)
@@ -192,10 +198,10 @@ def justified(answers: Answers) -> None:
                 hint="there an effect does nothing, or wants to be another one. Leave it out, or "
                 "search again from elsewhere",
             )
-    log, validation = answers.variant.log, answers.variant.validation
-    whole = gap(with_gains(log, parts), validation)
+    validation = answers.variant.validation
+    whole = gap(answers.fitted(parts), validation)
     for part in parts:
-        without = gap(with_gains(log, [one for one in parts if one is not part]), validation)
+        without = gap(answers.fitted([one for one in parts if one is not part]), validation)
         if not _worth(part, whole=whole, without=without, log=validation):
             raise Wrong(
                 part.effect,

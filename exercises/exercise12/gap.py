@@ -62,7 +62,8 @@ def noise(log: "Log") -> float:
 
     top = max(float(np.max(np.abs(run.velocity))) for run in log.runs)
     jerks = [np.diff(run.velocity, 3)[np.abs(run.velocity[3:]) > MOVING * top] for run in log.runs]
-    return ROBUST * float(np.median(np.abs(np.concatenate(jerks)))) / THIRD
+    sizes = np.sort(np.abs(np.concatenate(jerks)))  # np.median would load masked arrays first
+    return ROBUST * float(sizes[sizes.size // 2]) / THIRD
 
 
 def with_gains(log: "Log", parts: "Sequence[Part]") -> "Model":
@@ -131,26 +132,26 @@ def _narrowest(model: "Callable[[Array], Model]", log: "Log", first: Sequence[fl
     scale = np.maximum(values, usual)
     left = _left(model, log)
     rest, damping, used = left(values), FIRST_DAMPING, 1
+    table: Array | None = None
     while used < ENOUGH and damping < MOST_DAMPING:
-        moved = [values + scale * one for one in PROBE * np.eye(values.size)]
-        table = np.column_stack([(left(at) - rest) / PROBE for at in moved])
-        used += values.size
-        slope = table.T @ rest
+        if table is None:
+            moved = [values + scale * one for one in PROBE * np.eye(values.size)]
+            table = np.column_stack([(left(at) - rest) / PROBE for at in moved])
+            used += values.size
+        slope, before = table.T @ rest, float(rest @ rest)
         free = ((slope < 0.0) | (values > least)) & np.any(table, axis=0)
         square = table[:, free].T @ table[:, free]
-        before = float(rest @ rest)
-        while free.any() and damping < MOST_DAMPING:
-            by = np.zeros(values.size)
-            by[free] = -np.linalg.solve(square + damping * np.diag(np.diag(square)), slope[free])
-            far = float(np.max(np.abs(by) * scale / np.maximum(values, usual)))
-            tried = np.maximum(values + scale * by * min(1.0, NEAR / far), least)
-            after, used = left(tried), used + 1
-            if float(after @ after) < before:
-                values, rest, damping = tried, after, damping / 10.0
-                break
-            damping *= 10.0
-        if damping < FIRST_DAMPING and before - float(rest @ rest) < TRUST * before:
+        by = np.zeros(values.size)
+        by[free] = -np.linalg.solve(square + damping * np.diag(np.diag(square)), slope[free])
+        if -float(slope @ by) < TRUST * before:
             break
+        far = float(np.max(np.abs(by) * scale / np.maximum(values, usual)))
+        tried = np.maximum(values + scale * by * min(1.0, NEAR / far), least)
+        after, used = left(tried), used + 1
+        if float(after @ after) < before:
+            values, rest, damping, table = tried, after, damping / 10.0, None
+        else:
+            damping *= 10.0
     return values
 
 
