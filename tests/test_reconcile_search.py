@@ -15,6 +15,7 @@ from sim.reconcile.descent import adjusting, promise
 from sim.reconcile.gates import Gap, errors_of, rms
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, lanes
+from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.round import Round, Weighed
 from sim.reconcile.rounds import best_path, turnings
@@ -43,21 +44,22 @@ def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
 
 
 def test_a_start_that_is_far_too_large_is_halved():
-    built = bench("drivetrain", "backlash", size=SUBTLE)
-    truth = built.hidden[0].parameters["slack"]
+    built = bench("drivetrain", "compliance", size=SUBTLE)
+    truth = built.hidden[0].parameters["softness"]
     problem = Problem.of(lanes(session(built, "log")))
     base = Hypothesis("simple")
     values = {name: built.gains[name] for name in base.names}
-    point = problem.at(base, values, np.zeros(len(problem.lanes)), problem.noise.velocity**2)
-    far = {"backlash.slack": FAR * truth, "backlash.share": 0.25}
+    point = problem.at(base, values, Outset.seen(len(problem.lanes)), problem.noise.velocity**2)
+    far = {"compliance.softness": FAR * truth, "compliance.share": 0.25}
 
-    begun = promise(problem, point, base + "backlash", [far], kept=adjusting(problem, point))
+    begun = promise(problem, point, base + "compliance", [far], kept=adjusting(problem, point))
 
-    at_once = next(gained for gained, one in begun if one.values["backlash.slack"] == FAR * truth)
+    gained, at_once = begun[0]
     most, best = max(begun, key=lambda one: one[0])
-    assert at_once < 0.0  # so far off that nothing else would ever have been tried
+    assert at_once.values["compliance.softness"] == FAR * truth
+    assert gained < 0.0  # so far off that nothing else would ever have been tried
     assert most > 0.0
-    assert best.values["backlash.slack"] == pytest.approx(truth, rel=1.0)
+    assert best.values["compliance.softness"] == pytest.approx(truth, rel=1.0)
 
 
 def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
@@ -70,7 +72,7 @@ def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
     problem = Problem.of(runs)
     base = Hypothesis("simple")
     values = {name: built.gains[name] for name in base.names}
-    point = problem.at(base, values, np.zeros(len(runs)), problem.noise.velocity**2)
+    point = problem.at(base, values, Outset.seen(len(runs)), problem.noise.velocity**2)
     evidence = gather(log, dict(base.model(values).gains), type="simple")
 
     found = suspects(problem, point, evidence, only=["backlash"])
@@ -95,7 +97,8 @@ def model(effect, score, *, gap, others=()):
     return Round(suspect, Gap(gap, gap), Gap(gap, gap), weighed=weighed)
 
 
-NOWHERE = Point(Hypothesis("simple"), {}, np.empty(0), 0.0, np.zeros((2, 2)), np.empty((0, 2)), 0.0)
+NOTHING = np.empty((0, 2))
+NOWHERE = Point(Hypothesis("simple"), {}, Outset.seen(0), 0.0, np.zeros((2, 2)), NOTHING, 0.0)
 ONE_NOISE = Problem((), Noise(1.0, 1.0, (0.0, 0.0)))
 FIRST = [("drag", 400.0, True), ("delay", 300.0, True), ("spring", 200.0, False)]
 THEN = [("cogging", 90.0, True), ("stribeck", 80.0, True), ("delay", 10.0, True)]
@@ -177,7 +180,7 @@ def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
     monkeypatch.setattr(Problem, "track", lambda *_, **__: track)
     point = replace(NOWHERE, values={"kS": 0.1, "kV": 1.0, "kA": 0.1})
 
-    assert rms(errors_of(problem, point, np.zeros(4), eased=True)).velocity == math.inf
+    assert rms(errors_of(problem, point, Outset.seen(4), eased=True)).velocity == math.inf
 
 
 # -- what is no alarm -----------------------------------------------------------------------------

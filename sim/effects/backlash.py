@@ -38,11 +38,10 @@ def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
 
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
-    """Shares of the way that was gone, each with a light and with a heavy motor."""
+    """Shares of the way that was gone; how heavy the motor is shows beside the inertia of both."""
     length = float(np.ptp(seen.position)) if seen.position.size else 1.0
     for part in (0.001, 0.002, 0.004, 0.008, 0.016, 0.03):
-        for own in (0.25, 0.55):
-            yield {"slack": part * max(length, 1e-6), "share": own}
+        yield {"slack": part * max(length, 1e-6), "share": 0.25}
 
 
 EFFECT = Effect(

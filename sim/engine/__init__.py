@@ -156,6 +156,7 @@ class Lead:
         high: [m or rad] a stop above it.
         clock: [s] since its log began.
         session: which log; what effects remember goes on within one.
+        meshed: [1] where in its free play the motor is, from -1 to 1; nan where a weight decides.
     """
 
     time: Array
@@ -167,6 +168,7 @@ class Lead:
     high: float
     clock: float
     session: int
+    meshed: float = math.nan
 
 
 def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
@@ -196,7 +198,7 @@ def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
             memory, session = np.zeros(len(EFFECTS)), lead.session
         last = first + lead.time.size
         measured = lead.measured if trust.any() else UNSEEN
-        body = _hanging(model, lead, play)
+        body = _begun(model, lead, play)
         stops = fixed.copy()
         stops[LOW] = max(stops[LOW], lead.low + body[2] - body[0])
         stops[HIGH] = min(stops[HIGH], lead.high + body[2] - body[0])
@@ -209,12 +211,15 @@ def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
     return out[:, [POSITION, VELOCITY, EXPECTED, SEEN]]
 
 
-def _hanging(model: Model, lead: Lead, play: float) -> Array:
-    """(5,) the bodies of a run that begins: with free play, a weight hangs on its motor's teeth."""
-    load = model.gains.get("kG", 0.0)
-    if model.type == "arm":
-        load *= math.cos(lead.position + model.gains.get("offset_rad", 0.0))
-    y = lead.position - (0.5 * play * math.copysign(1.0, load) if load else 0.0)
+def _begun(model: Model, lead: Lead, play: float) -> Array:
+    """(5,) the bodies of a run that begins; of free play, a weight hangs on its motor's teeth."""
+    meshed = lead.meshed
+    if math.isnan(meshed):
+        load = model.gains.get("kG", 0.0)
+        if model.type == "arm":
+            load *= math.cos(lead.position + model.gains.get("offset_rad", 0.0))
+        meshed = math.copysign(1.0, load) if load else 0.0
+    y = lead.position - 0.5 * play * meshed
     return np.array([lead.position, lead.velocity, y, lead.velocity, 0.0])
 
 

@@ -14,8 +14,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from sim.errors import NotIdentifiable
 from sim.evidence import clocks
 from sim.fit.start import first_guess, sensible
@@ -28,6 +26,7 @@ from sim.reconcile.glitch import glitches
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, lanes
 from sim.reconcile.naming import beside, findings_of, missed, verdict_of
+from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.remainder import worst
 from sim.reconcile.rounds import rounds
@@ -121,7 +120,7 @@ def _unslipped(problem: Problem, base: Point) -> tuple[Problem, Point, tuple[Dam
     for number, one in found:
         runs[number] = runs[number].without(SetAside(number, one.start, one.end))
     mended = replace(problem, lanes=tuple(runs))
-    begin = mended.at(base.hypothesis, base.values, base.starts, base.q)
+    begin = mended.at(base.hypothesis, base.values, base.outset, base.q)
     return mended, settle(mended, scanned(mended, begin)), (found[0][1],)
 
 
@@ -151,7 +150,7 @@ def _based(problem: Problem, log: Log, *, type: str) -> tuple[Problem, Point]:  
 
 def _lost(problem: Problem, base: Point) -> float:
     """[1] of the motion that a point misses."""
-    gap = rms(errors_of(problem, base, base.starts)).velocity
+    gap = rms(errors_of(problem, base, base.outset)).velocity
     return missed(gap / problem.noise.velocity, problem)
 
 
@@ -160,5 +159,7 @@ def _base(problem: Problem, log: Log, *, type: str) -> Point:  # noqa: A002 - as
     guess = sensible(first_guess(log, type=type))
     hypothesis = Hypothesis(type)
     values = {name: guess[name] for name in hypothesis.names}
-    begin = problem.at(hypothesis, values, np.zeros(len(problem.lanes)), problem.noise.velocity**2)
+    begin = problem.at(
+        hypothesis, values, Outset.seen(len(problem.lanes)), problem.noise.velocity**2
+    )
     return settle(problem, scanned(problem, better(problem, begin, steps=8, enough=1.0)))

@@ -11,6 +11,7 @@ import numpy as np
 
 from sim.log import Array
 from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.meshing import meshed
 from sim.reconcile.problem import Point, Problem
 
 FIRST_DAMPING, TRIES = 1e-3, 5
@@ -33,7 +34,7 @@ def settle(problem: Problem, point: Point) -> Point:
     point = better(problem, point, steps=FIRST_STEPS)
     for _ in range(ROUNDS):
         before = point.cost
-        point = better(problem, tuned(problem, point), steps=STEPS)
+        point = better(problem, tuned(problem, meshed(problem, point)), steps=STEPS)
         if before - point.cost < 2.0 * ENOUGH:
             break
     return point
@@ -43,10 +44,10 @@ def tuned(problem: Problem, point: Point) -> Point:
     """The same values with the likeliest q, to a factor of two."""
     least = LEAST_Q * problem.noise.velocity**2
     for way in (SOFTER, 1.0 / SOFTER):
-        other = problem.at(point.hypothesis, point.values, point.starts, point.q * way)
+        other = problem.at(point.hypothesis, point.values, point.outset, point.q * way)
         while other.cost < point.cost - 0.1 and least < other.q < problem.most_q:
             point = other
-            other = problem.at(point.hypothesis, point.values, point.starts, point.q * way)
+            other = problem.at(point.hypothesis, point.values, point.outset, point.q * way)
     return point
 
 
@@ -98,7 +99,9 @@ def promise(
         return np.asarray(rest - kept @ (kept.T @ rest))
 
     def begun(one: Mapping[str, float]) -> tuple[float, Point]:
-        other = problem.at(hypothesis, {**point.values, **one}, point.starts, point.q)
+        other = problem.at(hypothesis, {**point.values, **one}, point.outset, point.q)
+        if not point.hypothesis.plays:  # else its runs are told by now
+            other = meshed(problem, other)
         if not math.isfinite(other.cost):
             return -math.inf, other
         after = off(other.ahead)
@@ -157,7 +160,7 @@ def _with_prior(problem: Problem, point: Point) -> tuple[Array, Array]:
     runs = len(problem.lanes)
     prior = np.zeros((runs, table.shape[1]))
     prior[:, -runs:] = np.eye(runs) / problem.loose
-    return np.vstack([table, prior]), np.concatenate([rest, point.starts / problem.loose])
+    return np.vstack([table, prior]), np.concatenate([rest, point.outset.beside / problem.loose])
 
 
 def _moved(problem: Problem, point: Point, by: Array) -> Point:
@@ -166,13 +169,13 @@ def _moved(problem: Problem, point: Point, by: Array) -> Point:
     searched = hypothesis.searched
     for name, step in zip(searched, by.tolist(), strict=False):
         values[name] = hypothesis.stepped(name, values[name], step)
-    return problem.at(hypothesis, values, point.starts + by[len(searched) :], point.q)
+    return problem.at(hypothesis, values, point.outset.moved(by[len(searched) :]), point.q)
 
 
 def scanned(problem: Problem, point: Point) -> Point:
     """The same values with the likeliest q of all sizes: there may be more than one valley."""
     tried = [
-        problem.at(point.hypothesis, point.values, point.starts, point.q * SOFTER**power)
+        problem.at(point.hypothesis, point.values, point.outset, point.q * SOFTER**power)
         for power in SCANNED
     ]
     return min([point, *tried], key=lambda one: one.cost)

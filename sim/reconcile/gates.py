@@ -11,6 +11,7 @@ from sim.engine import NO_TRUST
 from sim.log import Array
 from sim.reconcile.descent import better
 from sim.reconcile.friction import LEAST_KS, MOST_VARIED
+from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
 
 REFIT = 4  # steps
@@ -69,13 +70,13 @@ def outside(problem: Problem, point: Point, parts: Sequence[Fold]) -> Gap:
         if not (_tells(problem, part.fitted) and _tells(problem, part.predicted)):
             continue
         fitted = _some(problem, part.fitted)
-        begin = fitted.at(point.hypothesis, point.values, point.starts[list(part.fitted)], point.q)
+        begin = fitted.at(point.hypothesis, point.values, point.outset.of(part.fitted), point.q)
         found = better(fitted, begin, steps=REFIT)
         errors.append(
             errors_of(
                 _some(problem, part.predicted),
                 found,
-                point.starts[list(part.predicted)],
+                point.outset.of(part.predicted),
                 eased=True,
             )
         )
@@ -88,35 +89,35 @@ def _tells(problem: Problem, chosen: Sequence[int]) -> bool:
     return any(problem.telling[edges[n] : edges[n + 1]].any() for n in chosen)
 
 
-def errors_of(problem: Problem, point: Point, starts: Array, *, eased: bool = False) -> Array:
+def errors_of(problem: Problem, point: Point, outset: Outset, *, eased: bool = False) -> Array:
     """(n, 2) position and velocity, measured less simulated without correction, where it moves.
 
     Args:
         problem: the runs.
         point: values that are simulated.
-        starts: (runs,) [unit] beside the first samples.
+        outset: how each run begins.
         eased: each run may have a friction of its own, as ``friction.py`` has it: what one run's
             accident does to the gap says nothing about an effect.
     """
-    track = problem.track(point.hypothesis.model(point.values), starts, NO_TRUST)
+    track = problem.track(point.hypothesis.model(point.values), outset, NO_TRUST)
     errors = problem.measured - track[:, [0, 3]]
     moves = problem.moving | ((track[:, 1] != 0.0) & problem.telling)
     if not eased:
         return np.asarray(errors[moves])
-    errors = _eased(problem, point, starts, track, moves)
+    errors = _eased(problem, point, outset, track, moves)
     flown = ~np.isfinite(track[:, [0, 3]]) & ~np.isnan(problem.measured)
     errors = np.where(flown, np.inf, errors)  # what runs away is not left out of the mean
     return np.asarray(errors[moves | flown.any(axis=1)])
 
 
 def _eased(
-    problem: Problem, point: Point, starts: Array, track: Array, moves: NDArray[np.bool_]
+    problem: Problem, point: Point, outset: Outset, track: Array, moves: NDArray[np.bool_]
 ) -> Array:
     """The errors, less what the likeliest friction of each run's own makes of them."""
     errors = problem.measured - track[:, [0, 3]]
     most = MOST_VARIED * max(point.values["kS"], LEAST_KS)
     values = {**point.values, "kS": point.values["kS"] + most}
-    more = problem.track(point.hypothesis.model(values), starts, NO_TRUST)
+    more = problem.track(point.hypothesis.model(values), outset, NO_TRUST)
     change = (track - more)[:, [0, 3]]  # of the errors, by so much friction
     sizes = np.sqrt(np.nanmean(np.square(errors[moves]), axis=0)) + 1e-300
     eased = errors.copy()

@@ -38,7 +38,7 @@ def glitches(problem: Problem, point: Point) -> Iterator[tuple[int, Damaged]]:
     """
     gains = point.hypothesis.model(point.values).gains
     scale = gains["kA"] / gains["kV"]
-    track = problem.track(point.hypothesis.model(point.values), point.starts, NO_TRUST)
+    track = problem.track(point.hypothesis.model(point.values), point.outset, NO_TRUST)
     errors = problem.measured[:, 1] - track[:, 3]
     near = max(round(BESIDE / problem.period), 3)
     for number, (first, last) in enumerate(pairwise(problem.edges.tolist())):

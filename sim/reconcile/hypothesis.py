@@ -56,6 +56,11 @@ class Hypothesis:
         known = self.parameters
         return sum(1 for name in self.names if name not in known or known[name].counts)
 
+    @cached_property
+    def plays(self) -> bool:
+        """Whether motor and load have free play."""
+        return any("slack" in EFFECTS[name].acts for name in self.effects)
+
     def __add__(self, effect: str) -> "Hypothesis":
         return Hypothesis(self.type, (*self.effects, effect))
 

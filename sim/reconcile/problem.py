@@ -20,6 +20,7 @@ from sim.log import Array
 from sim.model import Model
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import Lane
+from sim.reconcile.outset import Outset
 
 LOOSE = 2.0  # [noises of a position] by which a run may begin beside its first sample
 TOP = 0.98  # quantile that stands for the largest, so that one bad sample does not
@@ -35,7 +36,7 @@ class Point:
     Args:
         hypothesis: what is believed.
         values: name -> value.
-        starts: (runs,) [unit] true position at a run's first sample, less the one seen there.
+        outset: how each run begins.
         q: [unit²/s³] size of what pushes at random.
         trust: (2, 2) by how much a measurement corrects.
         ahead: (n, 2) innovations, nan where nothing is compared.
@@ -44,7 +45,7 @@ class Point:
 
     hypothesis: Hypothesis
     values: Mapping[str, float]
-    starts: Array
+    outset: Outset
     q: float
     trust: Array
     ahead: Array
@@ -116,52 +117,59 @@ class Problem:
 
     # -- simulate --------------------------------------------------------------------------------
 
-    def track(self, model: Model, starts: Array, trust: Array, *, only: int | None = None) -> Array:
+    def track(
+        self, model: Model, outset: Outset, trust: Array, *, only: int | None = None
+    ) -> Array:
         """(n, 4) position, velocity, expected position, and velocity as the sensor sees it.
 
         Args:
             model: what moves.
-            starts: (runs,) [unit].
+            outset: how each run begins.
             trust: (2, 2); ``NO_TRUST`` is an open loop.
             only: one run, in place of all.
         """
         chosen = range(len(self.lanes)) if only is None else (only,)
-        leads = [self._lead(number, float(starts[number])) for number in chosen]
+        leads = [self._lead(number, outset) for number in chosen]
         return follow(model, leads, trust=trust)
 
-    def _lead(self, number: int, start: float) -> Lead:
-        lane = self.lanes[number]
+    def _lead(self, number: int, outset: Outset) -> Lead:
+        lane, start = self.lanes[number], float(outset.beside[number])
         seen = lane.seen
         return Lead(
             time=seen.time, voltage=seen.voltage, measured=seen.measured,
             position=seen.position + start, velocity=seen.velocity,
             low=lane.low + start, high=lane.high + start, clock=lane.clock, session=lane.memory,
+            meshed=float(outset.meshed[number]),
         )  # fmt: skip
 
-    def ahead(self, model: Model, starts: Array, trust: Array, *, only: int | None = None) -> Array:
+    def ahead(
+        self, model: Model, outset: Outset, trust: Array, *, only: int | None = None
+    ) -> Array:
         """(n, 2) innovations: measured less expected."""
         part = slice(None) if only is None else slice(*self.edges[only : only + 2])
-        ahead = self.measured[part] - self.track(model, starts, trust, only=only)[:, 2:]
+        ahead = self.measured[part] - self.track(model, outset, trust, only=only)[:, 2:]
         ahead[~self.telling[part]] = np.nan
         return np.asarray(ahead)
 
     def at(
-        self, hypothesis: Hypothesis, values: Mapping[str, float], starts: Array, q: float
+        self, hypothesis: Hypothesis, values: Mapping[str, float], outset: Outset, q: float
     ) -> Point:
         """The point of these values; its cost is infinite where they are no physics."""
-        nowhere = Point(hypothesis, values, starts, q, NO_TRUST, np.empty((0, 2)), math.inf)
+        if not hypothesis.plays:
+            outset = outset.meshing(np.full(len(self.lanes), np.nan))
+        nowhere = Point(hypothesis, values, outset, q, NO_TRUST, np.empty((0, 2)), math.inf)
         if not (values["kV"] > 0.0 and values["kA"] > 0.0):
             return nowhere
         model = hypothesis.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
             trust = trust_for(model, noise=self.noise, q=q, period=self.period)
-            ahead = self.ahead(model, starts, trust)
+            ahead = self.ahead(model, outset, trust)
             if not np.isfinite(ahead[self.telling]).any() or np.isinf(ahead).any():
                 return nowhere
-            cost = self._cost(ahead) + float(np.sum((starts / self.loose) ** 2))
+            cost = self._cost(ahead) + float(np.sum((outset.beside / self.loose) ** 2))
         if not math.isfinite(cost):
             return nowhere
-        return Point(hypothesis, values, starts, q, trust, ahead, cost)
+        return Point(hypothesis, values, outset, q, trust, ahead, cost)
 
     # -- compare ---------------------------------------------------------------------------------
 
@@ -205,15 +213,15 @@ class Problem:
         if hypothesis.within(name, value + step) != value + step:
             step = -step
         model = hypothesis.model({**point.values, name: value + step})
-        return np.asarray((self.ahead(model, point.starts, point.trust) - point.ahead) / step)
+        return np.asarray((self.ahead(model, point.outset, point.trust) - point.ahead) / step)
 
     def _by_start(self, point: Point, number: int) -> Array:
         step = self.noise.position
-        starts = point.starts.copy()
-        starts[number] += step
+        by = np.zeros(len(self.lanes))
+        by[number] = step
         part = slice(*self.edges[number : number + 2])
         model = point.hypothesis.model(point.values)
-        moved = self.ahead(model, starts, point.trust, only=number)
+        moved = self.ahead(model, point.outset.moved(by), point.trust, only=number)
         table = np.zeros_like(point.ahead)
         table[part] = (moved - point.ahead[part]) / step
         return table

@@ -86,7 +86,7 @@ def _in_time(problem: Problem, point: Point) -> Array:
         delayed = delayed + DELAY
     late = PART * problem.period
     values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
-    more = problem.ahead(delayed.model(values), point.starts, point.trust)
+    more = problem.ahead(delayed.model(values), point.outset, point.trust)
     inverse = np.linalg.inv(np.linalg.cholesky(problem.spread(point.ahead)))
     white = np.nan_to_num(point.ahead) @ inverse.T
     change = np.nan_to_num(more - point.ahead) @ inverse.T

@@ -91,7 +91,7 @@ def without(problem: Problem, suspect: Suspect, effect: str) -> Suspect:
     point = suspect.point
     hypothesis = point.hypothesis - effect
     values = {name: point.values[name] for name in hypothesis.names}
-    begin = problem.at(hypothesis, values, point.starts, point.q)
+    begin = problem.at(hypothesis, values, point.outset, point.q)
     return judged(problem, settle(problem, begin))
 
 

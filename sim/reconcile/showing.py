@@ -12,8 +12,11 @@ from sim.gap import Place
 from sim.log import Log
 from sim.reconcile.aside import Aside
 from sim.reconcile.gates import errors_of, rms
+from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
-from sim.reconcile.problem import Problem
+from sim.reconcile.meshing import meshed
+from sim.reconcile.outset import Outset
+from sim.reconcile.problem import Point, Problem
 from sim.reconcile.round import Round, shown_of
 from sim.reconcile.story import Chapter
 from sim.reconcile.usable import repeated
@@ -21,6 +24,7 @@ from sim.reconcile.where import map_of
 from sim.units import unit
 
 TOLD = 5  # places
+LOOKS = 3  # at where in its free play a run began, each nearer
 FAR = 5.0  # [of the gap on runs that were fitted] from which a held-out log is another matter
 HOW: Mapping[str, str] = {
     "held_out": "The gap is shown on a log that nothing was fitted to.",
@@ -29,6 +33,10 @@ HOW: Mapping[str, str] = {
     "log": "Only one log was given: an effect is admitted if the other runs, fitted with it, "
     "predict each run better; the gap is shown on the log that was fitted.",
 }
+MESHED = (
+    "Where in its free play each run of it began is taken from that run, as its first position is: "
+    "no log says so."
+)
 AGAIN: Mapping[str, str] = {
     "held_out": "The held-out log repeats runs that were fitted, so the gap on it proves nothing.",
     "validation": "The validation repeats runs of the log, so it confirms nothing.",
@@ -78,14 +86,15 @@ class Shown:
             fitted: [unit/s] its gap on the runs that were fitted or chosen by.
         """
         gap = last.gap * unit(self.log.units).si
+        said = (*self.doubts, *((MESHED,) if _plays(last) else ()))
         if not self.held_out or gap <= FAR * max(fitted, self.problem.noise.velocity):
-            return self.doubts
+            return said
         far = (
             f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times what "
             "it misses of the others: make sure that it is of the same mechanism, in the same "
             "units, and that nothing was changed in between."
         )
-        return (far, *self.doubts)
+        return (far, *said)
 
     @property
     def noise_floor(self) -> float:
@@ -110,11 +119,25 @@ class Shown:
     def _chapter(self, one: Round) -> Chapter:
         point = shown_of(one)
         model = point.hypothesis.model(point.values)
-        at_seen = np.zeros(len(self.problem.lanes))
-        gap = rms(errors_of(self.problem, point, at_seen)).velocity / unit(self.log.units).si
-        track = self.problem.track(model, at_seen, NO_TRUST)[:, [0, 3]]
+        outset = self._outset(point)
+        gap = rms(errors_of(self.problem, point, outset)).velocity / unit(self.log.units).si
+        track = self.problem.track(model, outset, NO_TRUST)[:, [0, 3]]
         runs = tuple(track[first:last] for first, last in pairwise(self.problem.edges.tolist()))
         return Chapter(one.suspect.effect, model, one.tried, gap, runs)
+
+    def _outset(self, point: Point) -> Outset:
+        """How its runs begin: where they were first seen, and where in free play they say."""
+        seen = Outset.seen(len(self.problem.lanes))
+        here = self.problem.at(point.hypothesis, point.values, seen, point.q)
+        for _ in range(LOOKS):
+            here = meshed(self.problem, here)
+        return here.outset
+
+
+def _plays(chapter: Chapter) -> bool:
+    """Whether motor and load of its model have free play."""
+    names = tuple(part.effect for part in chapter.model.parts)
+    return Hypothesis(chapter.model.type, names).plays
 
 
 def _again(logs: Mapping[str, Log | None]) -> dict[str, str]:

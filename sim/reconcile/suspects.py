@@ -15,6 +15,7 @@ from sim.evidence import Evidence
 from sim.reconcile.descent import adjusting, better, promise, settle
 from sim.reconcile.friction import varied
 from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.meshing import price
 from sim.reconcile.problem import STEPWISE, Point, Problem
 
 TRIED, KEPT = 8, 4  # suspects that go downhill a little, and to the end
@@ -22,6 +23,7 @@ A_LITTLE = 2  # steps
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
 CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
 STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
+HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
 LIVELIEST = 2  # starts of two bodies that are simulated over all runs
 OWN: dict[str, tuple[str, ...]] = {"elevator": ("constant-load",), "arm": ("gravity-cosine",)}
 """Base type -> the effects that it has already."""
@@ -50,7 +52,7 @@ class Suspect:
 def judged(problem: Problem, point: Point, effect: str = "") -> Suspect:
     """A point with its score: -2 log L + k·ln N, as of Schwarz (1978)."""
     values = point.hypothesis.free * math.log(max(problem.count, 2))
-    return Suspect(effect, point, point.cost + varied(problem, point) + values)
+    return Suspect(effect, point, point.cost + varied(problem, point) + price(point) + values)
 
 
 def suspects(
@@ -74,7 +76,7 @@ def suspects(
     begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
     calm = CALM * problem.noise.velocity**2
     if point.q > AGITATED * calm:
-        calmer = problem.at(point.hypothesis, point.values, point.starts, calm)
+        calmer = problem.at(point.hypothesis, point.values, point.outset, calm)
         calmer = better(problem, calmer, steps=A_LITTLE)
         if math.isfinite(calmer.cost):
             begun += _begun(problem, calmer, effects, evidence, seeds)[:TRIED_CALM]
@@ -105,7 +107,7 @@ def _simpler(
         f"{name}.{one}": hypothesis.within(f"{name}.{one}", value) for one, value in values.items()
     }
     kept = {one: point.values[one] for one in (point.hypothesis - effect.name).names}
-    return problem.at(hypothesis, {**kept, **more}, point.starts, point.q)
+    return problem.at(hypothesis, {**kept, **more}, point.outset, point.q)
 
 
 def _each_once(points: Iterable[Point]) -> list[Point]:
@@ -164,7 +166,9 @@ class _Lively:
         if not chosen:
             return
         self.problem = Problem(tuple(problem.lanes[n] for n in chosen), problem.noise)
-        self.point = self.problem.at(point.hypothesis, point.values, point.starts[chosen], point.q)
+        self.point = self.problem.at(
+            point.hypothesis, point.values, point.outset.of(chosen), point.q
+        )
         if math.isfinite(self.point.cost):  # else all of them were set aside, or fly off
             self.there = True
             self.kept = adjusting(self.problem, self.point)
@@ -173,8 +177,10 @@ class _Lively:
         """The starts that are worth a look at all runs: none if none promises anything."""
         if not self.there:
             return more
-        begun = promise(self.problem, self.point, hypothesis, more, kept=self.kept)
+        heavy = HEAVIER * self.point.values["kA"]
+        tried = [*more, *({**one, "kA": heavy} for one in more)]
+        begun = promise(self.problem, self.point, hypothesis, tried, kept=self.kept)
         begun = sorted((one for one in begun if one[0] > 0.0), key=lambda one: -one[0])
         effect = hypothesis.effects[-1]
-        names = [f"{effect}.{name}" for name in EFFECTS[effect].names]
+        names = ["kA", *(f"{effect}.{name}" for name in EFFECTS[effect].names)]
         return [{name: one.values[name] for name in names} for _, one in begun[:LIVELIEST]]

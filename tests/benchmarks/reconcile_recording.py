@@ -30,7 +30,7 @@ ABOVE = 1.2  # [V] of a step beyond what it takes to hold still
 
 DIRT = {
     "stribeck": (0.02, 0.05),  # [V]
-    "battery-sag": (0.02, 0.08),  # [share of the driving volts that the largest step loses]
+    "battery-sag": (0.02, 0.08),  # [share of the driving volts, at a battery's full voltage]
     "delay": (0.001, 0.004),  # [s]
     "cogging": (0.02, 0.05),  # [V]
 }
@@ -91,7 +91,7 @@ def recorded(
     mechanism = replace(hidden.mechanism, sensor=replace(hidden.mechanism.sensor, jitter=0.0))
     wobble = noise = 0.0
     if dirty:
-        parts = (*parts, *_everyday(mechanism.scale, levels, parts, rng))
+        parts = (*parts, *_everyday(mechanism.scale, parts, rng))
         jitter, wobble, noise = (float(rng.uniform(*each)) for each in (JITTER, FRICTION, NOISE))
         mechanism = replace(mechanism, sensor=replace(mechanism.sensor, jitter=jitter))
     lasting = tuple(part for part in parts if ONCE not in part.parameters)
@@ -180,16 +180,13 @@ def _runs(
     return runs
 
 
-def _everyday(
-    scale: Scale, levels: Levels, parts: tuple[Part, ...], rng: np.random.Generator
-) -> Iterator[Part]:
+def _everyday(scale: Scale, parts: tuple[Part, ...], rng: np.random.Generator) -> Iterator[Part]:
     """Small effects that any robot has, but for those that are hidden anyway."""
     drawn = {name: float(rng.uniform(*sizes)) for name, sizes in DIRT.items()}
     phase, waves = float(rng.uniform(0.0, 2.0 * math.pi)), float(rng.uniform(8.0, 25.0))
-    duty = levels.steps["train"] / 12.0
     values = {
         "stribeck": {"extra": drawn["stribeck"], "slow": 0.08 * scale.speed},
-        "battery-sag": {"share": drawn["battery-sag"] / (1.0 - drawn["battery-sag"]) / duty**2},
+        "battery-sag": {"share": drawn["battery-sag"] / (1.0 - drawn["battery-sag"])},
         "delay": {"lag": drawn["delay"]},
         "cogging": {
             "cosine": drawn["cogging"] * math.cos(phase),

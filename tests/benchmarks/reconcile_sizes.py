@@ -120,6 +120,11 @@ def _spring(values: Values, mechanism: Mechanism, scale: Scale, _: float, rng: o
     return {"rate": values["rate"], "preload": -values["rate"] * relaxed}
 
 
+def _sag(values: Values, *_: object) -> Values:
+    """Of one motor, where the catalogue's example has four."""
+    return values | {"share": values["share"] / 4.0}
+
+
 def _stribeck(values: Values, *rest: object) -> Values:
     """Fading over more or less speed."""
     return values | {"slow": values["slow"] * float(rest[-1].uniform(0.6, 1.6))}
@@ -164,6 +169,7 @@ SHAPES: Mapping[str, Shape] = {
     "asymmetric-back-emf": _either_way("lean"),
     "asymmetric-friction": _either_way("lean"),
     "backlash": _joint,
+    "battery-sag": _sag,
     "cogging": _cogging,
     "compliance": _joint,
     "constant-load": _load,

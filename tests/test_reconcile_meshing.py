@@ -1,0 +1,110 @@
+"""Where in its free play a run began: no log says so, and how it went on does."""
+
+import numpy as np
+import pytest
+
+from sim.engine import State, move
+from sim.log import Log, Run
+from sim.model import Model, Part
+from sim.reconcile import reconcile
+from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.lanes import lanes
+from sim.reconcile.meshing import PRICE, meshed, price
+from sim.reconcile.outset import Outset
+from sim.reconcile.problem import Problem
+from sim.reconcile.suspects import judged
+
+GAINS = {"kS": 0.2, "kV": 2.4, "kA": 0.3}
+SLACK, SHARE = 0.05, 0.2
+PLAY = Part("backlash", {"slack": SLACK, "share": SHARE})
+PERIOD, NOISE = 0.01, (1e-4, 2e-3)  # [s]; [m] and [m/s]
+BEGAN = {
+    "quasistatic-forward": (1.0, -1.0),
+    "quasistatic-reverse": (1.0, 0.0),
+    "dynamic-forward": (-1.0, 1.0),
+    "dynamic-reverse": (1.0, -0.5),
+}
+"""Test -> where in the play its run began, in the log and in its validation."""
+PLAYS = Hypothesis("simple") + "backlash"
+VALUES = {**GAINS, "backlash.slack": SLACK, "backlash.share": SHARE}
+
+
+def session(which, *, step, seed):
+    """Four tests whose runs begin where ``BEGAN`` says."""
+    rng = np.random.default_rng(seed)
+    runs, clock = [], 0.0
+    for test, places in BEGAN.items():
+        quick, way = test.startswith("dynamic"), -1.0 if test.endswith("reverse") else 1.0
+        time = np.arange(0.0, 1.5 if quick else 6.0, PERIOD)
+        volts = way * (np.full(time.size, step) if quick else 0.5 * time)
+        volts[:3] = 0.0
+        load = -0.5 * SLACK * places[which]
+        state = State(np.array([0.0, 0.0, load, 0.0, 0.0]))
+        track = move(Model("simple", GAINS, (PLAY,)), time=time, voltage=volts, state=state)
+        noisy = (
+            one + size * rng.standard_normal(time.size)
+            for one, size in zip((track.position, track.velocity), NOISE, strict=True)
+        )
+        runs.append(Run(test, clock + time, volts, *noisy))
+        clock += float(time[-1]) + 2.0
+    return Log(tuple(runs), units="meters", type="simple")
+
+
+@pytest.fixture(scope="module")
+def problem():
+    return Problem.of(lanes(session(0, step=4.0, seed=1)))
+
+
+def at(problem, hypothesis=PLAYS, outset=None):
+    begun = outset or Outset.seen(len(problem.lanes))
+    values = {name: VALUES[name] for name in hypothesis.names}
+    return problem.at(hypothesis, values, begun, problem.noise.velocity**2)
+
+
+def test_each_run_is_begun_where_it_went_on_from(problem):
+    blind = at(problem)
+
+    seen = meshed(problem, blind)
+
+    assert seen.cost + price(seen) < blind.cost - 100.0
+    assert seen.outset.meshed == pytest.approx([one for one, _ in BEGAN.values()], abs=0.2)
+
+
+def test_a_second_look_is_nearer():
+    off = Problem.of(lanes(session(1, step=3.0, seed=2)))  # -1, 0, 1 and -0.5
+    began = Outset.seen(4).meshing(np.array([-0.8, 0.2, 0.8, -0.7]))
+
+    seen = meshed(off, at(off, outset=began))
+
+    assert seen.outset.meshed == pytest.approx([one for _, one in BEGAN.values()], abs=0.05)
+
+
+def test_what_is_told_has_its_price(problem):
+    seen = meshed(problem, at(problem))
+    told = np.count_nonzero(~np.isnan(seen.outset.meshed))
+
+    assert told > 0
+    assert price(seen) == pytest.approx(PRICE * told)
+    assert judged(problem, seen).score > seen.cost + price(seen)  # and the values' own beside it
+
+
+def test_without_play_nothing_is_told_and_nothing_is_kept(problem):
+    stiff = at(problem, Hypothesis("simple"))
+    assert meshed(problem, stiff) is stiff
+
+    told = meshed(problem, at(problem)).outset
+    assert np.isnan(at(problem, Hypothesis("simple"), told).outset.meshed).all()
+
+
+def test_play_is_named_wherever_its_runs_began_and_the_gap_closes():
+    story = reconcile(
+        session(0, step=4.0, seed=1),
+        validation=session(1, step=3.0, seed=2),
+        held_out=session(1, step=3.5, seed=3),
+        type="simple",
+    )
+
+    (found,) = (one for one in story.findings if one.size == "major")
+    assert found.effect == "backlash"
+    assert found.parameters["slack"].value == pytest.approx(SLACK, rel=0.1)
+    assert story.gap_after < 1.3 * story.noise_floor
