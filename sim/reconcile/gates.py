@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +14,8 @@ from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
 
 REFIT = 4  # steps
+EASED = (0.0, -1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0)
+"""[1] of the most that friction varies; none is tried first."""
 
 
 @dataclass(frozen=True)
@@ -105,31 +106,38 @@ def errors_of(problem: Problem, point: Point, outset: Outset, *, eased: bool = F
     if not eased:
         return np.asarray(errors[moves])
     errors = _eased(problem, point, outset, track, moves)
-    flown = ~np.isfinite(track[:, [0, 3]]) & ~np.isnan(problem.measured)
-    errors = np.where(flown, np.inf, errors)  # what runs away is not left out of the mean
-    return np.asarray(errors[moves | flown.any(axis=1)])
+    away = np.isinf(errors).any(axis=1)  # which is not left out of the mean
+    return np.asarray(errors[moves | away])
 
 
 def _eased(
     problem: Problem, point: Point, outset: Outset, track: Array, moves: NDArray[np.bool_]
 ) -> Array:
-    """The errors, less what the likeliest friction of each run's own makes of them."""
-    errors = problem.measured - track[:, [0, 3]]
+    """The errors with the likeliest friction of each run's own.
+
+    Each is simulated: over a long way, a wave along it falls out of step with a little friction,
+    and what that changes is in no proportion to it.
+    """
     most = MOST_VARIED * max(point.values["kS"], LEAST_KS)
-    values = {**point.values, "kS": point.values["kS"] + most}
-    more = problem.track(point.hypothesis.model(values), outset, NO_TRUST)
-    change = (track - more)[:, [0, 3]]  # of the errors, by so much friction
-    sizes = np.sqrt(np.nanmean(np.square(errors[moves]), axis=0)) + 1e-300
-    eased = errors.copy()
-    for first, last in pairwise(problem.edges.tolist()):
-        here = slice(first, last)
-        told = moves[here, None] & ~np.isnan(errors[here])
-        column = np.where(told, change[here] / sizes, 0.0).ravel()
-        rest = np.where(told, errors[here] / sizes, 0.0).ravel()
-        along = float(column @ column)
-        share = -float(column @ rest) / along if along > 0.0 else 0.0
-        eased[here] += min(max(share, -1.0), 1.0) * change[here]
-    return eased
+    tried = []
+    for share in EASED:
+        values = {**point.values, "kS": max(point.values["kS"] + share * most, 0.0)}
+        other = problem.track(point.hypothesis.model(values), outset, NO_TRUST) if share else track
+        tried.append(_missed(problem, other))
+    every = np.stack(tried)  # (shares, n, 2)
+    with np.errstate(over="ignore", invalid="ignore"):  # of what ran away
+        squares = np.where(moves[:, None] & ~np.isnan(every), np.square(every), 0.0)
+        sizes = np.mean(squares[0], axis=0) + 1e-300
+        costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.edges[:-1], axis=1)
+    best = np.repeat(np.argmin(np.nan_to_num(costs, nan=np.inf), axis=0), np.diff(problem.edges))
+    return np.asarray(every[best, np.arange(best.size)])
+
+
+def _missed(problem: Problem, track: Array) -> Array:
+    """(n, 2) measured less simulated, without end where a simulation ran away."""
+    seen = track[:, [0, 3]]
+    away = ~np.isfinite(seen) & ~np.isnan(problem.measured)
+    return np.where(away, np.inf, problem.measured - seen)
 
 
 def rms(errors: Array) -> Gap:
