@@ -20,7 +20,7 @@ from sim.fit.start import first_guess, sensible
 from sim.log import Log
 from sim.reconcile.aside import Aside, judge_damage
 from sim.reconcile.damage import Damaged
-from sim.reconcile.descent import better, scanned, settle
+from sim.reconcile.descent import better, ended, scanned, settle
 from sim.reconcile.gates import errors_of, folds, rms
 from sim.reconcile.glitch import glitches
 from sim.reconcile.hypothesis import Hypothesis
@@ -162,4 +162,4 @@ def _base(problem: Problem, log: Log, *, type: str) -> Point:  # noqa: A002 - as
     begin = problem.at(
         hypothesis, values, Outset.seen(len(problem.lanes)), problem.noise.velocity**2
     )
-    return settle(problem, scanned(problem, better(problem, begin, steps=8, enough=1.0)))
+    return ended(problem, scanned(problem, better(problem, begin, steps=8, enough=1.0)))

@@ -11,8 +11,9 @@ import numpy as np
 
 from sim.log import Array
 from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.meshing import meshed
+from sim.reconcile.meshing import closer, meshed, price
 from sim.reconcile.problem import Point, Problem
+from sim.reconcile.thresholds import CLOSE
 
 FIRST_DAMPING, TRIES = 1e-3, 5
 SOFTER = 4.0  # [1] steps of q
@@ -22,6 +23,8 @@ SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size that are worth anoth
 SURELY_MORE = 10.0  # [of -2 log L]
 HALVINGS = 3  # of the best start: what an effect offers may be too large for what is subtle
 ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
+AGAIN = 6  # times that a point is settled at most
+CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
 Begun = tuple[float, Point]  # what a start promises, and where it begins
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
 
@@ -36,6 +39,38 @@ def settle(problem: Problem, point: Point) -> Point:
         before = point.cost
         point = better(problem, tuned(problem, meshed(problem, point)), steps=STEPS)
         if before - point.cost < 2.0 * ENOUGH:
+            break
+    return point
+
+
+def ended(problem: Problem, point: Point) -> Point:
+    """The best point near one, however long the way; and, where much pushes it, near a calmer one.
+
+    A large q bears with anything: it is where a search for gains that are far off comes to rest.
+    """
+    found = [_settled(problem, point)]
+    calm = CALM * problem.noise.velocity**2
+    if found[0].q > AGITATED * calm:
+        calmer = problem.at(point.hypothesis, found[0].values, found[0].outset, calm)
+        found.append(_settled(problem, better(problem, calmer, steps=STEPS)))
+    best = min(found, key=_paid)
+    if point.hypothesis.plays:
+        less = _settled(problem, closer(problem, best))
+        if _paid(less) < _paid(best) + CLOSE:  # of two plays about as likely, the smaller
+            return less
+    return best
+
+
+def _paid(point: Point) -> float:
+    return point.cost + price(point)
+
+
+def _settled(problem: Problem, point: Point) -> Point:
+    """The same, settled until that gains no more."""
+    for _ in range(AGAIN):
+        before = point.cost
+        point = settle(problem, point)
+        if not before - point.cost > SURELY_MORE:
             break
     return point
 
@@ -78,7 +113,7 @@ def better(problem: Problem, point: Point, *, steps: int, enough: float = ENOUGH
 
 def promise(
     problem: Problem, point: Point, hypothesis: Hypothesis,
-    more: Sequence[Mapping[str, float]], *, kept: Array,
+    more: Sequence[Mapping[str, float]], *, kept: Array, as_given: bool = False,
 ) -> list[Begun]:  # fmt: skip
     """What each start of a suspect may gain once the gains have adjusted to it, and its point.
 
@@ -92,6 +127,7 @@ def promise(
         hypothesis: with it.
         more: values that it adds, one start after another.
         kept: (2 n, k) of ``adjusting`` at that point.
+        as_given: none is tried smaller: they have been chosen from some that were.
     """
 
     def off(ahead: Array) -> Array:
@@ -105,7 +141,7 @@ def promise(
         if not math.isfinite(other.cost):
             return -math.inf, other
         after = off(other.ahead)
-        return square - float(after @ after), other
+        return square - float(after @ after) - price(other), other
 
     now = off(point.ahead)
     square = float(now @ now)
@@ -118,9 +154,10 @@ def promise(
         along = float(change @ change)
         part = -float(change @ now) / along if along > 0.0 else 0.0
         found.append((gained, other))
-        if SMALL_PART < part < LARGE_PART and part**2 * along > gained + SURELY_MORE:
+        near = as_given or not SMALL_PART < part < LARGE_PART
+        if not near and part**2 * along > gained + SURELY_MORE:
             found.append(begun(_smaller(hypothesis, one, part)))
-    if found:
+    if found and not as_given:
         found += _halved(hypothesis, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
     return [one for one in found if math.isfinite(one[0])]
 

@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from inspect import signature
 
 from sim.effect import Parameter
 from sim.effects import EFFECTS
@@ -57,9 +58,20 @@ class Hypothesis:
         return sum(1 for name in self.names if name not in known or known[name].counts)
 
     @cached_property
+    def slacks(self) -> tuple[str, ...]:
+        """The values that are free play between motor and load."""
+        acts = {name: EFFECTS[name].acts.get("slack") for name in self.effects}
+        return tuple(
+            f"{name}.{one}"
+            for name, act in acts.items()
+            if act
+            for one in signature(act).parameters
+        )
+
+    @property
     def plays(self) -> bool:
         """Whether motor and load have free play."""
-        return any("slack" in EFFECTS[name].acts for name in self.effects)
+        return bool(self.slacks)
 
     def __add__(self, effect: str) -> "Hypothesis":
         return Hypothesis(self.type, (*self.effects, effect))

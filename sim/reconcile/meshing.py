@@ -13,7 +13,11 @@ from sim.reconcile.problem import Point, Problem
 
 PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # [1] of half the play
 FINER = 0.2  # [1] to both sides of the place that was the best one
-PRICE = 2.0 * math.log(len(PLACES))  # [of -2 log L] of telling where
+ASIDE = 2.0 * math.log(3.0)  # [of -2 log L] of telling that teeth rested on one side
+BETWEEN = ASIDE + 2.0 * math.log(10.0)  # the same, between them, where only friction holds them
+
+# Slack that a run crosses from its edge, and twice as much from its middle, push the load at the
+# same moment: the prices say which is the usual one.
 
 
 def meshed(problem: Problem, point: Point) -> Point:
@@ -22,9 +26,13 @@ def meshed(problem: Problem, point: Point) -> Point:
         return point
     before = point.outset.meshed
     if np.isnan(before).all():
-        others = [np.full(before.size, place) for place in PLACES]
+        weighs = point.hypothesis.type != "simple"  # else it begins in the middle anyway
+        others = [np.full(before.size, place) for place in PLACES if place or weighs]
     else:
-        others = [np.clip(before + by, -1.0, 1.0) for by in (-FINER, FINER)]
+        others = [
+            np.where(np.isnan(before), math.copysign(1.0, by), np.clip(before + by, -1.0, 1.0))
+            for by in (-FINER, FINER)
+        ]
     model = point.hypothesis.model(point.values)
     costs = [_costs(problem, point, point.ahead, before)]
     for each in others:
@@ -38,13 +46,28 @@ def meshed(problem: Problem, point: Point) -> Point:
     return found if found.cost + price(found) < point.cost + price(point) else point
 
 
+def closer(problem: Problem, point: Point) -> Point:
+    """Half the play, and each run begun in it anew: as much of it may be crossed as before."""
+    slacks = {name: 0.5 * point.values[name] for name in point.hypothesis.slacks}
+    outset = point.outset.meshing(np.full(len(problem.lanes), np.nan))
+    return meshed(
+        problem, problem.at(point.hypothesis, {**point.values, **slacks}, outset, point.q)
+    )
+
+
 def _costs(problem: Problem, point: Point, ahead: Array, meshed: Array) -> Array:
     """(runs,) what the innovations of each cost, by the spread at a point, and what was told."""
     squares = np.square(problem.white(point, ahead)).reshape(-1, 2).sum(axis=1)
-    costs: Array = np.add.reduceat(squares, problem.edges[:-1]) + PRICE * ~np.isnan(meshed)
+    costs: Array = np.add.reduceat(squares, problem.edges[:-1]) + _prices(meshed)
     return costs
 
 
 def price(point: Point) -> float:
     """[of -2 log L] of what was told of where its runs began."""
-    return PRICE * float(np.count_nonzero(~np.isnan(point.outset.meshed)))
+    return float(np.sum(_prices(point.outset.meshed)))
+
+
+def _prices(meshed: Array) -> Array:
+    """(runs,) [of -2 log L]."""
+    told = np.where(np.abs(meshed) == 1.0, ASIDE, BETWEEN)
+    return np.where(np.isnan(meshed), 0.0, told)

@@ -5,10 +5,11 @@ from dataclasses import replace
 
 from sim.effects import EFFECTS
 from sim.log import Log
+from sim.reconcile.descent import ENOUGH, ended
 from sim.reconcile.gates import Fold, outside
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.round import Round, Weighed
-from sim.reconcile.second_thoughts import missed_by, reconsidered
+from sim.reconcile.second_thoughts import missed_by, reconsidered, simplified
 from sim.reconcile.suspects import Seeds, judged
 from sim.reconcile.thresholds import (
     CLOSE,
@@ -43,6 +44,7 @@ def rounds(
     gap = outside(problem, base, parts)
     done = _gone(problem, [Round(judged(problem, base), gap, gap)], log, parts, progress)
     done = best_path(problem, done, log, parts, progress)
+    done = simplified(problem, done, log, parts)
     return missed_by(problem, done, parts)
 
 
@@ -116,18 +118,37 @@ def _added(
             continue
         if not admitted:
             break
-        best = simplest(admitted)
+        chosen = simplest(admitted)
+        best, near = _ended(problem, chosen, parts), rivals(chosen, weighed)
+        if best is not chosen:
+            near = [one for one in near if _near(_ended(problem, one, parts), best)]
         done.append(
             Round(
                 best.suspect,
                 best.gap,
                 now.gap,
-                rivals(best, weighed),
+                tuple(one.suspect.effect for one in near),
                 quiet=now.quiet,
                 seeds=now.seeds,
             )
         )
     return done
+
+
+def _ended(problem: Problem, best: Weighed, parts: Sequence[Fold]) -> Weighed:
+    """The same, as far as its search leads: suspects are only compared, the one taken goes on."""
+    suspect = best.suspect
+    point = ended(problem, suspect.point)
+    if abs(suspect.point.cost - point.cost) < ENOUGH:
+        return best
+    gap = outside(problem, point, parts)
+    if why_not(gap, best.gap, SURER) == WIDENS:
+        return best
+    return replace(best, suspect=judged(problem, point, suspect.effect), gap=gap)
+
+
+def _near(other: Weighed, best: Weighed) -> bool:
+    return other.suspect.score - best.suspect.score <= CLOSE
 
 
 def _seeds(weighed: Sequence[Weighed]) -> Seeds:

@@ -14,8 +14,8 @@ from sim.reconcile.descent import settle
 from sim.reconcile.gates import Fold, Gap, outside
 from sim.reconcile.problem import Problem
 from sim.reconcile.round import Round
-from sim.reconcile.suspects import Suspect, judged, suspects
-from sim.reconcile.thresholds import CLOSE, SURE, SURER
+from sim.reconcile.suspects import Suspect, judged, simpler_than, suspects
+from sim.reconcile.thresholds import CLOSE, SIMPLER, SURE, SURER
 from sim.reconcile.weighing import WIDENS, gained, why_not
 
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
@@ -53,6 +53,29 @@ def reconsidered(
     return done
 
 
+def simplified(problem: Problem, done: list[Round], log: Log, parts: Sequence[Fold]) -> list[Round]:
+    """The same, each effect's simpler sister in its place where that explains as much by now.
+
+    What an effect had to explain before all was found may have needed its further parameters.
+    """
+    for place in range(1, len(done)):
+        last = done[-1]
+        effect = done[place].suspect.effect
+        had = last.suspect.point.hypothesis.effects  # those that nobody names among them
+        names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []
+        model = last.suspect.point.hypothesis.model(last.suspect.point.values)
+        evidence = gather(log, dict(model.gains), type=last.suspect.point.hypothesis.type)
+        begun = simpler_than(problem, last.suspect.point, names, evidence, effect=effect)
+        if begun is None or not math.isfinite(begun.cost):
+            continue
+        found = judged(problem, settle(problem, begun), begun.hypothesis.effects[-1])
+        gap = outside(problem, found.point, parts)
+        as_good = found.score - last.suspect.score <= SIMPLER
+        if as_good and why_not(gap, last.gap, SURER) != WIDENS:
+            done = _replaced(done, place, found, gap)
+    return done
+
+
 def _others(done: Sequence[Round], place: int) -> list[str]:
     """Effects that looked like one that was added, or are known to."""
     effect = done[place].suspect.effect
@@ -67,6 +90,8 @@ def _replaced(done: Sequence[Round], place: int, found: Suspect, gap: Gap) -> li
     """The rounds with another effect in the place of one."""
     last = done[-1]
     old = done[place]
+    if old is last:
+        return [*done[:place], replace(last, suspect=found, gap=gap, rivals=())]
     swapped = replace(old.suspect, effect=found.effect)
     middle = [*done[:place], replace(old, suspect=swapped, rivals=()), *done[place + 1 : -1]]
     end = replace(found, effect=last.suspect.effect)

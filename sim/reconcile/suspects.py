@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from sim.effect import Effect
 from sim.effects import EFFECTS
 from sim.evidence import Evidence
-from sim.reconcile.descent import adjusting, better, promise, settle
+from sim.reconcile.descent import AGITATED, CALM, adjusting, better, promise, settle
 from sim.reconcile.friction import varied
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.meshing import price
@@ -21,7 +21,6 @@ from sim.reconcile.problem import STEPWISE, Point, Problem
 TRIED, KEPT = 8, 4  # suspects that go downhill a little, and to the end
 A_LITTLE = 2  # steps
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
-CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
 STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
 HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
 LIVELIEST = 2  # starts of two bodies that are simulated over all runs
@@ -82,31 +81,38 @@ def suspects(
             begun += _begun(problem, calmer, effects, evidence, seeds)[:TRIED_CALM]
     gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
     ended = [settle(problem, one) for one in _each_once(gone)[:KEPT]]
-    simpler = [_simpler(problem, one, names, evidence) for one in ended]
+    simpler = [simpler_than(problem, one, names, evidence) for one in ended]
     ended = _each_once([*ended, *(settle(problem, one) for one in simpler if one)])
     found = [judged(problem, one, one.hypothesis.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
 
 
-def _simpler(
-    problem: Problem, point: Point, names: Sequence[str], evidence: Evidence
+def simpler_than(
+    problem: Problem, point: Point, names: Sequence[str], evidence: Evidence, *, effect: str = ""
 ) -> Point | None:
-    """A point with an effect of fewer parameters in place of its last; None if there is none.
+    """A point with an effect of fewer parameters in place of one; None if there is none.
 
     A search that came far with more parameters is a good start for fewer: if it needs no more, the
     simpler one must not miss only because its own start was worse.
+
+    Args:
+        problem: the measurements.
+        point: with the effect.
+        names: of effects to choose from.
+        evidence: what a log shows.
+        effect: to replace; empty for the last one.
     """
-    effect = EFFECTS[point.hypothesis.effects[-1]]
-    name = effect.simpler
+    old = EFFECTS[effect or point.hypothesis.effects[-1]]
+    name = old.simpler
     if name not in names:
         return None
-    mine = {one: point.values[f"{effect.name}.{one}"] for one in effect.names}
-    values = effect.simplified(mine, evidence)
-    hypothesis = point.hypothesis - effect.name + name
+    mine = {one: point.values[f"{old.name}.{one}"] for one in old.names}
+    values = old.simplified(mine, evidence)
+    hypothesis = point.hypothesis - old.name + name
     more = {
         f"{name}.{one}": hypothesis.within(f"{name}.{one}", value) for one, value in values.items()
     }
-    kept = {one: point.values[one] for one in (point.hypothesis - effect.name).names}
+    kept = {one: point.values[one] for one in (point.hypothesis - old.name).names}
     return problem.at(hypothesis, {**kept, **more}, point.outset, point.q)
 
 
@@ -140,7 +146,8 @@ def _begun(
         more += _steps_below(effect, more)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))
-        begun = promise(problem, point, hypothesis, more, kept=kept)
+        chosen = effect.kind == "two-body" and lively is not None and lively.there
+        begun = promise(problem, point, hypothesis, more, kept=kept, as_given=chosen)
         if begun:
             found.append(max(begun, key=lambda one: one[0]))
     return sorted(found, key=lambda one: -one[0])
@@ -177,8 +184,10 @@ class _Lively:
         """The starts that are worth a look at all runs: none if none promises anything."""
         if not self.there:
             return more
-        heavy = HEAVIER * self.point.values["kA"]
-        tried = [*more, *({**one, "kA": heavy} for one in more)]
+        tried = list(more)
+        if self.point.q > AGITATED * CALM * self.problem.noise.velocity**2:
+            heavy = HEAVIER * self.point.values["kA"]
+            tried += [{**one, "kA": heavy} for one in more]
         begun = promise(self.problem, self.point, hypothesis, tried, kept=self.kept)
         begun = sorted((one for one in begun if one[0] > 0.0), key=lambda one: -one[0])
         effect = hypothesis.effects[-1]

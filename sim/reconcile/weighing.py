@@ -79,13 +79,13 @@ def simplest(admitted: Sequence[Weighed]) -> Weighed:
     return nearest if nearest.tried.gap < NARROWER * likeliest.tried.gap else likeliest
 
 
-def rivals(best: Weighed, weighed: Sequence[Weighed]) -> tuple[str, ...]:
+def rivals(best: Weighed, weighed: Sequence[Weighed]) -> list[Weighed]:
     """The effects that explain about as much as the one that was taken."""
-    return tuple(
-        one.suspect.effect
+    return [
+        one
         for one in weighed
         if one is not best and one.tried.admitted and best.tried.score - one.tried.score <= CLOSE
-    )
+    ]
 
 
 def gained(now: Suspect, other: Suspect) -> float:
