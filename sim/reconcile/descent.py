@@ -137,7 +137,7 @@ def promise(
     def begun(one: Mapping[str, float]) -> tuple[float, Point]:
         other = problem.at(hypothesis, {**point.values, **one}, point.outset, point.q)
         if not point.hypothesis.plays:  # else its runs are told by now
-            other = meshed(problem, other)
+            other = meshed(problem, other, aside=not as_given)
         if not math.isfinite(other.cost):
             return -math.inf, other
         after = off(other.ahead)

@@ -20,14 +20,20 @@ BETWEEN = ASIDE + 2.0 * math.log(10.0)  # the same, between them, where only fri
 # same moment: the prices say which is the usual one.
 
 
-def meshed(problem: Problem, point: Point) -> Point:
-    """The same values, each run begun where it follows best; the same point without free play."""
+def meshed(problem: Problem, point: Point, *, aside: bool = False) -> Point:
+    """The same values, each run begun where it follows best; the same point without free play.
+
+    Args:
+        problem: the measurements.
+        point: with free play or without.
+        aside: only the two sides are tried, for a quick look.
+    """
     if not point.hypothesis.plays or not math.isfinite(point.cost):
         return point
     before = point.outset.meshed
     if np.isnan(before).all():
-        weighs = point.hypothesis.type != "simple"  # else it begins in the middle anyway
-        others = [np.full(before.size, place) for place in PLACES if place or weighs]
+        places = PLACES[:: len(PLACES) - 1] if aside else PLACES
+        others = [np.full(before.size, place) for place in places]
     else:
         others = [
             np.where(np.isnan(before), math.copysign(1.0, by), np.clip(before + by, -1.0, 1.0))

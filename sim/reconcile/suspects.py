@@ -23,6 +23,7 @@ A_LITTLE = 2  # steps
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
 STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
 HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
+SHAKES = "two-body"  # kind of effects
 LIVELIEST = 2  # starts of two bodies that are simulated over all runs
 OWN: dict[str, tuple[str, ...]] = {"elevator": ("constant-load",), "arm": ("gravity-cosine",)}
 """Base type -> the effects that it has already."""
@@ -72,19 +73,29 @@ def suspects(
     had = (*point.hypothesis.effects, *OWN.get(point.hypothesis.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
-    begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
-    calm = CALM * problem.noise.velocity**2
-    if point.q > AGITATED * calm:
-        calmer = problem.at(point.hypothesis, point.values, point.outset, calm)
-        calmer = better(problem, calmer, steps=A_LITTLE)
-        if math.isfinite(calmer.cost):
-            begun += _begun(problem, calmer, effects, evidence, seeds)[:TRIED_CALM]
+    calmer = _calmer(problem, point)
+    if calmer is None:
+        begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
+    else:  # what shakes for a moment does not show where much pushes
+        steady = [one for one in effects if one.kind != SHAKES]
+        begun = _begun(problem, point, steady, evidence, seeds)[:TRIED]
+        begun += _begun(problem, calmer, effects, evidence, seeds, heavy=True)[:TRIED_CALM]
     gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
     ended = [settle(problem, one) for one in _each_once(gone)[:KEPT]]
     simpler = [simpler_than(problem, one, names, evidence) for one in ended]
     ended = _each_once([*ended, *(settle(problem, one) for one in simpler if one)])
     found = [judged(problem, one, one.hypothesis.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
+
+
+def _calmer(problem: Problem, point: Point) -> Point | None:
+    """A point that little pushes, near one that much does; None where little does anyway."""
+    calm = CALM * problem.noise.velocity**2
+    if point.q <= AGITATED * calm:
+        return None
+    calmer = problem.at(point.hypothesis, point.values, point.outset, calm)
+    calmer = better(problem, calmer, steps=A_LITTLE)
+    return calmer if math.isfinite(calmer.cost) else None
 
 
 def simpler_than(
@@ -125,9 +136,13 @@ def _each_once(points: Iterable[Point]) -> list[Point]:
 
 
 def _begun(
-    problem: Problem, point: Point, effects: Iterable[Effect], evidence: Evidence, seeds: Seeds
-) -> list[tuple[float, Point]]:
-    """The best start of each effect, with what it promises; the most promising first."""
+    problem: Problem, point: Point, effects: Iterable[Effect], evidence: Evidence, seeds: Seeds,
+    *, heavy: bool = False,
+) -> list[tuple[float, Point]]:  # fmt: skip
+    """The best start of each effect, with what it promises; the most promising first.
+
+    ``heavy`` tries two bodies of more inertia, too.
+    """
     kept = adjusting(problem, point)
     found = []
     lively = None
@@ -140,13 +155,13 @@ def _begun(
             }
             for start in effect.starts(evidence)
         ]
-        if effect.kind == "two-body":
+        if effect.kind == SHAKES:
             lively = lively or _Lively(problem, point)
-            more = lively.best(hypothesis, more)
+            more = lively.best(hypothesis, more, heavy=heavy)
         more += _steps_below(effect, more)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))
-        chosen = effect.kind == "two-body" and lively is not None and lively.there
+        chosen = effect.kind == SHAKES and lively is not None and lively.there
         begun = promise(problem, point, hypothesis, more, kept=kept, as_given=chosen)
         if begun:
             found.append(max(begun, key=lambda one: one[0]))
@@ -180,14 +195,16 @@ class _Lively:
             self.there = True
             self.kept = adjusting(self.problem, self.point)
 
-    def best(self, hypothesis: Hypothesis, more: list[dict[str, float]]) -> list[dict[str, float]]:
+    def best(
+        self, hypothesis: Hypothesis, more: list[dict[str, float]], *, heavy: bool
+    ) -> list[dict[str, float]]:
         """The starts that are worth a look at all runs: none if none promises anything."""
         if not self.there:
             return more
         tried = list(more)
-        if self.point.q > AGITATED * CALM * self.problem.noise.velocity**2:
-            heavy = HEAVIER * self.point.values["kA"]
-            tried += [{**one, "kA": heavy} for one in more]
+        if heavy:
+            whole = HEAVIER * self.point.values["kA"]
+            tried += [{**one, "kA": whole} for one in more]
         begun = promise(self.problem, self.point, hypothesis, tried, kept=self.kept)
         begun = sorted((one for one in begun if one[0] > 0.0), key=lambda one: -one[0])
         effect = hypothesis.effects[-1]
