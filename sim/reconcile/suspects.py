@@ -76,9 +76,9 @@ def suspects(
     calmer = _calmer(problem, point)
     if calmer is None:
         begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
-    else:  # what shakes for a moment does not show where much pushes
-        steady = [one for one in effects if one.kind != SHAKES]
-        begun = _begun(problem, point, steady, evidence, seeds)[:TRIED]
+    else:  # where much pushes, it takes blows of teeth for pushes
+        held = [one for one in effects if "slack" not in one.acts]
+        begun = _begun(problem, point, held, evidence, seeds)[:TRIED]
         begun += _begun(problem, calmer, effects, evidence, seeds, heavy=True)[:TRIED_CALM]
     gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
     ended = [settle(problem, one) for one in _each_once(gone)[:KEPT]]
