@@ -1,0 +1,123 @@
+"""Where a search ends: as far as it leads, and with no more parameters than are due."""
+
+import numpy as np
+import pytest
+
+from sim.engine import State, move
+from sim.log import Log, Run
+from sim.model import Model, Part
+from sim.reconcile import descent
+from sim.reconcile.descent import ended, settle
+from sim.reconcile.gates import errors_of, folds, outside, rms
+from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.lanes import lanes
+from sim.reconcile.outset import Outset
+from sim.reconcile.problem import Problem
+from sim.reconcile.round import Round
+from sim.reconcile.second_thoughts import simplified
+from sim.reconcile.suspects import judged
+
+GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
+PERIOD, NOISE = 0.01, (1e-3, 1e-2)  # [s]; [m] and [m/s]
+TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
+
+
+def session(*parts, step, frictions=(1.0, 1.0, 1.0, 1.0)):
+    """Four tests of a mechanism, of which every run has a share of the friction of its own."""
+    rng = np.random.default_rng(round(100.0 * step))
+    runs, clock = [], 0.0
+    for test, share in zip(TESTS, frictions, strict=True):
+        quick, way = test.startswith("dynamic"), -1.0 if test.endswith("reverse") else 1.0
+        time = np.arange(0.0, 1.5 if quick else 6.0, PERIOD)
+        volts = way * (np.full(time.size, step) if quick else 0.5 * time)
+        model = Model("simple", {**GAINS, "kS": share * GAINS["kS"]}, parts)
+        track = move(model, time=time, voltage=volts, state=State.at(0.0))
+        noisy = (
+            one + size * rng.standard_normal(time.size)
+            for one, size in zip((track.position, track.velocity), NOISE, strict=True)
+        )
+        runs.append(Run(test, clock + time, volts, *noisy))
+        clock += float(time[-1]) + 2.0
+    return Log(tuple(runs), units="meters", type="simple")
+
+
+def at(problem, values, *effects, q=1.0):
+    hypothesis = Hypothesis("simple", effects)
+    size = q * problem.noise.velocity**2
+    return problem.at(hypothesis, values, Outset.seen(len(problem.lanes)), size)
+
+
+def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
+    wave = {"cosine": 0.19, "sine": 0.0, "turns": 3.0}  # ten of them to an error of 0.2 rad
+    log = session(Part("cogging", wave), step=4.0, frictions=(1.05, 0.95, 0.96, 1.04))
+    problem = Problem.of(lanes(log))
+    values = {**GAINS, **{f"cogging.{name}": value for name, value in wave.items()}}
+    truth, without = at(problem, values, "cogging"), at(problem, GAINS)
+
+    plain = rms(errors_of(problem, truth, truth.outset)).velocity / problem.noise.velocity
+    eased = rms(errors_of(problem, truth, truth.outset, eased=True)).velocity
+    bare = rms(errors_of(problem, without, without.outset, eased=True)).velocity
+
+    assert plain > 5.0
+    assert eased < 0.3 * plain * problem.noise.velocity
+    assert eased < 0.3 * bare  # which was wider, where friction was only extrapolated
+
+
+@pytest.mark.parametrize("off", [4.0, 0.3])
+def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
+    problem = Problem.of(lanes(session(step=4.0)))
+    far = {"kS": 0.0, "kV": off * GAINS["kV"], "kA": 20.0 * GAINS["kA"]}
+    begun = at(problem, far, q=4.0**6)
+
+    found = ended(problem, begun)
+
+    assert found.cost <= settle(problem, begun).cost
+    assert found.values == pytest.approx(GAINS, rel=0.02)
+    assert found.q < problem.noise.velocity**2
+
+
+def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
+    problem = Problem.of(lanes(session(step=4.0)))
+    begun = at(problem, {"kS": 0.3, "kV": 0.8, "kA": 0.1})
+    costs = [begun.cost]
+
+    def halfway(problem, point):
+        values = {name: 0.5 * (point.values[name] + GAINS[name]) for name in GAINS}
+        found = problem.at(point.hypothesis, values, point.outset, point.q)
+        costs.append(found.cost)
+        return found
+
+    monkeypatch.setattr(descent, "settle", halfway)
+
+    assert ended(problem, begun).cost == min(costs)
+    assert len(costs) > 3  # it was not enough once
+
+
+def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
+    log = session(Part("constant-load", {"load": 0.3}), step=4.0)
+    problem = Problem.of(lanes(log))
+    parts = folds([one.session for one in problem.lanes])
+    base = judged(problem, settle(problem, at(problem, GAINS)))
+    spring = {**GAINS, "spring.rate": 1e-4, "spring.preload": 0.3}
+    taken = judged(problem, settle(problem, at(problem, spring, "spring")), "spring")
+    gaps = [outside(problem, one.point, parts) for one in (base, taken)]
+    done = [Round(base, gaps[0], gaps[0]), Round(taken, gaps[1], gaps[0])]
+
+    told = simplified(problem, done, log, parts)
+
+    assert [one.suspect.effect for one in told] == ["", "constant-load"]
+    assert told[-1].suspect.point.hypothesis.effects == ("constant-load",)
+    assert told[-1].suspect.point.values["constant-load.load"] == pytest.approx(0.3, abs=0.02)
+
+
+def test_an_effect_that_needs_its_parameters_keeps_them():
+    log = session(Part("spring", {"rate": 0.1, "preload": 0.0}), step=4.0)
+    problem = Problem.of(lanes(log))
+    parts = folds([one.session for one in problem.lanes])
+    base = judged(problem, settle(problem, at(problem, GAINS)))
+    values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}
+    taken = judged(problem, settle(problem, at(problem, values, "spring")), "spring")
+    gaps = [outside(problem, one.point, parts) for one in (base, taken)]
+    done = [Round(base, gaps[0], gaps[0]), Round(taken, gaps[1], gaps[0])]
+
+    assert simplified(problem, done, log, parts) == done
