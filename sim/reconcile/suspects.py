@@ -73,12 +73,9 @@ def suspects(
     had = (*point.hypothesis.effects, *OWN.get(point.hypothesis.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
+    begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
     calmer = _calmer(problem, point)
-    if calmer is None:
-        begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
-    else:  # where much pushes, it takes blows of teeth for pushes
-        held = [one for one in effects if "slack" not in one.acts]
-        begun = _begun(problem, point, held, evidence, seeds)[:TRIED]
+    if calmer is not None:
         begun += _begun(problem, calmer, effects, evidence, seeds, heavy=True)[:TRIED_CALM]
     gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
     ended = [settle(problem, one) for one in _each_once(gone)[:KEPT]]
