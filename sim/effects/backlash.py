@@ -8,12 +8,10 @@ free with its own inertia (``share`` of kA), then the teeth meet.
 
 from collections.abc import Iterator, Mapping
 
-import numpy as np
-
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
-CONTACT_PACE = 0.0048  # [s] of teeth that rest on one another; bouncing, the engine steps finer
+MOMENTS = (0.001, 0.002, 0.004, 0.008, 0.016, 0.03)  # [s] that a log can show at a start
 
 
 def slack(slack: float) -> float:
@@ -31,17 +29,10 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"slack": 0.01 * scale.speed * size, "share": 0.25}
 
 
-def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
-    """[s] of the contact, or of the motor running free if that is faster."""
-    free = values["share"] * gains["kA"] / max(gains["kV"], 1e-9)
-    return min(CONTACT_PACE, free)
-
-
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
-    """Shares of the way that was gone; how heavy the motor is shows beside the inertia of both."""
-    length = float(np.ptp(seen.position)) if seen.position.size else 1.0
-    for part in (0.001, 0.002, 0.004, 0.008, 0.016, 0.03):
-        yield {"slack": part * max(length, 1e-6), "share": 0.25}
+    """Ways of some milliseconds at the top speed; how heavy the motor is shows beside all of kA."""
+    for moment in MOMENTS:
+        yield {"slack": moment * max(seen.speed, 1e-6), "share": 0.25}
 
 
 EFFECT = Effect(
@@ -62,5 +53,4 @@ EFFECT = Effect(
     example=ordinary,
     starts=starts,
     acts={"slack": slack, "share": share},
-    pace=pace,
 )

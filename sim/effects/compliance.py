@@ -32,14 +32,6 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"softness": size / stiff, "share": 0.3}
 
 
-def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
-    """[s] of the swing of motor against load, over 2π; or of the motor alone."""
-    own = values["share"]
-    reduced = own * (1.0 - own) * gains["kA"]
-    swing = math.sqrt(max(values["softness"], 1e-12) * reduced)
-    return min(1.4 * swing, own * gains["kA"] / max(gains["kV"], 1e-9))
-
-
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     """Swings of every pace that a log can show: between two of them a search finds its way."""
     for swing in TRIED:
@@ -65,5 +57,4 @@ EFFECT = Effect(
     example=ordinary,
     starts=starts,
     acts={"softness": softness, "share": share},
-    pace=pace,
 )

@@ -18,6 +18,7 @@ import numpy as np
 from sim.effects import EFFECTS
 from sim.engine.asked import COARSEST, ORDER, arrays, coarsest, constants, finest, only_delays
 from sim.engine.compose import compose, is_compiled
+from sim.engine.joined import WAYS
 from sim.engine.kernel import Kernel
 from sim.engine.stepping import (
     APPLIED,
@@ -128,7 +129,8 @@ def move(
     kernel = _plain() if plain else _compiled()
     kernel.move(
         _doubles(time), _doubles(voltage), state.body, constants(model), wires, on, parameters,
-        state.memory, state.clock, longest, simple, _doubles(measured), _doubles(trust), out,
+        state.memory, np.zeros(WAYS), state.clock, longest, simple, _doubles(measured),
+        _doubles(trust), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track(
@@ -190,7 +192,7 @@ def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
     fixed = constants(model)
     simple = model.type != "arm" and all(map(only_delays, model.parts))
     longest = math.inf if simple else coarsest(model)
-    memory, session = np.zeros(len(EFFECTS)), None
+    memory, session, ways = np.zeros(len(EFFECTS)), None, np.zeros(WAYS)
     out = empty(sum(lead.time.size for lead in leads))
     first, play, kernel = 0, _play(model), _compiled()
     for lead in leads:
@@ -204,7 +206,7 @@ def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
         stops[HIGH] = min(stops[HIGH], lead.high + body[2] - body[0])
         kernel.move(
             _doubles(lead.time), _doubles(lead.voltage), body, stops, NO_WIRES, on, parameters,
-            memory, lead.clock, longest, simple, _doubles(measured), _doubles(trust),
+            memory, ways, lead.clock, longest, simple, _doubles(measured), _doubles(trust),
             out[first:last],
         )  # fmt: skip
         first = last

@@ -13,9 +13,11 @@ from collections.abc import Iterator, Mapping
 from types import ModuleType
 
 import sim.engine.hooks
+import sim.engine.joined
 import sim.engine.stepping
 import sim.engine.wires
 from sim.effect import Effect
+from sim.engine.joined import WAYS
 from sim.engine.kernel import Kernel, kept_at, kernel
 from sim.errors import BadRequest
 from sim.work.cache import folder
@@ -39,6 +41,7 @@ SHAPES = {  # of the arrays that `run` asks for, but for what effects remember
     "time": "(n,)",
     "asked": "(n,)",
     "state": "(5,)",
+    "ways": f"({WAYS},)",
     "measured": "(rows, 2)",
     "trust": "(2, 2)",
     "out": "(n, 8)",
@@ -116,6 +119,7 @@ def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
         yield from _chain(hook, effects, at)
     yield from _memories(effects, at)
     yield from _body(sim.engine.wires)
+    yield from _body(sim.engine.joined)
     yield from _body(sim.engine.stepping)
     yield from _entry(effects, compiled=compiled)
 

@@ -31,7 +31,7 @@ NUMBER = np.dtype(np.float64)
 INTEGER, REAL, PLACE = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
 BYTES = ctypes.c_char * 0
 CALLED = ctypes.CFUNCTYPE(  # as `_entry` in sim/engine/compose.py says it
-    None, INTEGER, INTEGER, *[PLACE] * 8, REAL, REAL, INTEGER, *[PLACE] * 3
+    None, INTEGER, INTEGER, *[PLACE] * 9, REAL, REAL, INTEGER, *[PLACE] * 3
 )
 NO_USE = b""  # what is kept where object files were tried, and do not work
 PATIENCE = 60  # [s] for one that takes a tenth
@@ -53,8 +53,8 @@ class Kernel:
 
     def move(
         self, time: Array, asked: Array, state: Array, c: Array, w: Array, on: Array, p: Array,
-        memory: Array, began: float, finest: float, plain: bool, measured: Array, trust: Array,
-        out: Array,
+        memory: Array, ways: Array, began: float, finest: float, plain: bool, measured: Array,
+        trust: Array, out: Array,
     ) -> None:  # fmt: skip
         """As ``run`` in ``sim.engine.stepping``.
 
@@ -66,7 +66,7 @@ class Kernel:
             raise TypeError("arrays of one run are of one length")
         self._call(
             time.size, len(measured), _place(time), _place(asked), _place(state), _place(c),
-            _place(w), _place(on), _place(p), _place(memory), began, finest, plain,
+            _place(w), _place(on), _place(p), _place(memory), _place(ways), began, finest, plain,
             _place(measured), _place(trust), _place(out),
         )  # fmt: skip
 
@@ -183,6 +183,6 @@ def tried(kept: Path) -> None:
         sys.exit(1)
     none, some = np.zeros((0, 2)), np.zeros(ROOM)
     Kernel(*found).move(
-        none[:, 0], none[:, 0], some, some, some, some, some, some, 0.0, 1.0, plain=True,
+        none[:, 0], none[:, 0], some, some, some, some, some, some, some, 0.0, 1.0, plain=True,
         measured=none, trust=some, out=none,
     )  # fmt: skip

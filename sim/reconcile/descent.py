@@ -26,6 +26,7 @@ ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
 AGAIN = 6  # times that a point is settled at most
 CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
 Begun = tuple[float, Point]  # what a start promises, and where it begins
+HALVED = 6  # times at most that play is halved
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
 
 
@@ -54,11 +55,19 @@ def ended(problem: Problem, point: Point) -> Point:
         calmer = problem.at(point.hypothesis, found[0].values, found[0].outset, calm)
         found.append(_settled(problem, better(problem, calmer, steps=STEPS)))
     best = min(found, key=_paid)
-    if point.hypothesis.plays:
-        less = _settled(problem, closer(problem, best))
-        if _paid(less) < _paid(best) + CLOSE:  # of two plays about as likely, the smaller
-            return less
-    return best
+    return _tight(problem, best) if point.hypothesis.plays else best
+
+
+def _tight(problem: Problem, point: Point) -> Point:
+    """The least play of those about as likely: what no run crosses may be of any size."""
+    best = point
+    for _ in range(HALVED):
+        less = _settled(problem, closer(problem, point))
+        if not _paid(less) < _paid(best) + CLOSE:
+            break
+        point = less
+        best = min(best, point, key=_paid)
+    return point
 
 
 def _paid(point: Point) -> float:
