@@ -147,6 +147,22 @@ def test_a_spring_between_two_bodies_that_rest_stays_as_it_is():
     assert state.body.tolist() == [0.001, 0.0, 0.0, 0.0, 0.0]
 
 
+@pytest.mark.parametrize("part", ["compliance", "backlash"])
+def test_what_lies_on_its_stop_is_lifted_when_it_is_in_fine_steps(part):
+    gains = {**BODIES["heavy"], "kG": 0.9}
+    other = sprung if part == "compliance" else loose
+    size = {"swing": 6.0} if part == "compliance" else {"moment": 0.004}
+    model = Model("elevator", gains, other(gains, share=0.3, **size).parts, travel=(0.0, 9.0))
+    asked = VOLTAGES["a ramp"]
+
+    right = move(model, time=TIME, voltage=asked, state=State(), step=FINE)
+
+    quick = searched(model, asked)
+    top = np.abs(right.velocity).max()
+    assert right.load_position[asked < 0.9].max() == 0.0 < right.load_position[-1]
+    assert quick[:, 1] == pytest.approx(right.velocity, abs=3e-3 * top)
+
+
 @pytest.mark.parametrize("extra", [-0.5, -0.3])
 def test_inertia_that_a_search_makes_negative_ends_all_the_same(extra):
     model = sprung(BODIES["heavy"], swing=8.0, share=0.5)

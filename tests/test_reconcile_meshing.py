@@ -1,5 +1,7 @@
 """Where in its free play a run began: no log says so, and how it went on does."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,11 +9,15 @@ from sim.engine import State, move
 from sim.log import Log, Run
 from sim.model import Model, Part
 from sim.reconcile import reconcile
+from sim.reconcile.gates import Gap
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
 from sim.reconcile.meshing import ASIDE, BETWEEN, meshed, price
+from sim.reconcile.naming import beside
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
+from sim.reconcile.round import Round
+from sim.reconcile.story import Finding
 from sim.reconcile.suspects import judged
 
 GAINS = {"kS": 0.2, "kV": 2.4, "kA": 0.3}
@@ -27,6 +33,13 @@ BEGAN = {
 """Test -> where in the play its run began, in the log and in its validation."""
 PLAYS = Hypothesis("simple") + "backlash"
 VALUES = {**GAINS, "backlash.slack": SLACK, "backlash.share": SHARE}
+
+
+def named(effect):
+    return Finding(
+        effect=effect, kind="effect", size="major", ambiguous_with=(), parameters={},
+        gap_before=2.0, gap_after=1.0, score=100.0, sentence="", inspect="", separating_test="",
+    )  # fmt: skip
 
 
 def session(which, *, step, seed):
@@ -109,3 +122,16 @@ def test_play_is_named_wherever_its_runs_began_and_the_gap_closes():
     assert found.effect == "backlash"
     assert found.parameters["slack"].value == pytest.approx(SLACK, rel=0.1)
     assert story.gap_after < 1.3 * story.noise_floor
+
+
+def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
+    point = at(problem)
+    one = Round(judged(problem, point, "backlash"), Gap(0.0, 0.0), Gap(0.0, 0.0))
+
+    (said,) = beside(problem, [one], [named("backlash")])
+    assert "no run that was fitted turns" in said
+
+    turned = session(0, step=4.0, seed=1)
+    back = replace(turned.runs[0], velocity=turned.runs[0].velocity * np.sign(np.arange(600) - 300))
+    there = Problem.of(lanes(replace(turned, runs=(back, *turned.runs[1:]))))
+    assert beside(there, [one], [named("backlash")]) == ()

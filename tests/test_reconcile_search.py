@@ -196,3 +196,24 @@ def test_a_ripple_that_any_robot_has_is_minor_however_much_of_the_gap_it_takes()
     assert [(one.effect, one.size) for one in story.findings] == [("cogging", "minor")]
     assert story.gap_after < MAJOR * story.gap_before  # but for its size it would be major
     assert story.verdict == "nothing-missing"
+
+
+@pytest.mark.parametrize("effect", ["heating", "drag"])
+def test_a_start_moves_its_own_run_and_heats_as_the_runs_before_it_did(effect):
+    built = bench("drivetrain", effect)
+    problem = Problem.of(lanes(session(built, "log")))
+    base = Hypothesis("simple") + effect
+    values = {name: built.gains[name] for name in base.names if name in built.gains}
+    values |= {f"{effect}.{name}": one for name, one in built.hidden[0].parameters.items()}
+    outset, count = Outset.seen(len(problem.lanes)), len(problem.lanes)
+    point = problem.at(base, values, outset, problem.noise.velocity**2)
+
+    starts = problem.columns(point)[:, -count:]
+
+    for number in range(count):
+        by = np.zeros(count)
+        by[number] = problem.noise.position
+        moved = problem.at(base, values, outset.moved(by), point.q)
+        change = problem.white(point, moved.ahead - point.ahead) / problem.noise.position
+        size = np.abs(change).max()
+        assert starts[:, number] == pytest.approx(change, abs=0.02 * size)

@@ -228,7 +228,7 @@ def swing(
     """The same of bodies that push each other, exactly but for what is not linear.
 
     That is taken at the middle of the step. Where one of them turns, teeth part, or a load that
-    friction holds begins to move, there is no step, and nan is returned.
+    stands begins to move, there is no step, and nan is returned.
     """
     part = share(on, p)
     rest = 1.0 - part
@@ -239,7 +239,7 @@ def swing(
     u = through(c, w, on, p, memory, asked, v, off)
     r = -gravity(c, y) - pull(on, p, y, z)
     stands = z == 0.0
-    if stands and not held(c, on, p, stiff * d + damp * v + r, rest):
+    if stands and not stays(c, on, p, y, stiff * d + damp * v + r, rest):
         return math.nan
     if stands and v == 0.0:
         return u if held(c, on, p, u - stiff * d, part) else math.nan
@@ -265,7 +265,7 @@ def swing(
     if stands:
         y_end, z_end = y, 0.0
         load = stiff * d_end + damp * v_end - gravity(c, y) - pull(on, p, y, 0.0)
-        slowest = slowest if held(c, on, p, load, rest) else 0.0
+        slowest = slowest if stays(c, on, p, y, load, rest) else 0.0
     else:
         slowest = min(slowest, z * toward, z_half * toward, z_end * toward)
     if not slowest > 0.0:
@@ -285,6 +285,12 @@ def swing(
 def held(c: Numbers, on: Numbers, p: Numbers, drive: float, part: float) -> bool:
     """Whether friction holds a body at rest that has such a part of it."""
     return abs(drive) <= part * slides(c, on, p, 0.0, math.copysign(1.0, drive))
+
+
+def stays(c: Numbers, on: Numbers, p: Numbers, y: float, drive: float, part: float) -> bool:
+    """Whether a load at rest stays there, held by friction or lying on a stop."""
+    lies = (y <= c[LOW] and drive <= 0.0) or (y >= c[HIGH] and drive >= 0.0)
+    return bool(lies or held(c, on, p, drive, part))
 
 
 def loose(

@@ -87,10 +87,10 @@ def noise(seen: tuple[Seen, ...]) -> Noise:
     steps = [math.inf, math.inf]
     for run in seen:
         for column in (0, 1):
-            fresh = run.measured[run.moving, column]
-            fresh = fresh[~np.isnan(fresh)]
+            there = run.moving & ~np.isnan(run.measured[:, column])
+            fresh = run.measured[there, column]
             if fresh.size > 3:  # noqa: PLR2004 - as above
-                thirds[column].append(np.diff(fresh, 3))
+                thirds[column].append(third_differences(run.time[there], fresh))
                 change = np.abs(np.diff(fresh))
                 change = change[change > 0.0]
                 if change.size:
@@ -104,6 +104,20 @@ def noise(seen: tuple[Seen, ...]) -> Noise:
     columns = [np.concatenate([run.measured[:, column] for run in seen]) for column in (0, 1)]
     grain = tuple(DIGITS * float(np.nanmax(one) - np.nanmin(one)) + 1e-12 for one in columns)
     return Noise(sizes[0], sizes[1], (grain[0], grain[1]))
+
+
+def third_differences(time: Array, values: Array) -> Array:
+    """(n - 3,) what is left of values when a parabola through each four is taken away.
+
+    With even times these are 1, -3, 3, -1; with others the weights of a divided difference, scaled
+    so that independent noise makes as much of them.
+    """
+    four = np.lib.stride_tricks.sliding_window_view(time, 4)
+    apart = four[:, :, None] - four[:, None, :]
+    apart[:, range(4), range(4)] = 1.0
+    weights = 1.0 / np.prod(apart, axis=2)
+    weights *= math.sqrt(THIRD) / np.linalg.norm(weights, axis=1)[:, None]
+    return np.asarray(np.sum(weights * np.lib.stride_tricks.sliding_window_view(values, 4), axis=1))
 
 
 def _seen(run: Run, *, top: float, friction: float | None) -> Seen:

@@ -97,7 +97,7 @@ def reconcile(
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.how,
-        notes=(*beside(done, findings), *seen),
+        notes=(*beside(problem, done, findings), *seen),
         compared=shown.compared,
     )  # fmt: skip
 

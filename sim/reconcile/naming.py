@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -23,6 +24,11 @@ from sim.reconcile.story import (
 )
 from sim.reconcile.thresholds import FAR_MAJOR, LOST, MAJOR, SHAKEN, STRAYS
 from sim.units import Unit
+
+TURNLESS = (
+    "How much free play there is, is known to a factor of two: no run that was fitted turns, and "
+    "only one that does is sure to cross all of it. Record steps forth and back."
+)
 
 
 def findings_of(
@@ -75,16 +81,28 @@ def _everyday(one: Finding, last: Point) -> bool:
     return effect.everyday(values)
 
 
-def beside(done: Sequence[Round], findings: Sequence[Finding]) -> tuple[str, ...]:
-    """A sentence about what is in the last model and was not named."""
+def beside(problem: Problem, done: Sequence[Round], findings: Sequence[Finding]) -> tuple[str, ...]:
+    """What a person should know of the last model: what was not named, and what no run told."""
     hypothesis = done[-1].suspect.point.hypothesis
     named = {one.effect for one in findings}
     rest = [name for name in hypothesis.effects if name not in named]
-    if not rest:
-        return ()
-    what = " and ".join(rest)
-    why = "no more than on other robots, or too little to narrow the gap"
-    return (f"In the last model there is also a little {what}: {why}.",)
+    said = []
+    if rest:
+        what = " and ".join(rest)
+        why = "no more than on other robots, or too little to narrow the gap"
+        said.append(f"In the last model there is also a little {what}: {why}.")
+    if hypothesis.plays and not _turned(problem):
+        said.append(TURNLESS)
+    return tuple(said)
+
+
+def _turned(problem: Problem) -> bool:
+    """Whether it moved both ways within a run."""
+    ways = [
+        np.sign(problem.measured[first:last, 1][problem.moving[first:last]])
+        for first, last in pairwise(problem.edges.tolist())
+    ]
+    return any((one > 0.0).any() and (one < 0.0).any() for one in ways)
 
 
 def _fault(one: Damaged, gap: float) -> Finding:

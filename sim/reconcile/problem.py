@@ -9,6 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,19 +118,15 @@ class Problem:
 
     # -- simulate --------------------------------------------------------------------------------
 
-    def track(
-        self, model: Model, outset: Outset, trust: Array, *, only: int | None = None
-    ) -> Array:
+    def track(self, model: Model, outset: Outset, trust: Array) -> Array:
         """(n, 4) position, velocity, expected position, and velocity as the sensor sees it.
 
         Args:
             model: what moves.
             outset: how each run begins.
             trust: (2, 2); ``NO_TRUST`` is an open loop.
-            only: one run, in place of all.
         """
-        chosen = range(len(self.lanes)) if only is None else (only,)
-        leads = [self._lead(number, outset) for number in chosen]
+        leads = [self._lead(number, outset) for number in range(len(self.lanes))]
         return follow(model, leads, trust=trust)
 
     def _lead(self, number: int, outset: Outset) -> Lead:
@@ -142,13 +139,10 @@ class Problem:
             meshed=float(outset.meshed[number]),
         )  # fmt: skip
 
-    def ahead(
-        self, model: Model, outset: Outset, trust: Array, *, only: int | None = None
-    ) -> Array:
+    def ahead(self, model: Model, outset: Outset, trust: Array) -> Array:
         """(n, 2) innovations: measured less expected."""
-        part = slice(None) if only is None else slice(*self.edges[only : only + 2])
-        ahead = self.measured[part] - self.track(model, outset, trust, only=only)[:, 2:]
-        ahead[~self.telling[part]] = np.nan
+        ahead = self.measured - self.track(model, outset, trust)[:, 2:]
+        ahead[~self.telling] = np.nan
         return np.asarray(ahead)
 
     def at(
@@ -202,9 +196,8 @@ class Problem:
             ValueError: the point follows nothing.
         """
         hypothesis = point.hypothesis
-        parts = [self._by_value(point, name) for name in hypothesis.searched]
-        parts += [self._by_start(point, number) for number in range(len(self.lanes))]
-        return np.column_stack([self.white(point, part) for part in parts])
+        values = [self.white(point, self._by_value(point, name)) for name in hypothesis.searched]
+        return np.column_stack([*values, self._by_starts(point)])
 
     def _by_value(self, point: Point, name: str) -> Array:
         hypothesis, value = point.hypothesis, point.values[name]
@@ -215,13 +208,18 @@ class Problem:
         model = hypothesis.model({**point.values, name: value + step})
         return np.asarray((self.ahead(model, point.outset, point.trust) - point.ahead) / step)
 
-    def _by_start(self, point: Point, number: int) -> Array:
+    def _by_starts(self, point: Point) -> Array:
+        """(2 n, runs): all starts are moved at once, and each is the business of its own run.
+
+        A run is not moved without those before it, which may have heated what it found warm.
+        """
         step = self.noise.position
-        by = np.zeros(len(self.lanes))
-        by[number] = step
-        part = slice(*self.edges[number : number + 2])
-        model = point.hypothesis.model(point.values)
-        moved = self.ahead(model, point.outset.moved(by), point.trust, only=number)
-        table = np.zeros_like(point.ahead)
-        table[part] = (moved - point.ahead[part]) / step
+        by = np.full(len(self.lanes), step)
+        moved = self.ahead(
+            point.hypothesis.model(point.values), point.outset.moved(by), point.trust
+        )
+        change = self.white(point, (moved - point.ahead) / step)
+        table = np.zeros((change.size, len(self.lanes)))
+        for number, (first, last) in enumerate(pairwise((2 * self.edges).tolist())):
+            table[first:last, number] = change[first:last]
         return table
