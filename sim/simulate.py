@@ -71,7 +71,9 @@ def simulate(
         time = _loops(routine.timeout, period=period, jitter=mechanism.sensor.jitter, rng=rng)
         voltage = np.array([routine.voltage(test, t) for t in time.tolist()])
         cut = state.body[OFF_UNTIL] > 0.0 or cut
-        clock, begun = state.clock, replace(state, memory=state.memory.copy())
+        began = runs[0].time[0] if runs else start + time[0]
+        state.clock = float(start + time[0] - began)  # what the log's own times say
+        begun = replace(state, memory=state.memory.copy())
         begun.body = State.at(_begin(mechanism, test, last)).body
         state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
         track = move(model, time=time, voltage=voltage, state=state, wires=wires)
@@ -93,7 +95,6 @@ def simulate(
         )
         extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
         runs.append(Run(test, start + time, track.applied, *seen, **extra))
-        state.clock = clock + float(time[-1] - time[0]) + PAUSE
         rest(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)

@@ -14,6 +14,7 @@ import pytest
 from sim.effects import EFFECTS
 from sim.log import Log, Run
 from sim.mechanisms import MECHANISMS
+from sim.model import Part
 
 CONTROLS = 2
 NOSY = """
@@ -246,3 +247,17 @@ def test_memory_and_seconds_are_of_each_case_by_itself(modules, tmp_path):
     assert first.memory > 150.0 > second.memory
     assert second.busy > 0.4
     assert third.busy < 0.3
+
+
+@pytest.mark.parametrize("ends", [True, False], ids=["over with its run", "for good"])
+def test_what_changes_once_does_so_in_the_first_session(modules, ends):
+    recording = modules("recording")
+    until = 12.0 if ends else recording.LATER
+    values = {"extra": 0.2, "onset": 9.0, "until": until, "shared": 1.0}
+    part = Part("inertia-change", values)
+
+    assert recording._is_changed(part, "train")
+    assert recording._since(part, "train") is part
+    for session in ("validation", "test"):
+        assert recording._is_changed(part, session) is not ends
+        assert recording._since(part, session).parameters == values | {"onset": 0.0}

@@ -12,13 +12,17 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.evidence import Evidence, clocks
 
 RAMP = 0.5  # [V/s] of an ordinary quasistatic test
 PARTS = 12  # moments of a run that are tried
 SHOWN = 2  # of them that are worth a start
 MOMENT = 1e-6  # [s] so that the last sample is in
 LATER = 1e6  # [s] after any log
+FEWEST = 20  # samples of a run that tell which change of velocity is usual
+SHARPEST = 4  # of them: breaking away is as sharp
+SHARP, LEFT = 8.0, 0.3  # [robust standard deviations] of a drop beyond it; [1] of the speed left
+ROBUST, TINY = 1.4826, 1e-12  # standard deviations in a median absolute deviation; [unit/s] none
 
 
 def heft(clock: float, extra: float, onset: float, until: float) -> float:
@@ -39,7 +43,11 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
 
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
-    """The moments at which most changes: in each run to its end, and in the log for good."""
+    """The moments at which most changes: in each run to its end, and in the log for good.
+
+    Before them, those at which velocity drops from one sample to the next: what joins at rest.
+    """
+    yield from _drops(seen)
     chosen: list[tuple[float, float, float, float]] = []
     for_good = []
     for began, ended in _runs(seen):
@@ -56,6 +64,28 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
             yield {"extra": size, "onset": onset, "until": until, "shared": shared}
 
 
+def _drops(seen: Evidence) -> Iterator[Mapping[str, float]]:
+    """The sharpest drop of each run that has one, to its end and for good; the clearest first."""
+    found = []
+    for number, (began, ended) in enumerate(_every_run(seen)):
+        run = seen.log.runs[number]
+        change = np.diff(run.velocity) * np.sign(run.velocity[1:])
+        if change.size < FEWEST:
+            continue
+        usual = float(np.median(change))
+        spread = ROBUST * float(np.median(np.abs(change - usual)))
+        place = int(np.argmin(change))
+        before, after = abs(run.velocity[place]), abs(run.velocity[place + 1])
+        sharp = (usual - change[place]) / max(spread, TINY)
+        if sharp > SHARP and after > LEFT * before:
+            extra = seen.gains["kA"] * (before / after - 1.0)
+            between = 0.5 * (run.time[place] + run.time[place + 1]) - run.time[0]
+            found.append((sharp, extra, began + float(between), ended + MOMENT))
+    for _, extra, onset, ended in sorted(found, reverse=True)[:SHARPEST]:
+        for until in (ended, LATER):
+            yield {"extra": extra, "onset": onset, "until": until, "shared": 1.0}
+
+
 def _tried(seen: Evidence, onset: float, until: float) -> tuple[float, float, float, float]:
     """What a change at that moment explains [V²], its size, and the moments."""
     during = (seen.clock >= onset) & (seen.clock < until)
@@ -65,11 +95,14 @@ def _tried(seen: Evidence, onset: float, until: float) -> tuple[float, float, fl
 
 def _runs(seen: Evidence) -> Iterator[tuple[float, float]]:
     """[s] of the log's clock at which runs began and ended, of those that tell accelerations."""
-    for number, run in enumerate(seen.log.runs):
-        mine = seen.run == number
-        if mine.any():
-            began = float(seen.clock[mine][0] - seen.since[mine][0])
-            yield began, began + float(run.time[-1] - run.time[0])
+    told = set(seen.run.tolist())
+    yield from (one for number, one in enumerate(_every_run(seen)) if number in told)
+
+
+def _every_run(seen: Evidence) -> Iterator[tuple[float, float]]:
+    """The same of all runs."""
+    for began, run in zip(clocks(seen.log).tolist(), seen.log.runs, strict=True):
+        yield began, began + float(run.time[-1] - run.time[0])
 
 
 EFFECT = Effect(

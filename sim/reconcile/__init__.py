@@ -15,7 +15,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from sim.errors import NotIdentifiable
-from sim.evidence import clocks
 from sim.fit.start import first_guess, sensible
 from sim.log import Log
 from sim.reconcile.aside import Aside, judge_damage
@@ -24,7 +23,7 @@ from sim.reconcile.descent import better, ended, scanned, settle
 from sim.reconcile.gates import errors_of, folds, rms
 from sim.reconcile.glitch import glitches
 from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import SetAside, lanes
+from sim.reconcile.lanes import SetAside, ended_after, in_a_row, lanes
 from sim.reconcile.naming import beside, findings_of, missed, verdict_of
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
@@ -70,7 +69,7 @@ def reconcile(
     """
     check_logs(log, validation, held_out, type=type, travel=travel)
     aside = judge_damage(damages or {})
-    both = log if validation is None else replace(log, runs=log.runs + validation.runs)
+    both = log if validation is None else in_a_row(log, validation)
     problem = _problem(log, validation, aside)
     progress("base model", 0.05)
     problem, base = _based(problem, log, type=type)
@@ -106,8 +105,8 @@ def _problem(log: Log, validation: Log | None, aside: Aside) -> Problem:
     """All runs that may be fitted; the clock of the second log goes on where the first ended."""
     every = lanes(log, aside=aside.of(TRAIN))
     if validation is not None:
-        began = clocks(replace(log, runs=log.runs + validation.runs))[len(log.runs)]
-        every += lanes(validation, session=1, since=float(began), aside=aside.of(VALIDATION))
+        since = ended_after(log)
+        every += lanes(validation, session=1, since=since, aside=aside.of(VALIDATION))
     return Problem.of(every)
 
 

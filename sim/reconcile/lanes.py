@@ -14,6 +14,7 @@ AT_REST = 0.05  # [share of the top speed] that a position may creep in one samp
 SAME_PLACE = 0.01  # [share of a run's way] within which a place is the place it began at
 AROUND = 0.03  # [s] on both sides of what is set aside
 MOST_RUNS = 1_000_000  # of one log
+AFTER = 1e-6  # [s] by which a log begins after another: nobody knows how long the pause was
 
 
 @dataclass(frozen=True)
@@ -91,6 +92,21 @@ def lanes(
         if part.run in found:
             found[part.run] = found[part.run].without(part)
     return tuple(found.values())
+
+
+def ended_after(*logs: Log) -> float:
+    """[s] on the clock of the first log when the last one ended; no pause between them."""
+    lasted = (one.runs[-1].time[-1] - one.runs[-1].time[0] for one in logs)
+    return float(sum(clocks(one)[-1] + last for one, last in zip(logs, lasted, strict=True)))
+
+
+def in_a_row(log: Log, later: Log) -> Log:
+    """The runs of both, on one clock if each has one: as ``lanes`` has them, with no pause."""
+    runs = later.runs
+    if follow_on(log) and follow_on(later):
+        by = log.runs[0].time[0] + ended_after(log) + AFTER - later.runs[0].time[0]
+        runs = tuple(replace(run, time=run.time + by) for run in runs)
+    return replace(log, runs=(*log.runs, *runs))
 
 
 def _rested(seen: Seen, *, top: float) -> Seen:

@@ -13,7 +13,7 @@ from sim.log import Log
 from sim.reconcile.aside import Aside
 from sim.reconcile.gates import errors_of, rms
 from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import lanes
+from sim.reconcile.lanes import ended_after, lanes
 from sim.reconcile.meshing import meshed
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
@@ -33,6 +33,7 @@ HOW: Mapping[str, str] = {
     "log": "Only one log was given: an effect is admitted if the other runs, fitted with it, "
     "predict each run better; the gap is shown on the log that was fitted.",
 }
+ORDER = ("log", "validation", "held_out")  # in which they were recorded
 MESHED = (
     "Where in its free play each run of it began is taken from that run, as its first position is: "
     "no log says so."
@@ -72,7 +73,7 @@ class Shown:
         log = replace(log, units=first.units)  # numbers of one story have one unit
         again = _again(logs)
         return cls(
-            log, Problem.of(lanes(log, aside=aside.of(name))),
+            log, Problem.of(lanes(log, since=_since(logs, name), aside=aside.of(name))),
             again.get(name, HOW[name]),
             (*(text for other, text in again.items() if other != name), *_said(given)),
             name == "held_out" and name not in again,
@@ -132,6 +133,12 @@ class Shown:
         for _ in range(LOOKS):
             here = meshed(self.problem, here)
         return here.outset
+
+
+def _since(logs: Mapping[str, Log | None], name: str) -> float:
+    """[s] of the first log's clock at which one of them began: what changed for good stays so."""
+    before = (logs.get(one) for one in ORDER[: ORDER.index(name)])
+    return ended_after(*(one for one in before if one is not None))
 
 
 def _plays(chapter: Chapter) -> bool:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from reconcile_plan import FAULTS, Case
-from reconcile_recording import SESSIONS, Levels, exchanged, heated, permuted, recorded
+from reconcile_recording import SESSIONS, Levels, exchanged, happened, heated, permuted, recorded
 from reconcile_sizes import hide
 
 from sim.contaminate import contaminate
@@ -46,6 +46,7 @@ def make(case: Case, *, seed: int) -> Made:
     period = 0.005 if quick else 0.02
     levels = Levels.draw(hidden.mechanism, rng)
     hidden = heated(hidden, levels, period=period, rng=rng)
+    hidden = happened(hidden, levels, period=period, rng=rng)
     logs = {
         name: recorded(hidden, levels, session=name, period=period, dirty=case.dirty, rng=rng)
         for name in SESSIONS

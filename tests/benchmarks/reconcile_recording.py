@@ -8,6 +8,7 @@ import numpy as np
 from reconcile_sizes import Hidden
 
 from sim.effect import Scale
+from sim.effects.inertia_change import LATER
 from sim.log import Log, Run
 from sim.mechanism import Mechanism
 from sim.model import Part
@@ -42,7 +43,8 @@ NOISE = (0.004, 0.012)  # [V] of the logged voltage
 WARMS, WARMER = "heating", 0.2  # [share] more resistance after a session's four tests: 50 K
 
 MOMENT = (0.3, 0.7)  # [share of a run's motion] when something happens once
-ONCE = "onset"  # parameter of what happens at a moment
+ONCE, ENDS = "onset", "until"  # parameters of what happens at a moment, and of what lasts
+FIRST, PASSING = "train", 0.4  # the session in which it happens; [1] of what ends with its run
 MIRRORED = (1, 0, 3, 2)  # order of the four tests in which all voltages have the other sign
 
 
@@ -95,11 +97,13 @@ def recorded(
         jitter, wobble, noise = (float(rng.uniform(*each)) for each in (JITTER, FRICTION, NOISE))
         mechanism = replace(mechanism, sensor=replace(mechanism.sensor, jitter=jitter))
     lasting = tuple(part for part in parts if ONCE not in part.parameters)
-    sudden = [part for part in parts if ONCE in part.parameters]
-    built = replace(mechanism, hidden=lasting)
-    if sudden:
+    again = [part for part in parts if ONCE in part.parameters and ENDS not in part.parameters]
+    changed = tuple(_since(part, session) for part in parts if _is_changed(part, session))
+    built = replace(mechanism, hidden=(*lasting, *changed))
+    if again:
         pilot = simulate(built, routine, rng=rng, period=period)
-        built = replace(built, hidden=(*lasting, *(_at(part, pilot, rng) for part in sudden)))
+        sudden = (replace(part, parameters=_at(part, pilot, rng)[0]) for part in again)
+        built = replace(built, hidden=(*built.hidden, *sudden))
     runs = _runs(built, routine, period=period, wobble=wobble, rng=rng)
     runs = [replace(r, voltage=r.voltage + noise * rng.standard_normal(len(r))) for r in runs]
     return Log(tuple(runs), units=mechanism.units, type=mechanism.type)
@@ -198,14 +202,47 @@ def _everyday(scale: Scale, parts: tuple[Part, ...], rng: np.random.Generator) -
     return (Part(name, each) for name, each in values.items() if name not in there)
 
 
-def _at(part: Part, pilot: Log, rng: np.random.Generator) -> Part:
-    """What happens at a moment, in the middle of some run's motion; what ends may end with it."""
+def happened(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Generator) -> Hidden:
+    """The same, with the moment at which what changes once does so: in the first session.
+
+    Args:
+        hidden: the mechanism and what is hidden in it.
+        levels: its voltages.
+        period: [s] between samples.
+        rng: the source of chance.
+    """
+    if not any(ENDS in part.parameters for part in hidden.parts):
+        return hidden
+    lasting = tuple(part for part in hidden.parts if ONCE not in part.parameters)
+    still = replace(hidden, parts=lasting)
+    pilot = recorded(still, levels, session=FIRST, period=period, dirty=False, rng=rng)
+    return replace(hidden, parts=tuple(_happens(part, pilot, rng) for part in hidden.parts))
+
+
+def _happens(part: Part, pilot: Log, rng: np.random.Generator) -> Part:
+    if ENDS not in part.parameters:
+        return part
+    values, end = _at(part, pilot, rng)
+    return replace(part, parameters={**values, ENDS: end} if rng.random() < PASSING else values)
+
+
+def _at(part: Part, pilot: Log, rng: np.random.Generator) -> tuple[dict[str, float], float]:
+    """Its parameters if it happens in the middle of a run's motion; and when that run is over."""
     run = pilot.runs[int(rng.integers(len(FOUR) * 2))]
     speed = np.abs(run.velocity)
     moving = run.time[speed > 0.1 * speed.max()]
     onset = float(moving[0] + rng.uniform(*MOMENT) * (moving[-1] - moving[0]))
     began = float(pilot.runs[0].time[0])
-    values = {**part.parameters, ONCE: onset - began}
-    if "until" in values and rng.random() < 0.4:
-        values["until"] = float(run.time[-1]) + 0.5 - began
-    return Part(part.effect, values)
+    return {**part.parameters, ONCE: onset - began}, float(run.time[-1]) + 0.5 - began
+
+
+def _is_changed(part: Part, session: str) -> bool:
+    """Whether a session knows of what changes once: what ended with a run is over by the next."""
+    return ENDS in part.parameters and (session == FIRST or part.parameters[ENDS] >= LATER)
+
+
+def _since(part: Part, session: str) -> Part:
+    """The same; what is for good is there from the beginning of the next session."""
+    if session == FIRST:
+        return part
+    return replace(part, parameters={**part.parameters, ONCE: 0.0})

@@ -34,7 +34,7 @@ class Hidden:
 
     Args:
         mechanism: as drawn, nothing hidden yet.
-        parts: the effects; those with a moment have it for themselves in every session.
+        parts: the effects.
         sizes: name -> 1 if it is ordinary.
     """
 
