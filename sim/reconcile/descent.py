@@ -62,7 +62,7 @@ def _tight(problem: Problem, point: Point) -> Point:
     """The least play of those about as likely: what no run crosses may be of any size."""
     best = point
     for _ in range(HALVED):
-        less = _settled(problem, closer(problem, point))
+        less = settle(problem, closer(problem, point))
         if not _paid(less) < _paid(best) + CLOSE:
             break
         point = less

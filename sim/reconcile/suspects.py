@@ -74,11 +74,15 @@ def suspects(
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
     begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
+    gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
+    best = _each_once(gone)[:KEPT]
     calmer = _calmer(problem, point)
     if calmer is not None:
-        begun += _begun(problem, calmer, effects, evidence, seeds, heavy=True)[:TRIED_CALM]
-    gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
-    ended = [settle(problem, one) for one in _each_once(gone)[:KEPT]]
+        begun = _begun(problem, calmer, effects, evidence, seeds, heavy=True)[:TRIED_CALM]
+        calm = [better(problem, start, steps=A_LITTLE) for _, start in begun]
+        best = _each_once([*gone, *calm])[:KEPT]
+        best += _each_once(calm)[:1]  # the likeliest of these has the longer way to go
+    ended = [settle(problem, one) for one in dict.fromkeys(best)]
     simpler = [simpler_than(problem, one, names, evidence) for one in ended]
     ended = _each_once([*ended, *(settle(problem, one) for one in simpler if one)])
     found = [judged(problem, one, one.hypothesis.effects[-1]) for one in ended]
