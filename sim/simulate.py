@@ -15,7 +15,7 @@ import numpy as np
 
 from sim.doubt import Doubt
 from sim.engine import State, Track, move
-from sim.engine.stepping import OFF_UNTIL
+from sim.engine.one_body import OFF_UNTIL
 from sim.errors import BadRequest
 from sim.log import Array, Log, Run
 from sim.mechanism import Mechanism

@@ -7,6 +7,8 @@ import numpy as np
 
 from sim.battery import Battery
 from sim.effects import EFFECTS
+from sim.engine import move
+from sim.log import Run
 from sim.mechanisms import MECHANISMS
 from sim.model import Part
 from sim.reconcile import reconcile
@@ -22,6 +24,34 @@ SESSIONS = {
 """Name of a log -> the step [V], and the tests."""
 RAMP, TIMEOUT = 1.0, 4.0  # [V/s], [s]: short, so that a case takes some seconds
 SLOWEST = 3.5  # [V] of a step, for which the catalogue's examples are made
+
+
+PERIOD = 0.01  # [s], of what `recorded` records
+
+
+def recorded(kind, model, *, step, state, noise, rng, began=0.0, still=0):
+    """The record of a model on one test, without a mechanism or its battery around it.
+
+    Args:
+        kind: "quasistatic-forward" and the like.
+        model: what moves.
+        step: [V] of a dynamic test; the others ramp at 0.5 V/s.
+        state: in which it begins.
+        noise: of position and velocity, in their units.
+        rng: draws it.
+        began: [s] at which its clock begins.
+        still: samples without a voltage at first.
+    """
+    quick, way = kind.startswith("dynamic"), -1.0 if kind.endswith("reverse") else 1.0
+    time = np.arange(0.0, 1.5 if quick else 6.0, PERIOD)
+    volts = way * (np.full(time.size, step) if quick else 0.5 * time)
+    volts[:still] = 0.0
+    track = move(model, time=time, voltage=volts, state=state)
+    noisy = (
+        one + size * rng.standard_normal(time.size)
+        for one, size in zip((track.position, track.velocity), noise, strict=True)
+    )
+    return Run(kind, began + time, volts, *noisy)
 
 
 def bench(name, effect="", *, size=1.0, simple=False):

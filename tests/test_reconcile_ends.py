@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from reconcile_made import recorded
 
-from sim.engine import State, move
-from sim.log import Log, Run
+from sim.engine import State
+from sim.log import Log
 from sim.model import Model, Part
 from sim.reconcile import descent
 from sim.reconcile.descent import ended, settle
@@ -18,7 +19,7 @@ from sim.reconcile.second_thoughts import simplified
 from sim.reconcile.suspects import judged
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
-PERIOD, NOISE = 0.01, (1e-3, 1e-2)  # [s]; [m] and [m/s]
+NOISE = (1e-3, 1e-2)  # [m] and [m/s]
 TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
 
 
@@ -27,17 +28,10 @@ def session(*parts, step, frictions=(1.0, 1.0, 1.0, 1.0)):
     rng = np.random.default_rng(round(100.0 * step))
     runs, clock = [], 0.0
     for test, share in zip(TESTS, frictions, strict=True):
-        quick, way = test.startswith("dynamic"), -1.0 if test.endswith("reverse") else 1.0
-        time = np.arange(0.0, 1.5 if quick else 6.0, PERIOD)
-        volts = way * (np.full(time.size, step) if quick else 0.5 * time)
         model = Model("simple", {**GAINS, "kS": share * GAINS["kS"]}, parts)
-        track = move(model, time=time, voltage=volts, state=State.at(0.0))
-        noisy = (
-            one + size * rng.standard_normal(time.size)
-            for one, size in zip((track.position, track.velocity), NOISE, strict=True)
-        )
-        runs.append(Run(test, clock + time, volts, *noisy))
-        clock += float(time[-1]) + 2.0
+        begun = {"state": State.at(0.0), "began": clock}
+        runs.append(recorded(test, model, step=step, noise=NOISE, rng=rng, **begun))
+        clock = float(runs[-1].time[-1]) + 2.0
     return Log(tuple(runs), units="meters", type="simple")
 
 

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reconcile_made import recorded
 
-from sim.engine import State, move
-from sim.log import Log, Run
+from sim.engine import State
+from sim.log import Log
 from sim.model import Model, Part
 from sim.reconcile import reconcile
 from sim.reconcile.gates import Gap
@@ -23,7 +24,7 @@ from sim.reconcile.suspects import judged
 GAINS = {"kS": 0.2, "kV": 2.4, "kA": 0.3}
 SLACK, SHARE = 0.05, 0.2
 PLAY = Part("backlash", {"slack": SLACK, "share": SHARE})
-PERIOD, NOISE = 0.01, (1e-4, 2e-3)  # [s]; [m] and [m/s]
+NOISE = (1e-4, 2e-3)  # [m] and [m/s]
 BEGAN = {
     "quasistatic-forward": (-1.0, -1.0),
     "quasistatic-reverse": (1.0, 0.0),
@@ -45,21 +46,13 @@ def named(effect):
 def session(which, *, step, seed):
     """Four tests whose runs begin where ``BEGAN`` says."""
     rng = np.random.default_rng(seed)
+    model = Model("simple", GAINS, (PLAY,))
     runs, clock = [], 0.0
     for test, places in BEGAN.items():
-        quick, way = test.startswith("dynamic"), -1.0 if test.endswith("reverse") else 1.0
-        time = np.arange(0.0, 1.5 if quick else 6.0, PERIOD)
-        volts = way * (np.full(time.size, step) if quick else 0.5 * time)
-        volts[:3] = 0.0
         load = -0.5 * SLACK * places[which]
-        state = State(np.array([0.0, 0.0, load, 0.0, 0.0]))
-        track = move(Model("simple", GAINS, (PLAY,)), time=time, voltage=volts, state=state)
-        noisy = (
-            one + size * rng.standard_normal(time.size)
-            for one, size in zip((track.position, track.velocity), NOISE, strict=True)
-        )
-        runs.append(Run(test, clock + time, volts, *noisy))
-        clock += float(time[-1]) + 2.0
+        begun = {"state": State(np.array([0.0, 0.0, load, 0.0, 0.0])), "began": clock, "still": 3}
+        runs.append(recorded(test, model, step=step, noise=NOISE, rng=rng, **begun))
+        clock = float(runs[-1].time[-1]) + 2.0
     return Log(tuple(runs), units="meters", type="simple")
 
 

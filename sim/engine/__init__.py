@@ -20,14 +20,13 @@ from sim.engine.asked import COARSEST, ORDER, arrays, coarsest, constants, fines
 from sim.engine.compose import compose, is_compiled
 from sim.engine.joined import WAYS
 from sim.engine.kernel import Kernel
+from sim.engine.one_body import HIGH, LOW
 from sim.engine.stepping import (
     APPLIED,
     BUS,
     CURRENT,
     EXPECTED,
-    HIGH,
     LOAD_POSITION,
-    LOW,
     POSITION,
     SEEN,
     VELOCITY,

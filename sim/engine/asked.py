@@ -27,7 +27,7 @@ def only_delays(part: Part) -> bool:
 
 
 def constants(model: Model) -> Array:
-    """(8,) what the engine knows of the base model, in the order of ``sim.engine.stepping``."""
+    """(8,) what the engine knows of the base model, in the order of ``sim.engine.one_body``."""
     gains = model.gains
     level = gains.get("kG", 0.0)
     low, high = model.travel or (-math.inf, math.inf)

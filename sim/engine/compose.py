@@ -1,7 +1,7 @@
 """Compose the engine: the effects' own small functions and the stepping, compiled as one.
 
 The text of one module is written: functions that ask every effect that is on (in place of
-``hooks.py``), then ``wires.py`` and ``stepping.py`` as they are. What is compiled of it stands in a
+``hooks.py``), then ``MODULES`` as they are. What is compiled of it stands in a
 folder of the user's cache under a name made of that text, so that a changed or a new effect is a
 new engine.
 """
@@ -12,16 +12,14 @@ import sys
 from collections.abc import Iterator, Mapping
 from types import ModuleType
 
-import sim.engine.hooks
-import sim.engine.joined
-import sim.engine.stepping
-import sim.engine.wires
 from sim.effect import Effect
+from sim.engine import joined, one_body, stepping, two_bodies, wires
 from sim.engine.joined import WAYS
 from sim.engine.kernel import Kernel, kept_at, kernel
 from sim.errors import BadRequest
 from sim.work.cache import folder
 
+MODULES = (wires, joined, one_body, two_bodies, stepping)
 CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
 
 HOOKS: Mapping[str, tuple[str, str, str]] = {
@@ -118,9 +116,8 @@ def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     for hook in HOOKS:
         yield from _chain(hook, effects, at)
     yield from _memories(effects, at)
-    yield from _body(sim.engine.wires)
-    yield from _body(sim.engine.joined)
-    yield from _body(sim.engine.stepping)
+    for module in MODULES:
+        yield from _body(module)
     yield from _entry(effects, compiled=compiled)
 
 
@@ -156,7 +153,7 @@ def _memories(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterato
 
 def _entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     """What is called from outside: arrays that stay the same through a run become tuples."""
-    asked = list(inspect.signature(sim.engine.stepping.run).parameters)
+    asked = list(inspect.signature(stepping.run).parameters)
     sizes = {
         "c": CONSTANTS,
         "w": WIRES,
