@@ -20,6 +20,7 @@ from typing import Any
 from sim.evidence import Evidence
 
 KINDS = ("term", "path", "sense", "two-body")
+ONSET, UNTIL = "onset", "until"  # parameters of what happens once
 
 ASKS: Mapping[str, tuple[str, ...]] = {
     # a term: volts that the motor must pay on top of kS, kV and kA
@@ -159,6 +160,11 @@ class Effect:
     def names(self) -> tuple[str, ...]:
         """The names of the parameters."""
         return tuple(parameter.name for parameter in self.parameters)
+
+    @property
+    def happens(self) -> bool:
+        """Whether it begins at a moment and may be over at another: inertia that joins does."""
+        return {ONSET, UNTIL} <= set(self.names)
 
     @property
     def neutral(self) -> dict[str, float]:

@@ -9,7 +9,7 @@ import importlib.util
 import sys
 from collections import Counter
 from contextlib import suppress
-from dataclasses import FrozenInstanceError, fields
+from dataclasses import FrozenInstanceError, fields, replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -240,6 +240,40 @@ def test_a_good_file_in_the_folder_is_a_fault_and_nothing_else_is_touched(tmp_pa
     place.loader.exec_module(module)
 
     assert isinstance(fault_of(module, name="gremlins"), Fault)
+
+
+EVERY = ("quasistatic", "dynamic", "coast", "triangle", "multistep", "chirp")
+
+
+@pytest.mark.parametrize("pace", [{}, {"ramp": 0.5, "step": 3.5}], ids=["ordinary", "gentle"])
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_what_coasts_to_rest_or_is_stepped_down_onto_its_stop_is_sound(name, pace):
+    rng = np.random.default_rng([4, list(MECHANISMS).index(name)])
+    log = simulate(MECHANISMS[name].draw(rng), Routine(kinds=EVERY, **pace), rng=rng)
+
+    found = inspect(log).damages
+
+    assert {run.kind for run in log.runs} == set(EVERY)
+    assert not found
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6])
+def test_a_stop_in_the_way_of_a_slow_ramp_is_a_stop_and_no_brownout(share):
+    rng = np.random.default_rng(6)
+    log = simulate(MECHANISMS["arm"].draw(rng), Routine(), rng=rng)
+    run = log.runs[0]
+    at = int(np.searchsorted(np.abs(run.velocity), share * run.top_speed))
+    stops = np.arange(len(run)) >= at
+    stood = replace(
+        run,
+        velocity=np.where(stops, 0.0, run.velocity),
+        position=np.where(stops, run.position[at], run.position),
+    )
+
+    (damage,) = inspect(replace(log, runs=(stood, *log.runs[1:]))).damages
+
+    assert (damage.fault, damage.where.run) == ("hard-stop", 0)
+    assert damage.where.start == pytest.approx(run.time[at], abs=0.05)
 
 
 # The acceptance

@@ -9,6 +9,7 @@ from reconcile_made import bench, logs, session, solved, told
 from sim.cli.reconcile import damages
 from sim.contaminate import contaminate
 from sim.effects import EFFECTS
+from sim.reconcile.damage import Damaged
 from sim.reconcile.thresholds import NOT_WIDER
 from sim.telling import beside, headline
 from sim.units import unit
@@ -120,7 +121,7 @@ def test_what_the_validation_does_not_confirm_is_not_named():
 
     assert named(story) == []
     assert story.verdict == "unexplained"
-    (load,) = [one for one in tried(story) if one.effect == "constant-load"]
+    load, *_ = (one for one in tried(story) if one.effect == "constant-load")
     assert (load.admitted, load.why) == (False, "widens the gap")
     assert load.score > 100.0  # however much likelier it makes the log
 
@@ -209,6 +210,22 @@ def test_voltages_of_other_moments_are_explained_by_nothing():
     assert story.verdict == "unexplained"
     assert named(story) == []
     assert headline(story).startswith("Something is missing that no effect")
+
+
+@pytest.mark.parametrize(
+    ("confidence", "first", "size"), [(0.95, "hard-stop", "major"), (0.7, "drag", "minor")]
+)
+def test_a_fault_that_may_be_physics_is_told_after_what_is_missing(confidence, first, size):
+    sessions = logs("drivetrain", "drag")
+    run = sessions["log"].runs[0]
+    start = float(run.time[-1]) - 0.2
+    leans = Damaged(0, start, float(run.time[-1]), "hard-stop", confidence, "It leans.", "Look.")
+
+    story = told(sessions, damages={"log": (leans,)})
+
+    assert {one.effect for one in story.findings[:2]} == {"drag", "hard-stop"}
+    assert story.findings[0].effect == first
+    assert [one.size for one in story.findings if one.kind == "fault"] == [size]
 
 
 def test_damage_is_reported_as_damage_and_physics_beside_it_is_still_named():

@@ -4,13 +4,23 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reconcile_made import bench, session, told
+from reconcile_made import bench, recorded, session, told
 
 from sim.effects import EFFECTS
+from sim.engine import State
 from sim.evidence import clocks, gather
 from sim.log import Log, Run
-from sim.model import Part
+from sim.model import Model, Part
+from sim.reconcile import weighing
+from sim.reconcile.descent import adjusting, promise, settle
+from sim.reconcile.gates import Gap, folds
+from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import ended_after, in_a_row, lanes
+from sim.reconcile.once import moments
+from sim.reconcile.outset import Outset
+from sim.reconcile.problem import Problem
+from sim.reconcile.round import Round
+from sim.reconcile.suspects import judged
 
 PERIOD, LATER = 0.02, 1e6  # [s]
 JOINS = 0.6  # [1] of kA
@@ -99,3 +109,115 @@ def test_a_run_without_a_drop_gives_no_such_start():
     first = next(iter(EFFECTS["inertia-change"].starts(evidence)))
 
     assert first["shared"] == 0.0
+
+
+# Moments that no velocity tells
+
+GAINS = {"kS": 0.4, "kV": 0.6, "kA": 0.04}
+NOISE = (1e-4, 2e-2)  # [m] and [m/s]: the position knows
+TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
+
+
+def log_with(parts):
+    """Four tests of a model in which something may happen once."""
+    rng = np.random.default_rng(1)
+    runs, clock = [], 0.0
+    for test in TESTS:
+        begun = {"state": replace(State.at(0.0), clock=clock), "began": clock}
+        model = Model("simple", GAINS, parts)
+        runs.append(recorded(test, model, step=5.0, noise=NOISE, rng=rng, **begun))
+        clock = float(runs[-1].time[-1]) + 2.0
+    return Log(tuple(runs), units="meters", type="simple")
+
+
+@pytest.fixture(scope="module")
+def dynamic():
+    """[s] of the log's clock at which its third run began."""
+    return float(clocks(log_with(()))[2])
+
+
+@pytest.mark.parametrize(
+    ("shared", "after", "lasts", "off"),
+    [
+        (0.0, 0.25, 2.0, 0.02),
+        (0.0, 0.02, 2.0, 0.02),
+        (0.0, 0.02, LATER, 0.02),
+        (1.0, 0.62, 2.0, 0.005),
+        (1.0, 0.62, LATER, 0.005),
+    ],
+    ids=["late in a step", "early", "early, for good", "at rest", "at rest, for good"],
+)
+def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, lasts, off):
+    until = dynamic + lasts if lasts < LATER else LATER
+    values = {"extra": 0.02, "onset": dynamic + after, "until": until, "shared": shared}
+    log = log_with((Part("inertia-change", values),))
+    problem = Problem.of(lanes(log))
+    begun = Outset.seen(len(problem.lanes))
+    point = settle(
+        problem, problem.at(Hypothesis("simple"), GAINS, begun, problem.noise.velocity**2)
+    )
+
+    kept = adjusting(problem, point)
+    tried = list(moments(problem, point, EFFECTS["inertia-change"], kept=kept))
+
+    likeliest = max(
+        promise(problem, point, point.hypothesis + "inertia-change", tried, kept=kept),
+        key=lambda one: one[0],
+    )[1].values
+    found = {name: likeliest[f"inertia-change.{name}"] for name in values}
+    assert found["onset"] == pytest.approx(values["onset"], abs=off)
+    assert found["shared"] == shared
+    assert (found["until"] == LATER) == (lasts == LATER)
+    assert found["extra"] == pytest.approx(0.02, rel=0.5)
+
+
+def test_what_would_leave_the_whole_log_is_no_moment():
+    problem = Problem.of(lanes(log_with(())))
+    point = problem.at(Hypothesis("simple"), GAINS, Outset.seen(4), problem.noise.velocity**2)
+
+    tried = list(moments(problem, point, EFFECTS["inertia-change"], kept=adjusting(problem, point)))
+
+    assert tried
+    for one in tried:
+        assert one["inertia-change.extra"] >= -0.8 * GAINS["kA"]
+        assert not (one["inertia-change.onset"] == 0.0 and one["inertia-change.until"] == LATER)
+
+
+@pytest.mark.parametrize(
+    ("effect", "score", "admitted"),
+    [("inertia-change", 190.0, False), ("inertia-change", 210.0, True), ("drag", 190.0, True)],
+)
+def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, score, admitted):
+    log = log_with(())
+    problem = Problem.of(lanes(log))
+    base = judged(
+        problem,
+        problem.at(Hypothesis("simple"), GAINS, Outset.seen(4), problem.noise.velocity**2),
+    )
+    other = replace(base, effect=effect, score=base.score - score)
+    gap = Gap(1.0, 1.0)
+    monkeypatch.setattr(weighing, "suspects", lambda *_, **__: [other])
+    monkeypatch.setattr(weighing, "outside", lambda *_: Gap(0.9, 0.9))
+
+    (one,) = weighing.weigh(problem, Round(base, gap, gap), log, folds([0, 0, 0, 0]))
+
+    assert one.tried.admitted is admitted
+
+
+def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypatch):
+    log = log_with(())
+    problem = Problem.of(lanes(log))
+    base = judged(
+        problem,
+        problem.at(Hypothesis("simple"), GAINS, Outset.seen(4), problem.noise.velocity**2),
+    )
+    gap = Gap(1.0, 1.0)
+    names = ("inertia-change", "drag")
+    tried = [replace(base, effect=name, score=base.score - 500.0) for name in names]
+    monkeypatch.setattr(weighing, "suspects", lambda *_, **__: tried)
+    monkeypatch.setattr(weighing, "outside", lambda *_: gap)
+
+    inertia, drag = weighing.weigh(problem, Round(base, gap, gap), log, folds([0, 0, 0, 0]))
+
+    assert inertia.tried.admitted
+    assert drag.tried.why == weighing.HARDLY

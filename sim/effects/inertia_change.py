@@ -17,11 +17,13 @@ from sim.evidence import Evidence, clocks
 RAMP = 0.5  # [V/s] of an ordinary quasistatic test
 PARTS = 12  # moments of a run that are tried
 SHOWN = 2  # of them that are worth a start
+MOST = 4  # starts of the whole log that are
 MOMENT = 1e-6  # [s] so that the last sample is in
 LATER = 1e6  # [s] after any log
 FEWEST = 20  # samples of a run that tell which change of velocity is usual
 SHARPEST = 4  # of them: breaking away is as sharp
-SHARP, LEFT = 8.0, 0.3  # [robust standard deviations] of a drop beyond it; [1] of the speed left
+SHARP, LEFT = 6.0, 0.3  # [robust standard deviations] of a drop beyond it; [1] of the speed left
+EARLY = 0.25  # [samples] after the last one before a drop: a step asks in its middle what there is
 ROBUST, TINY = 1.4826, 1e-12  # standard deviations in a median absolute deviation; [unit/s] none
 
 
@@ -58,7 +60,7 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     chosen += sorted(for_good, reverse=True)[:SHOWN]
     chosen.sort(reverse=True)
     least = -0.8 * seen.gains["kA"]
-    for place, (_, extra, onset, until) in enumerate(chosen):
+    for place, (_, extra, onset, until) in enumerate(chosen[:MOST]):
         for shared in (0.0, 1.0) if place < SHOWN else (0.0,):
             size = max(extra, least)
             yield {"extra": size, "onset": onset, "until": until, "shared": shared}
@@ -79,7 +81,8 @@ def _drops(seen: Evidence) -> Iterator[Mapping[str, float]]:
         sharp = (usual - change[place]) / max(spread, TINY)
         if sharp > SHARP and after > LEFT * before:
             extra = seen.gains["kA"] * (before / after - 1.0)
-            between = 0.5 * (run.time[place] + run.time[place + 1]) - run.time[0]
+            step = run.time[place + 1] - run.time[place]
+            between = run.time[place] + EARLY * step - run.time[0]
             found.append((sharp, extra, began + float(between), ended + MOMENT))
     for _, extra, onset, ended in sorted(found, reverse=True)[:SHARPEST]:
         for until in (ended, LATER):

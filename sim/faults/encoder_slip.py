@@ -18,7 +18,7 @@ import numpy as np
 
 from sim.clues import Clues
 from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, at_pace, with_run
-from sim.log import Log
+from sim.log import Array, Log
 from sim.surprise import Surprise
 
 SLIP = 0.4  # [s] as long as a slip lasts, or half of what is left of the run
@@ -34,6 +34,7 @@ FEWEST = 3  # [samples]
 MOST = 2.0  # [s] what lasts longer is no slip but a wrong scale
 BACK = 2  # [samples] that read right again before the run ends
 BELIEVED = 0.92  # [share explained] less is something else
+AT_END = 0.005  # [share of the travel] within which it stands, at the end of it
 
 
 def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
@@ -67,6 +68,8 @@ def detect(clues: Clues) -> Iterable[Damage]:
         start, end = (float(run.time[surprise.begin + i]) for i in (first, last - 1))
         if share < proof or abs(loss) < LEAST or not back or end - start > MOST:
             continue
+        if _stands_at_its_end(clues, run.position[surprise.begin + first : surprise.begin + last]):
+            continue
         yield Damage(
             fault="encoder-slip",
             where=Stretch(surprise.run, run.test, start, end),
@@ -77,6 +80,15 @@ def detect(clues: Clues) -> Iterable[Damage]:
             advice="Tighten what holds the sensor to the shaft, and run this test again; until "
             "then leave the stretch out.",
         )
+
+
+def _stands_at_its_end(clues: Clues, position: Array) -> bool:
+    """Whether it stands where it can go no further: steps up and down end on a stop."""
+    every = np.concatenate([run.position for run in clues.log.runs])
+    lowest, highest = float(every.min()), float(every.max())
+    near = AT_END * (highest - lowest)
+    usual = float(np.median(position))
+    return usual - lowest < near or highest - usual < near
 
 
 def _best(surprise: Surprise, period: float) -> tuple[float, float, int, int]:

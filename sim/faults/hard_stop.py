@@ -25,7 +25,9 @@ PRESSED = 0.6  # [s] against the stop at severity 1, until somebody lets go
 BOUNCE, FADES = 0.15, 0.02  # [share of the speed, s] how it comes back from the stop, and how long
 SHORTEST = 0.06  # [s] against the stop, at least three samples, that leave no doubt
 FAST = 4.0  # [speeds of standstill] it came with
-ON = 0.5  # [share of the voltage at the impact] that is still there afterwards
+BRISK, WHOLE = 2.0, 0.7  # [the same, share of it one sample before] where it rests at once
+ON, LATELY = 0.5, 0.2  # [share of the most voltage, s before the impact] that is there afterwards
+PUSHED = 0.1  # [share of the largest voltage] less is none, and it came to rest by itself
 SETTLES = 0.1  # [s] after the impact, for the bounce and the sensor's filter
 BEFORE = 0.1  # [s] before the impact, where the speed it came with is read
 AT_END = 0.02  # [share of the travel] that close to the end of it a stop may be
@@ -64,33 +66,51 @@ def detect(clues: Clues) -> Iterable[Damage]:
     """Find runs that end at a stop with the voltage still on, or begin leaning on one."""
     yield from _leaning(clues)
     for index, run in enumerate(clues.log.runs):
-        impact = _impact(run, still=clues.still)
-        if impact is None:
-            continue
-        before = (run.time >= run.time[impact] - BEFORE) & (run.time < run.time[impact])
-        speed = float(np.median(np.abs(run.velocity[before]))) if before.any() else 0.0
-        lasts = float(run.time[-1] - run.time[impact])
-        volts = np.abs(run.voltage)
-        if (
-            speed < FAST * clues.still
-            or lasts < max(SHORTEST, 2.5 * clues.period)
-            or volts[impact:].min() < ON * volts[impact - 1]
-        ):
-            continue
-        moved = abs(float(run.position[-1] - run.position[impact]))
-        share = 1.0 - moved / (speed * lasts)
-        if share < 1.0 - GIVES:
-            continue
-        yield Damage(
-            fault="hard-stop",
-            where=Stretch(index, run.test, float(run.time[impact]), float(run.time[-1])),
-            confidence=share,
-            evidence=f"It goes from {_percent(speed, run)} of its top speed to rest within "
-            f"{SETTLES:g} s and stays there for {lasts:.2f} s, with "
-            f"{volts[impact:].max():.1f} V on.",
-            advice="Trim the run to before the impact, or run it again and let go earlier; set "
-            "soft limits first.",
-        )
+        for fast in (FAST, BRISK):
+            found = _stopped(index, run, fast=fast, still=clues.still, period=clues.period)
+            if found:
+                yield found
+                break
+
+
+def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) -> Damage | None:
+    """What came with so many speeds of standstill, and rests until the end of the run."""
+    impact = _impact(run, speed=fast * still, still=still)
+    if impact is None:
+        return None
+    before = (run.time >= run.time[impact] - BEFORE) & (run.time < run.time[impact])
+    speed = float(np.median(np.abs(run.velocity[before]))) if before.any() else 0.0
+    lasts = float(run.time[-1] - run.time[impact])
+    volts = np.abs(run.voltage)
+    lately = (run.time >= run.time[impact] - LATELY) & (run.time < run.time[impact])
+    pushed = float(volts[lately].max(initial=0.0))
+    if (
+        speed < fast * still
+        or (fast < FAST and not _at_once(run, impact, speed=speed, still=still))
+        or lasts < max(SHORTEST, 2.5 * period)
+        or volts[impact:].min() < max(ON * pushed, PUSHED * volts.max())
+    ):
+        return None
+    moved = abs(float(run.position[-1] - run.position[impact]))
+    share = 1.0 - moved / (speed * lasts)
+    if share < 1.0 - GIVES:
+        return None
+    return Damage(
+        fault="hard-stop",
+        where=Stretch(index, run.test, float(run.time[impact]), float(run.time[-1])),
+        confidence=share,
+        evidence=f"It goes from {_percent(speed, run)} of its top speed to rest within "
+        f"{SETTLES:g} s and stays there for {lasts:.2f} s, with "
+        f"{volts[impact:].max():.1f} V on.",
+        advice="Trim the run to before the impact, or run it again and let go earlier; set "
+        "soft limits first.",
+    )
+
+
+def _at_once(run: Run, impact: int, *, speed: float, still: float) -> bool:
+    """Whether it came at its whole speed and rests from the next sample on, as by no friction."""
+    size = np.abs(run.velocity)
+    return bool(size[impact - 1] > WHOLE * speed and np.all(size[impact + 1 :] < still))
 
 
 def _leaning(clues: Clues) -> Iterable[Damage]:
@@ -129,13 +149,13 @@ def _leaning(clues: Clues) -> Iterable[Damage]:
             )
 
 
-def _impact(run: Run, *, still: float) -> int | None:
+def _impact(run: Run, *, speed: float, still: float) -> int | None:
     """The first sample at the stop; None if the run does not end at rest, or never moves."""
-    fast = np.flatnonzero(np.abs(run.velocity) > FAST * still)
+    fast = np.flatnonzero(np.abs(run.velocity) > speed)
     if not fast.size or fast[-1] + 2 >= len(run):
         return None
     way = np.sign(run.velocity[fast[-1]])
-    with_it = np.flatnonzero(run.velocity * way > FAST * still)
+    with_it = np.flatnonzero(run.velocity * way > speed)
     if not with_it.size:
         return None
     impact = int(with_it[-1]) + 1

@@ -22,7 +22,7 @@ from sim.reconcile.story import (
     Estimate,
     Finding,
 )
-from sim.reconcile.thresholds import FAR_MAJOR, LOST, MAJOR, SHAKEN, STRAYS
+from sim.reconcile.thresholds import FAR_MAJOR, LOST, MAJOR, SHAKEN, STRAYS, TOLD_FIRST
 from sim.units import Unit
 
 TURNLESS = (
@@ -36,6 +36,8 @@ def findings_of(
     chapters: Sequence[Chapter], *, per: Unit,
 ) -> tuple[Finding, ...]:  # fmt: skip
     """What was missing or wrong: faults first, then effects, the major ones first.
+
+    A fault that is cut out for safety's sake, but may be physics, comes after the major effects.
 
     Args:
         problem: the measurements.
@@ -66,7 +68,14 @@ def findings_of(
         effects = []
     effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
     effects.sort(key=lambda one: (one.size != "major", _everyday(one, last), -one.score))
-    return (*faults, *(_no_alarm(one, last) for one in effects))
+    effects = [_no_alarm(one, last) for one in effects]
+    every = [*((_rank(one), one) for one in faults), *((_rank(one), one) for one in effects)]
+    return tuple(one for _, one in sorted(every, key=lambda one: one[0]))
+
+
+def _rank(one: Finding) -> int:
+    """Its place: sure faults, major effects, faults that are none perhaps, minor effects."""
+    return 2 * (one.size != "major") + (one.kind == "effect")
 
 
 def _no_alarm(one: Finding, last: Point) -> Finding:
@@ -106,8 +115,9 @@ def _turned(problem: Problem) -> bool:
 
 
 def _fault(one: Damaged, gap: float) -> Finding:
+    size = "major" if one.confidence >= TOLD_FIRST else "minor"
     return Finding(
-        effect=one.fault, kind="fault", size="major", ambiguous_with=(), parameters={},
+        effect=one.fault, kind="fault", size=size, ambiguous_with=(), parameters={},
         gap_before=gap, gap_after=gap, score=math.inf, sentence=one.sentence, inspect=one.advice,
         separating_test="",
     )  # fmt: skip

@@ -15,8 +15,8 @@ from sim.reconcile.gates import Fold, Gap, outside
 from sim.reconcile.problem import Problem
 from sim.reconcile.round import Round
 from sim.reconcile.suspects import Suspect, judged, simpler_than, suspects
-from sim.reconcile.thresholds import CLOSE, SIMPLER, SURE, SURER
-from sim.reconcile.weighing import WIDENS, gained, why_not
+from sim.reconcile.thresholds import CLOSE, SIMPLER, SURER
+from sim.reconcile.weighing import WIDENS, gained, sure, why_not
 
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
 
@@ -32,7 +32,7 @@ def reconsidered(
         if not others:
             continue
         reduced = without(problem, last.suspect, effect)
-        if reduced.score - last.suspect.score < SURE:  # it has become needless
+        if reduced.score - last.suspect.score < sure(effect):  # it has become needless
             gap = outside(problem, reduced.point, parts)
             if not math.isfinite(gap.velocity + gap.position):
                 continue

@@ -16,6 +16,7 @@ from sim.reconcile.descent import AGITATED, CALM, adjusting, better, promise, se
 from sim.reconcile.friction import varied
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.meshing import price
+from sim.reconcile.once import moments
 from sim.reconcile.problem import STEPWISE, Point, Problem
 
 TRIED, KEPT = 8, 4  # suspects that go downhill a little, and to the end
@@ -160,6 +161,8 @@ def _begun(
             lively = lively or _Lively(problem, point)
             more = lively.best(hypothesis, more, heavy=heavy)
         more += _steps_below(effect, more)
+        if effect.happens:
+            more += moments(problem, point, effect, kept=kept)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))
         chosen = effect.kind == SHAKES and lively is not None and lively.there

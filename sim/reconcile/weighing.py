@@ -16,6 +16,7 @@ from sim.reconcile.thresholds import (
     CLOSE,
     NARROWER,
     NOT_WIDER,
+    ONCE,
     SIMPLER,
     SURE,
     SURER,
@@ -33,16 +34,23 @@ def weigh(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> list
     found = []
     for suspect in suspects(problem, point, evidence, seeds=now.seeds):
         score = now.suspect.score - suspect.score
-        if score < SURE:
+        if score < sure(suspect.effect):
             tried = Tried(suspect.effect, score, 1.0, admitted=False, why="explains too little")
             found.append(Weighed(suspect, now.gap, tried))
             continue
         gap = outside(problem, suspect.point, parts)
         why = why_not(gap, now.gap, score)
+        if why == HARDLY and EFFECTS[suspect.effect].happens:
+            why = ""
         share = gap.velocity / max(now.gap.velocity, TINY)
         tried = Tried(suspect.effect, score, share, admitted=not why, why=why)
         found.append(Weighed(suspect, gap, tried))
     return found
+
+
+def sure(effect: str) -> float:
+    """[of -2 log L] by which it must make the model likelier."""
+    return ONCE if EFFECTS[effect].happens else SURE
 
 
 def why_not(gap: Gap, before: Gap, score: float) -> str:
