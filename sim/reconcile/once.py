@@ -176,9 +176,8 @@ class _Scan:
 
         A knock echoes in the innovations until measurements have corrected it, everywhere alike.
         """
-        first, last = self.problem.edges[run : run + 2]
-        rest = self.rest[2 * first : 2 * last].reshape(-1, 2)
-        speed = self.problem.measured[first:last, 1]
+        rest = self.rest[slice(*self._edges[run : run + 2])].reshape(-1, 2)
+        speed = self.problem.measured[slice(*self.problem.edges[run : run + 2]), 1]
         echo = self._echo[: len(rest)]
         size = np.cumsum(np.sum(np.square(echo), axis=1))
         heard = sum(np.correlate(rest[:, n], echo[:, n], "full")[len(echo) - 1 :] for n in (0, 1))
@@ -215,24 +214,28 @@ class _Scan:
         size = PROBE * self.ka
         given = {**self._sized(size), **kind, ONSET: CLOCK, UNTIL: LATER}
         model = self.point.hypothesis.model(self.point.values)
-        ahead = some.ahead(model + Part(self.effect.name, given), outset, self.point.trust)
-        found = []
-        for run, rows in zip(runs, pairwise(some.edges.tolist()), strict=True):
-            there = slice(*self.problem.edges[run : run + 2])
-            change = (ahead[slice(*rows)] - self._plain[there]) / size
-            one, there = (
-                self.problem.white(self.point, change),
-                slice(2 * there.start, 2 * there.stop),
-            )
-            found.append(
-                _Sums(float(one @ self.rest[there]), float(one @ one), self.kept[there].T @ one)
-            )
-        return found
+        with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
+            ahead = some.ahead(model + Part(self.effect.name, given), outset, self.point.trust)
+            return [
+                self._summed(run, (ahead[slice(*rows)] - self._plain[run]) / size)
+                for run, rows in zip(runs, pairwise(some.edges.tolist()), strict=True)
+            ]
+
+    def _summed(self, run: int, change: Array) -> _Sums:
+        one, rows = self.problem.white(self.point, change), slice(*self._edges[run : run + 2])
+        return _Sums(float(one @ self.rest[rows]), float(one @ one), self.kept[rows].T @ one)
+
+    @property
+    def _edges(self) -> list[int]:
+        """(runs + 1,) where each run begins among white innovations."""
+        edges: list[int] = (2 * self.problem.edges).tolist()
+        return edges
 
     @cached_property
-    def _plain(self) -> Array:
-        """(n, 2) innovations without it, no run finding warm what another heated."""
+    def _plain(self) -> list[Array]:
+        """A run -> (n, 2) innovations without it, no run finding warm what another heated."""
         lanes = (replace(one, memory=run) for run, one in enumerate(self.problem.lanes))
         alone = Problem(tuple(lanes), self.problem.noise)
         model = self.point.hypothesis.model(self.point.values)
-        return alone.ahead(model, self.point.outset, self.point.trust)
+        ahead = alone.ahead(model, self.point.outset, self.point.trust)
+        return [ahead[slice(*rows)] for rows in pairwise(self.problem.edges.tolist())]
