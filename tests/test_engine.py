@@ -334,15 +334,29 @@ def test_an_engine_is_tried_in_a_process_of_its_own(cache, tmp_path, content, wo
         {"asked": TIME.astype(np.float32)},
         {"out": np.zeros((8, TIME.size)).T},
         {"measured": np.zeros((3, 2))},
+        {"bodies": np.zeros((2, 5))},
+        {"low": np.zeros(2)},
+        {"edges": np.array([0.0, TIME.size + 1.0])},
+        {"edges": np.array([0.0, 9.0, TIME.size])},
     ],
-    ids=["another length", "singles", "not in one piece", "measured elsewhere"],
+    ids=[
+        "another length",
+        "singles",
+        "not in one piece",
+        "measured elsewhere",
+        "a body too many",
+        "a stop too many",
+        "beyond the last sample",
+        "a run too many",
+    ],
 )
 def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
     on, parameters = arrays(PLAIN)
     given = {
-        "time": TIME, "asked": steady(3.0), "state": np.zeros(5), "c": constants(PLAIN),
-        "w": NO_WIRES, "on": on, "p": parameters, "memory": np.zeros(len(EFFECTS)),
-        "ways": np.zeros(WAYS), "began": 0.0,
+        "edges": np.array([0.0, TIME.size]), "time": TIME, "asked": steady(3.0),
+        "bodies": np.zeros((1, 5)), "low": np.full(1, -math.inf), "high": np.full(1, math.inf),
+        "sessions": np.zeros(1), "c": constants(PLAIN), "w": NO_WIRES, "on": on, "p": parameters,
+        "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS), "began": np.zeros(1),
         "finest": math.inf, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_TRUST,
         "out": np.zeros((TIME.size, 8)),
     }  # fmt: skip

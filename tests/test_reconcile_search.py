@@ -98,7 +98,9 @@ def model(effect, score, *, gap, others=()):
 
 
 NOTHING = np.empty((0, 2))
-NOWHERE = Point(Hypothesis("simple"), {}, Outset.seen(0), 0.0, np.zeros((2, 2)), NOTHING, 0.0)
+NOWHERE = Point(
+    Hypothesis("simple"), {}, Outset.seen(0), 0.0, np.zeros((2, 2)), NOTHING, np.eye(2), 0.0
+)
 ONE_NOISE = Problem((), Noise(1.0, 1.0, (0.0, 0.0)))
 FIRST = [("drag", 400.0, True), ("delay", 300.0, True), ("spring", 200.0, False)]
 THEN = [("cogging", 90.0, True), ("stribeck", 80.0, True), ("delay", 10.0, True)]

@@ -20,7 +20,6 @@ from sim.engine.asked import COARSEST, ORDER, arrays, coarsest, constants, fines
 from sim.engine.compose import compose, is_compiled
 from sim.engine.joined import WAYS
 from sim.engine.kernel import Kernel
-from sim.engine.one_body import HIGH, LOW
 from sim.engine.stepping import (
     APPLIED,
     BUS,
@@ -127,9 +126,10 @@ def move(
     longest = step or (math.inf if simple else finest(model))
     kernel = _plain() if plain else _compiled()
     kernel.move(
-        _doubles(time), _doubles(voltage), state.body, constants(model), wires, on, parameters,
-        state.memory, np.zeros(WAYS), state.clock, longest, simple, _doubles(measured),
-        _doubles(trust), out,
+        np.array([0.0, time.size]), _doubles(time), _doubles(voltage), state.body[None],
+        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), constants(model), wires, on,
+        parameters, state.memory, np.zeros(WAYS), np.array([state.clock]), longest, simple,
+        _doubles(measured), _doubles(trust), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track(
@@ -188,31 +188,30 @@ def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
         measurement corrected it, and the velocity that the sensor would report.
     """
     on, parameters = arrays(model)
-    fixed = constants(model)
     simple = model.type != "arm" and all(map(only_delays, model.parts))
     longest = math.inf if simple else coarsest(model)
-    memory, session, ways = np.zeros(len(EFFECTS)), None, np.zeros(WAYS)
-    out = empty(sum(lead.time.size for lead in leads))
-    first, play, kernel = 0, _play(model), _compiled()
-    for lead in leads:
-        if lead.session != session:
-            memory, session = np.zeros(len(EFFECTS)), lead.session
-        last = first + lead.time.size
-        measured = lead.measured if trust.any() else UNSEEN
-        body = _begun(model, lead, play)
-        stops = fixed.copy()
-        stops[LOW] = max(stops[LOW], lead.low + body[2] - body[0])
-        stops[HIGH] = min(stops[HIGH], lead.high + body[2] - body[0])
-        kernel.move(
-            _doubles(lead.time), _doubles(lead.voltage), body, stops, NO_WIRES, on, parameters,
-            memory, ways, lead.clock, longest, simple, _doubles(measured), _doubles(trust),
-            out[first:last],
-        )  # fmt: skip
-        first = last
+    play, kernel = _play(model), _compiled()
+    edges = np.cumsum([0.0, *(lead.time.size for lead in leads)])
+    time = np.concatenate([lead.time for lead in leads], dtype=np.float64)
+    voltage = np.concatenate([lead.voltage for lead in leads], dtype=np.float64)
+    measured = UNSEEN
+    if trust.any():
+        measured = np.concatenate([lead.measured for lead in leads], dtype=np.float64)
+    bodies = np.array([_begun(model, lead, play) for lead in leads])
+    ahead = bodies[:, 2] - bodies[:, 0]
+    low, high, sessions, clocks = np.array(
+        [[lead.low, lead.high, lead.session, lead.clock] for lead in leads], dtype=np.float64
+    ).T.copy()
+    out = empty(time.size)
+    kernel.move(
+        edges, time, voltage, bodies, low + ahead, high + ahead, sessions, constants(model),
+        NO_WIRES, on, parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS), clocks, longest, simple,
+        measured, _doubles(trust), out,
+    )  # fmt: skip
     return out[:, [POSITION, VELOCITY, EXPECTED, SEEN]]
 
 
-def _begun(model: Model, lead: Lead, play: float) -> Array:
+def _begun(model: Model, lead: Lead, play: float) -> list[float]:
     """(5,) the bodies of a run that begins; of free play, a weight hangs on its motor's teeth."""
     meshed = lead.meshed
     if math.isnan(meshed):
@@ -221,7 +220,7 @@ def _begun(model: Model, lead: Lead, play: float) -> Array:
             load *= math.cos(lead.position + model.gains.get("offset_rad", 0.0))
         meshed = math.copysign(1.0, load) if load else 0.0
     y = lead.position - 0.5 * play * meshed
-    return np.array([lead.position, lead.velocity, y, lead.velocity, 0.0])
+    return [lead.position, lead.velocity, y, lead.velocity, 0.0]
 
 
 def _play(model: Model) -> float:

@@ -35,10 +35,15 @@ HOOKS: Mapping[str, tuple[str, str, str]] = {
     "share": ("on, p", "0.0", "max({0}, {1})"),
     "sees": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
 }
-SHAPES = {  # of the arrays that `run` asks for, but for what effects remember
+SHAPES = {  # of the arrays that `runs` asks for, but for what effects remember
+    "edges": "(count + 1,)",
     "time": "(n,)",
     "asked": "(n,)",
-    "state": "(5,)",
+    "bodies": "(count, 5)",
+    "low": "(count,)",
+    "high": "(count,)",
+    "sessions": "(count,)",
+    "began": "(count,)",
     "ways": f"({WAYS},)",
     "measured": "(rows, 2)",
     "trust": "(2, 2)",
@@ -152,8 +157,8 @@ def _memories(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterato
 
 
 def _entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
-    """What is called from outside: arrays that stay the same through a run become tuples."""
-    asked = list(inspect.signature(stepping.run).parameters)
+    """What is called from outside: arrays that stay the same through all runs become tuples."""
+    asked = list(inspect.signature(stepping.runs).parameters)
     sizes = {
         "c": CONSTANTS,
         "w": WIRES,
@@ -164,19 +169,19 @@ def _entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
         name: f"({', '.join(f'{name}[{place}]' for place in range(size))},)"
         for name, size in sizes.items()
     }
-    if compiled:  # as CALLED in sim/engine/kernel.py: two lengths, then what `run` asks for
+    if compiled:  # as CALLED in sim/engine/kernel.py: three lengths, then what `runs` asks for
         shapes = {**SHAPES, "memory": f"({len(effects)},)"}
         given |= {name: f"carray({name}, {shape})" for name, shape in shapes.items()}
         given["plain"] = "plain != 0"
-        kinds = {"began": "float64", "finest": "float64", "plain": "int64"}
+        kinds = {"finest": "float64", "plain": "int64"}
         places = (f"types.{kinds[n]}" if n in kinds else "place" for n in asked)
         yield "place = types.CPointer(types.float64)"
-        yield f"called = types.void(types.int64, types.int64, {', '.join(places)})"
+        yield f"called = types.void(types.int64, types.int64, types.int64, {', '.join(places)})"
         yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
-        yield f"def move(n, rows, {', '.join(asked)}):"
+        yield f"def move(count, n, rows, {', '.join(asked)}):"
     else:
         yield f"def move({', '.join(asked)}):"
-    yield f"    run({', '.join(given.get(name, name) for name in asked)})"
+    yield f"    runs({', '.join(given.get(name, name) for name in asked)})"
 
 
 def _call(effect: Effect, hook: str, at: slice, place: int) -> str:

@@ -31,7 +31,7 @@ NUMBER = np.dtype(np.float64)
 INTEGER, REAL, PLACE = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
 BYTES = ctypes.c_char * 0
 CALLED = ctypes.CFUNCTYPE(  # as `_entry` in sim/engine/compose.py says it
-    None, INTEGER, INTEGER, *[PLACE] * 9, REAL, REAL, INTEGER, *[PLACE] * 3
+    None, *[INTEGER] * 3, *[PLACE] * 14, REAL, INTEGER, *[PLACE] * 3
 )
 NO_USE = b""  # what is kept where object files were tried, and do not work
 PATIENCE = 60  # [s] for one that takes a tenth
@@ -52,21 +52,27 @@ class Kernel:
         self._alive = alive
 
     def move(
-        self, time: Array, asked: Array, state: Array, c: Array, w: Array, on: Array, p: Array,
-        memory: Array, ways: Array, began: float, finest: float, plain: bool, measured: Array,
-        trust: Array, out: Array,
+        self, edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array,
+        sessions: Array, c: Array, w: Array, on: Array, p: Array, memory: Array, ways: Array,
+        began: Array, finest: float, plain: bool, measured: Array, trust: Array, out: Array,
     ) -> None:  # fmt: skip
-        """As ``run`` in ``sim.engine.stepping``.
+        """As ``runs`` in ``sim.engine.stepping``.
 
         Raises:
             TypeError: an array does not lie in one piece, of the numbers that the machine code
                 reads: it would be read wrongly, without a word.
         """
-        if asked.size != time.size or len(out) != time.size or len(measured) not in {0, time.size}:
-            raise TypeError("arrays of one run are of one length")
+        n, count = time.size, began.size
+        if asked.size != n or len(out) != n or len(measured) not in {0, n}:
+            raise TypeError("arrays of the same runs are of one length")
+        if {len(bodies), low.size, high.size, sessions.size, edges.size - 1} != {count}:
+            raise TypeError("there is one of everything for each run")
+        if count and not (edges[0] == 0 and edges[-1] == n and np.all(np.diff(edges) >= 0)):
+            raise TypeError("runs lie one behind the other")
         self._call(
-            time.size, len(measured), _place(time), _place(asked), _place(state), _place(c),
-            _place(w), _place(on), _place(p), _place(memory), _place(ways), began, finest, plain,
+            count, n, len(measured), _place(edges), _place(time), _place(asked), _place(bodies),
+            _place(low), _place(high), _place(sessions), _place(c), _place(w), _place(on),
+            _place(p), _place(memory), _place(ways), _place(began), finest, plain,
             _place(measured), _place(trust), _place(out),
         )  # fmt: skip
 
@@ -176,13 +182,15 @@ def _forget_old(where: Path) -> None:
 
 
 def tried(kept: Path) -> None:
-    """Load and call what was kept, for a run without samples: it works, or the process ends."""
+    """Load and call what was kept, for no run at all: it works, or the process ends."""
     code = Code.read(kept.read_bytes())
     found = linked(code) if code is not None else None
     if found is None:
         sys.exit(1)
     none, some = np.zeros((0, 2)), np.zeros(ROOM)
+    runs = dict.fromkeys(("time", "asked", "low", "high", "sessions", "began"), none[:, 0])
+    model = dict.fromkeys(("c", "w", "on", "p", "memory", "ways", "trust"), some)
     Kernel(*found).move(
-        none[:, 0], none[:, 0], some, some, some, some, some, some, some, 0.0, 1.0, plain=True,
-        measured=none, trust=some, out=none,
+        edges=np.zeros(1), bodies=np.zeros((0, 5)), **runs, **model, finest=1.0, plain=True,
+        measured=none, out=none,
     )  # fmt: skip

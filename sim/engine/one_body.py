@@ -24,6 +24,13 @@ X, V, Y, W, OFF_UNTIL = range(5)
 until which a brownout keeps the motors off. With one body, motor and load are the same."""
 
 
+def bounded(c: Numbers, low: float, high: float) -> Numbers:
+    """The base model, kept between two stops as well as between the ends of its travel."""
+    return (
+        c[KS], c[KV], c[KA], c[LOAD], c[LEVEL], c[ANGLE], max(c[LOW], low), min(c[HIGH], high)
+    )  # fmt: skip
+
+
 def slides(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
     """[V] of dry friction toward ``way``, never below none."""
     return float(max(c[KS] + grip(on, p, v, way), 0.0))

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from sim.engine.hooks import Numbers, heft, jolt, late, remembers, sees, share  # composed: begin
-from sim.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, single
+from sim.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bounded, single
 from sim.engine.two_bodies import double
 from sim.engine.wires import CUT, EMF, OHM, REST, STOP, bus_at, reaches
 from sim.log import Array  # composed: end
@@ -123,6 +123,29 @@ def run(
             now = after
             while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
                 command += 1
+
+
+def runs(
+    edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array,
+    sessions: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, ways: Array,
+    began: Array, finest: float, plain: bool, measured: Array, trust: Array, out: Array,
+) -> None:  # fmt: skip
+    """Move through runs that lie one behind the other, ``run`` by ``run``.
+
+    A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
+    when the clock says ``began``, and is kept between ``low`` and ``high``. What effects remember
+    goes on through runs of the same number in ``sessions``.
+    """
+    for k in range(began.size):
+        first, last = int(edges[k]), int(edges[k + 1])
+        if k > 0 and sessions[k] != sessions[k - 1]:
+            for i in range(memory.size):
+                memory[i] = 0.0
+        lead = measured[first:last] if measured.shape[0] > 0 else measured
+        run(
+            time[first:last], asked[first:last], bodies[k], bounded(c, low[k], high[k]), w, on, p,
+            memory, ways, began[k], finest, plain, lead, trust, out[first:last],
+        )  # fmt: skip
 
 
 def empty(n: int) -> Array:

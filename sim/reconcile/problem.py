@@ -41,6 +41,7 @@ class Point:
         q: [unit²/s³] size of what pushes at random.
         trust: (2, 2) by how much a measurement corrects.
         ahead: (n, 2) innovations, nan where nothing is compared.
+        spread: (2, 2) covariance of these.
         cost: -2 log L, up to a constant.
     """
 
@@ -50,7 +51,13 @@ class Point:
     q: float
     trust: Array
     ahead: Array
+    spread: Array
     cost: float
+
+    @cached_property
+    def whitening(self) -> Array:
+        """(2, 2) that makes innovations independent and of size one."""
+        return np.asarray(np.linalg.inv(np.linalg.cholesky(self.spread)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +158,9 @@ class Problem:
         """The point of these values; its cost is infinite where they are no physics."""
         if not hypothesis.plays:
             outset = outset.meshing(np.full(len(self.lanes), np.nan))
-        nowhere = Point(hypothesis, values, outset, q, NO_TRUST, np.empty((0, 2)), math.inf)
+        nowhere = Point(
+            hypothesis, values, outset, q, NO_TRUST, np.empty((0, 2)), np.eye(2), math.inf
+        )
         if not (values["kV"] > 0.0 and values["kA"] > 0.0):
             return nowhere
         model = hypothesis.model(values)
@@ -160,10 +169,11 @@ class Problem:
             ahead = self.ahead(model, outset, trust)
             if not np.isfinite(ahead[self.telling]).any() or np.isinf(ahead).any():
                 return nowhere
-            cost = self._cost(ahead) + float(np.sum((outset.beside / self.loose) ** 2))
+            spread = self.spread(ahead)
+            cost = self._cost(spread) + float(np.sum((outset.beside / self.loose) ** 2))
         if not math.isfinite(cost):
             return nowhere
-        return Point(hypothesis, values, outset, q, trust, ahead, cost)
+        return Point(hypothesis, values, outset, q, trust, ahead, spread, cost)
 
     # -- compare ---------------------------------------------------------------------------------
 
@@ -180,14 +190,13 @@ class Problem:
         spread: Array = np.array([[xx, xv], [xv, vv]])
         return np.asarray(spread + np.diag(np.square(self.noise.grain)))
 
-    def _cost(self, ahead: Array) -> float:
-        size = float(np.linalg.det(self.spread(ahead)))
+    def _cost(self, spread: Array) -> float:
+        size = float(np.linalg.det(spread))
         return self.count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
 
     def white(self, point: Point, table: Array) -> Array:
         """(2 n,) made independent and of size one by the spread at a point."""
-        inverse = np.linalg.inv(np.linalg.cholesky(self.spread(point.ahead)))
-        return np.asarray((np.nan_to_num(table) @ inverse.T).ravel())
+        return np.asarray((np.nan_to_num(table) @ point.whitening.T).ravel())
 
     def columns(self, point: Point) -> Array:
         """(2 n, searched + runs) change of the white innovations with each value and start.

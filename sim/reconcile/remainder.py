@@ -87,9 +87,8 @@ def _in_time(problem: Problem, point: Point) -> Array:
     late = PART * problem.period
     values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
     more = problem.ahead(delayed.model(values), point.outset, point.trust)
-    inverse = np.linalg.inv(np.linalg.cholesky(problem.spread(point.ahead)))
-    white = np.nan_to_num(point.ahead) @ inverse.T
-    change = np.nan_to_num(more - point.ahead) @ inverse.T
+    white = np.nan_to_num(point.ahead) @ point.whitening.T
+    change = np.nan_to_num(more - point.ahead) @ point.whitening.T
     for first, last in pairwise(problem.edges.tolist()):
         column, rest = change[first:last].ravel(), white[first:last].ravel()
         along = float(column @ column)
