@@ -17,7 +17,7 @@ from sim.evidence import Evidence, clocks
 RAMP = 0.5  # [V/s] of an ordinary quasistatic test
 PARTS = 12  # moments of a run that are tried
 SHOWN = 2  # of them that are worth a start
-MOST = 4  # starts of the whole log that are
+MOST = 2  # starts of the whole log that are
 MOMENT = 1e-6  # [s] so that the last sample is in
 LATER = 1e6  # [s] after any log
 FEWEST = 20  # samples of a run that tell which change of velocity is usual

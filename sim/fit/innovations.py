@@ -73,16 +73,45 @@ def _steady(step: Array, push: Array, rough: Array) -> Array:
 
     Source: the structure-preserving doubling of Chu, Fan and Lin (2005).
     """
-    a, g, x = step.T, np.diag(1.0 / rough), push
+    a, g, x = _four(step.T), _four(np.diag(1.0 / rough)), _four(push)
     for _ in range(DOUBLINGS):
-        middle = np.linalg.inv(np.eye(2) + g @ x)
-        after = x + a.T @ x @ middle @ a
-        g = g + a @ middle @ g @ a.T
-        a = a @ middle @ a
-        if np.abs(after - x).max() <= 1e-9 * np.abs(after).max():
-            return np.asarray(after)
+        p, q, r, s = _times(g, x)
+        size = (1.0 + p) * (1.0 + s) - q * r
+        middle = ((1.0 + s) / size, -q / size, -r / size, (1.0 + p) / size)
+        onward = _times(middle, a)
+        more = _times(_turned(a), _times(x, onward))
+        after = _plus(x, more)
+        g = _plus(g, _times(a, _times(_times(middle, g), _turned(a))))
+        a = _times(a, onward)
+        done = max(map(abs, more)) <= 1e-9 * max(map(abs, after))
         x = after
-    return np.asarray(x)
+        if done:
+            break
+    return np.array(x).reshape(2, 2)
+
+
+# Two by two in plain numbers: of so little, NumPy makes ten times as much work.
+_Four = tuple[float, float, float, float]
+
+
+def _four(matrix: Array) -> _Four:
+    a, b, c, d = matrix.ravel().tolist()
+    return a, b, c, d
+
+
+def _times(a: _Four, b: _Four) -> _Four:
+    return (
+        a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3],
+        a[2] * b[0] + a[3] * b[2], a[2] * b[1] + a[3] * b[3],
+    )  # fmt: skip
+
+
+def _plus(a: _Four, b: _Four) -> _Four:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
+
+
+def _turned(a: _Four) -> _Four:
+    return a[0], a[2], a[1], a[3]
 
 
 def innovations(model: Model, run: Seen, *, start: float, trust: Array) -> Array:

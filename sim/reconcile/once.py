@@ -129,14 +129,18 @@ class _Scan:
             yield dict(zip(ends, chosen, strict=True))
 
     def coarse(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
-        """Each run's likeliest moment, for the rest of the run and for good."""
+        """Each run's likeliest moment, for the rest of the run and for good.
+
+        What takes momentum is looked for where speed is lost, anything else all over the run.
+        """
         every = range(len(self.problem.lanes))
-        shares = [0.0, *((n + 0.5) / PARTS for n in range(PARTS))]
+        knocks = any(kind.values())
+        shares = [0.0] if knocks else [0.0, *((n + 0.5) / PARTS for n in range(PARTS))]
         table = [self._sums(kind, share, every) for share in shares]
         later = _Sums(0.0, 0.0, np.zeros(self.kept.shape[1]))
         for run in reversed(every):
             sums = [(share, row[run]) for share, row in zip(shares, table, strict=True)]
-            if any(kind.values()):
+            if knocks:
                 sums += [(one, self._sums(kind, one, (run,))[0]) for one in self._knocks(run)]
             for more in (None, later) if run < every[-1] else (None,):
                 tried = (
