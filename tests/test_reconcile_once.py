@@ -16,9 +16,11 @@ from sim.reconcile.descent import adjusting, promise, settle
 from sim.reconcile.gates import Gap, folds
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import ended_after, in_a_row, lanes
-from sim.reconcile.once import moments
+from sim.reconcile.naming import belied
+from sim.reconcile.once import moments, otherwise
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
+from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round
 from sim.reconcile.suspects import judged
 
@@ -221,3 +223,48 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
 
     assert inertia.tried.admitted
     assert drag.tried.why == weighing.HARDLY
+
+
+@pytest.fixture(scope="module")
+def joined(dynamic):
+    """A log in which inertia joins for good, and the point of it that has it over with its run."""
+    part = Part("inertia-change", {"extra": 0.02, "onset": dynamic, "until": LATER, "shared": 0.0})
+    problem = Problem.of(lanes(log_with((part,))))
+    ends = dynamic + float(np.ptp(problem.lanes[2].seen.time)) + 1e-6
+    over = {**part.parameters, "onset": dynamic + 1e-3, "until": ends}
+    values = {**GAINS, **{f"inertia-change.{name}": value for name, value in over.items()}}
+    hypothesis = Hypothesis("simple") + "inertia-change"
+    return problem, problem.at(hypothesis, values, Outset.seen(4), problem.noise.velocity**2)
+
+
+def test_what_was_over_with_its_run_is_tried_for_good(joined):
+    problem, point = joined
+
+    others = [settle(problem, one) for one in otherwise(problem, point)]
+
+    assert len(others) == 3  # two ends of it, each with and without a share of the momentum
+    best = min(others, key=lambda one: one.cost)
+    assert best.values["inertia-change.until"] == LATER
+    assert best.values["inertia-change.shared"] == 0.0
+    assert best.cost < settle(problem, point).cost - 100.0
+    plain = problem.at(Hypothesis("simple"), GAINS, Outset.seen(4), point.q)
+    assert not list(otherwise(problem, plain))
+
+
+@pytest.mark.parametrize(
+    ("size", "lane", "after", "is_belied"),
+    [
+        (12.0, 2, 0.2, True),
+        (12.0, 2, 0.005, False),  # the knock itself
+        (12.0, 2, 0.9, False),  # long after
+        (12.0, 3, 0.2, False),  # in another run
+        (5.0, 2, 0.2, False),  # ordinary
+    ],
+)
+def test_what_is_had_back_at_another_pace_was_no_inertia(joined, size, lane, after, is_belied):
+    problem, point = joined
+    start = float(problem.lanes[lane].seen.time[0]) + after
+    worst = Moment(size, lane, start, start + 0.1)
+
+    assert belied("inertia-change", problem, point, worst) is is_belied
+    assert not belied("drag", problem, point, worst)

@@ -87,7 +87,9 @@ def reconcile(
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     moment = worst(problem, done[-1].suspect.point)
     per = unit(log.units)
-    findings = findings_of(problem, done, _once(slipped, aside.found), chapters, per=per)
+    findings = findings_of(
+        problem, done, _once(slipped, aside.found), chapters, moment=moment, per=per
+    )
     verdict, remainder, remains = verdict_of(
         findings, moment, done[-1].gap.velocity / problem.noise.velocity, problem
     )
@@ -96,7 +98,7 @@ def reconcile(
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.how,
-        notes=(*beside(problem, done, findings), *seen),
+        notes=(*beside(problem, done, findings, moment), *seen),
         compared=shown.compared,
     )  # fmt: skip
 

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from sim.effect import ONSET
 from sim.effects import EFFECTS
 from sim.reconcile.damage import Damaged
 from sim.reconcile.problem import Point, Problem
@@ -22,7 +23,16 @@ from sim.reconcile.story import (
     Estimate,
     Finding,
 )
-from sim.reconcile.thresholds import FAR_MAJOR, LOST, MAJOR, SHAKEN, STRAYS, TOLD_FIRST
+from sim.reconcile.thresholds import (
+    AFTER,
+    FAR_MAJOR,
+    KNOCK,
+    LOST,
+    MAJOR,
+    SHAKEN,
+    STRAYS,
+    TOLD_FIRST,
+)
 from sim.units import Unit
 
 TURNLESS = (
@@ -33,7 +43,7 @@ TURNLESS = (
 
 def findings_of(
     problem: Problem, done: Sequence[Round], damages: Sequence[Damaged],
-    chapters: Sequence[Chapter], *, per: Unit,
+    chapters: Sequence[Chapter], *, moment: Moment, per: Unit,
 ) -> tuple[Finding, ...]:  # fmt: skip
     """What was missing or wrong: faults first, then effects, the major ones first.
 
@@ -44,6 +54,7 @@ def findings_of(
         done: the base and the rounds.
         damages: of the record.
         chapters: of the shown log, one for each round.
+        moment: that the last model explains least.
         per: the owner's unit.
     """
     faults = [_fault(one, chapters[0].gap) for one in damages]
@@ -67,6 +78,7 @@ def findings_of(
     if astray:
         effects = []
     effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
+    effects = [one for one in effects if not belied(one.effect, problem, last, moment)]
     effects.sort(key=lambda one: (one.size != "major", _everyday(one, last), -one.score))
     effects = [_no_alarm(one, last) for one in effects]
     every = [*((_rank(one), one) for one in faults), *((_rank(one), one) for one in effects)]
@@ -90,11 +102,31 @@ def _everyday(one: Finding, last: Point) -> bool:
     return effect.everyday(values)
 
 
-def beside(problem: Problem, done: Sequence[Round], findings: Sequence[Finding]) -> tuple[str, ...]:
+def belied(effect: str, problem: Problem, last: Point, moment: Moment) -> bool:
+    """Whether what came of it is what the model explains least.
+
+    A sensor that slips or a robot that is bumped loses speed as one does that takes up a load, but
+    has it back at another pace. The knock itself is known to a sample, and never explained quite.
+    """
+    if not EFFECTS[effect].happens or moment.size <= SHAKEN:
+        return False
+    lane = problem.lanes[moment.lane]
+    onset = last.values[f"{effect}.{ONSET}"] - lane.clock + float(lane.seen.time[0])
+    return onset + KNOCK * problem.period < moment.start < onset + AFTER
+
+
+def beside(
+    problem: Problem, done: Sequence[Round], findings: Sequence[Finding], moment: Moment
+) -> tuple[str, ...]:
     """What a person should know of the last model: what was not named, and what no run told."""
-    hypothesis = done[-1].suspect.point.hypothesis
+    last = done[-1].suspect.point
+    hypothesis = last.hypothesis
     named = {one.effect for one in findings}
-    rest = [name for name in hypothesis.effects if name not in named]
+    rest = [
+        name
+        for name in hypothesis.effects
+        if name not in named and not belied(name, problem, last, moment)
+    ]
     said = []
     if rest:
         what = " and ".join(rest)

@@ -15,6 +15,7 @@ from itertools import pairwise, product
 import numpy as np
 
 from sim.effect import ONSET, UNTIL, Effect
+from sim.effects import EFFECTS
 from sim.log import Array
 from sim.model import Part
 from sim.reconcile.problem import Point, Problem
@@ -70,10 +71,41 @@ def moments(
         kept: (2 n, k) of ``descent.adjusting`` at that point.
     """
     scan = _Scan(problem, point, effect, kept)
-    for kind in scan.kinds:
+    for kind in kinds(effect):
         likeliest = sorted(scan.coarse(kind), key=lambda one: -one.gained)[:SHOWN]
         for one in map(scan.nearer, likeliest):
             yield {f"{effect.name}.{name}": value for name, value in scan.values(one).items()}
+
+
+def otherwise(problem: Problem, point: Point) -> Iterator[Point]:
+    """The same with what happened over by the end of its run where it was for good, and so on.
+
+    No search moves from one to the other, and what was likelier before another effect was added may
+    not be likelier beside it.
+    """
+    for name in point.hypothesis.effects:
+        effect = EFFECTS[name]
+        if not effect.happens:
+            continue
+        onset = point.values[f"{name}.{ONSET}"]
+        ends = [lane.clock + float(np.ptp(lane.seen.time)) + MOMENT for lane in problem.lanes]
+        over = min((end for end in ends if end > onset), default=LATER)
+        for kind, until in product(kinds(effect), (over, LATER)):
+            changed = {f"{name}.{one}": value for one, value in {**kind, UNTIL: until}.items()}
+            values = {**point.values, **changed}
+            if values != point.values:
+                yield problem.at(point.hypothesis, values, point.outset, point.q)
+
+
+def kinds(effect: Effect) -> Iterator[Mapping[str, float]]:
+    """Values of what a search does not move, and which is no moment: all ends of them."""
+    ends = {
+        one.name: (one.least, one.most)
+        for one in effect.parameters
+        if not one.searched and one.name not in {ONSET, UNTIL}
+    }
+    for chosen in product(*ends.values()):
+        yield dict(zip(ends, chosen, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,17 +148,6 @@ class _Scan:
         self.lasts = [float(lane.seen.time[-1] - lane.seen.time[0]) for lane in problem.lanes]
         rest = problem.white(point, point.ahead)
         self.rest = rest - kept @ (kept.T @ rest)
-
-    @property
-    def kinds(self) -> Iterator[Mapping[str, float]]:
-        """Values of what a search does not move, and which is no moment: all ends of them."""
-        ends = {
-            one.name: (one.least, one.most)
-            for one in self.effect.parameters
-            if not one.searched and one.name not in {ONSET, UNTIL}
-        }
-        for chosen in product(*ends.values()):
-            yield dict(zip(ends, chosen, strict=True))
 
     def coarse(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
         """Each run's likeliest moment, for the rest of the run and for good.

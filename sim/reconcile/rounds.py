@@ -5,8 +5,9 @@ from dataclasses import replace
 
 from sim.effects import EFFECTS
 from sim.log import Log
-from sim.reconcile.descent import ENOUGH, ended
+from sim.reconcile.descent import ENOUGH, ended, settle
 from sim.reconcile.gates import Fold, outside
+from sim.reconcile.once import otherwise
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.round import Round, Weighed
 from sim.reconcile.second_thoughts import missed_by, reconsidered, simplified
@@ -139,6 +140,10 @@ def _ended(problem: Problem, best: Weighed, parts: Sequence[Fold]) -> Weighed:
     """The same, as far as its search leads: suspects are only compared, the one taken goes on."""
     suspect = best.suspect
     point = ended(problem, suspect.point)
+    for other in otherwise(problem, point):
+        settled = settle(problem, other)
+        if settled.cost < point.cost - CLOSE:
+            point = settled
     if abs(suspect.point.cost - point.cost) < ENOUGH:
         return best
     gap = outside(problem, point, parts)

@@ -23,6 +23,10 @@ that were none came to 24 to 170 where nothing else was wrong with the record, t
 more but for one of 79. Whether they narrow the gap of runs that know nothing of them is not asked.
 """
 
+KNOCK, AFTER = 2.0, 0.5
+"""[samples], [s] after the moment at which something is said to happen: if what the last model
+explains least begins between them, that was something else."""
+
 NOT_WIDER = 1.005
 """[1] the same of a gap that must not grow: half a percent is what another start changes."""
 
