@@ -187,7 +187,7 @@ def test_what_would_leave_the_whole_log_is_no_moment():
 
 @pytest.mark.parametrize(
     ("effect", "score", "admitted"),
-    [("inertia-change", 190.0, False), ("inertia-change", 210.0, True), ("drag", 190.0, True)],
+    [("inertia-change", 240.0, False), ("inertia-change", 260.0, True), ("drag", 240.0, True)],
 )
 def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, score, admitted):
     log = log_with(())
