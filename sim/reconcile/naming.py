@@ -80,9 +80,7 @@ def findings_of(
     effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
     effects = [one for one in effects if not belied(one.effect, problem, last, moment)]
     effects.sort(key=lambda one: (one.size != "major", _everyday(one, last), -one.score))
-    effects = [_no_alarm(one, last) for one in effects]
-    every = [*((_rank(one), one) for one in faults), *((_rank(one), one) for one in effects)]
-    return tuple(one for _, one in sorted(every, key=lambda one: one[0]))
+    return tuple(sorted((*faults, *(_no_alarm(one, last) for one in effects)), key=_rank))
 
 
 def _rank(one: Finding) -> int:
