@@ -23,11 +23,11 @@ def headline(story: Story) -> str:
     """The verdict in one plain sentence."""
     faults = [one.effect for one in story.findings if one.kind == FAULT]
     majors = effects_of(story, MAJOR)
+    also = f"; the record is damaged too ({_listed(faults)})" if faults else ""
     if story.verdict == UNEXPLAINED:
         known = f"beside {_listed(majors)}, " if majors else ""
-        return (
-            f"Something is missing that no effect of the catalogue explains: {known}{_gap(story)}."
-        )
+        none = "no effect of the catalogue explains"
+        return f"Something is missing that {none}: {known}{_gap(story)}{also}."
     if story.verdict == NOTHING_MISSING or not (majors or faults):
         return _nothing(story)
     if not majors:
@@ -40,7 +40,6 @@ def headline(story: Story) -> str:
     verb = "are" if len(majors) > 1 else "is"
     missing = _listed([_either(one) for one in story.findings if one.effect in majors])
     doubt = ", and these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
-    also = f"; the record is damaged too ({_listed(faults)})" if faults else ""
     more = "; and something remains that nothing explains" if story.remainder else ""
     return f"Missing in the model {verb} {missing}{doubt}: {_gap(story)}{also}{more}."
 

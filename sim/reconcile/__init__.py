@@ -17,6 +17,7 @@ from dataclasses import replace
 from sim.errors import NotIdentifiable
 from sim.fit.start import first_guess, sensible
 from sim.log import Log
+from sim.reconcile.alike import most_alike
 from sim.reconcile.aside import Aside, judge_damage
 from sim.reconcile.damage import Damaged
 from sim.reconcile.descent import better, ended, scanned, settle
@@ -24,7 +25,7 @@ from sim.reconcile.gates import errors_of, folds, rms
 from sim.reconcile.glitch import glitches
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, ended_after, in_a_row, lanes
-from sim.reconcile.naming import beside, findings_of, missed, verdict_of
+from sim.reconcile.naming import beside, findings_of
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.remainder import worst
@@ -33,6 +34,7 @@ from sim.reconcile.showing import Shown
 from sim.reconcile.story import Story
 from sim.reconcile.thresholds import LOST, MAJOR, WANDERS
 from sim.reconcile.usable import check_logs
+from sim.reconcile.verdict import missed, verdict_of
 from sim.units import unit
 
 __all__ = ["Damaged", "Story", "reconcile"]
@@ -85,13 +87,13 @@ def reconcile(
     shown = Shown.of({"log": log, "validation": validation, "held_out": held_out}, aside)
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
-    moment = worst(problem, done[-1].suspect.point)
-    per = unit(log.units)
+    last = done[-1].suspect.point
+    moment, alike, per = worst(problem, last), most_alike(problem, last), unit(log.units)
     findings = findings_of(
-        problem, done, _once(slipped, aside.found), chapters, moment=moment, per=per
+        problem, done, _once(slipped, aside.found), chapters, moment=moment, alike=alike, per=per
     )
     verdict, remainder, remains = verdict_of(
-        findings, moment, done[-1].gap.velocity / problem.noise.velocity, problem
+        findings, done, problem, moment=moment, alike=alike, per=per
     )
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,

@@ -9,22 +9,20 @@ import numpy as np
 
 from sim.effect import ONSET
 from sim.effects import EFFECTS
+from sim.reconcile.alike import Alike
 from sim.reconcile.damage import Damaged
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round
 from sim.reconcile.second_thoughts import apart
 from sim.reconcile.story import (
-    AMBIGUOUS,
-    EXPLAINED,
-    NOTHING_MISSING,
-    UNEXPLAINED,
     Chapter,
     Estimate,
     Finding,
 )
 from sim.reconcile.thresholds import (
     AFTER,
+    ALIKE,
     FAR_MAJOR,
     KNOCK,
     LOST,
@@ -33,6 +31,7 @@ from sim.reconcile.thresholds import (
     STRAYS,
     TOLD_FIRST,
 )
+from sim.reconcile.verdict import missed
 from sim.units import Unit
 
 TURNLESS = (
@@ -40,10 +39,15 @@ TURNLESS = (
     "only one that does is sure to cross all of it. Record steps forth and back."
 )
 
+BELIED = (
+    "The last model has {} right before the moment that it explains least. It is not named: what "
+    "happened then may be something else."
+)
+
 
 def findings_of(
     problem: Problem, done: Sequence[Round], damages: Sequence[Damaged],
-    chapters: Sequence[Chapter], *, moment: Moment, per: Unit,
+    chapters: Sequence[Chapter], *, moment: Moment, alike: Alike, per: Unit,
 ) -> tuple[Finding, ...]:  # fmt: skip
     """What was missing or wrong: faults first, then effects, the major ones first.
 
@@ -55,11 +59,14 @@ def findings_of(
         damages: of the record.
         chapters: of the shown log, one for each round.
         moment: that the last model explains least.
+        alike: what runs miss of it alike.
         per: the owner's unit.
     """
     faults = [_fault(one, chapters[0].gap) for one in damages]
     last = done[-1].suspect.point
     errors = standard_errors(problem, last)
+    end = done[-1].gap.velocity / problem.noise.velocity
+    least = FAR_MAJOR if end > STRAYS or alike.size > ALIKE else MAJOR
     effects = [
         _effect(
             done[n - 1],
@@ -69,11 +76,10 @@ def findings_of(
             chapters[n - 1].gap,
             chapters[n].gap,
             per=per,
-            noise=problem.noise.velocity,
+            least=least,
         )
         for n in range(1, len(done))
     ]
-    end = done[-1].gap.velocity / problem.noise.velocity
     astray = not missed(end, problem) <= LOST  # no number at all is lost, too
     if astray:
         effects = []
@@ -120,16 +126,14 @@ def beside(
     last = done[-1].suspect.point
     hypothesis = last.hypothesis
     named = {one.effect for one in findings}
-    rest = [
-        name
-        for name in hypothesis.effects
-        if name not in named and not belied(name, problem, last, moment)
-    ]
+    unsure = [name for name in hypothesis.effects if belied(name, problem, last, moment)]
+    rest = [name for name in hypothesis.effects if name not in {*named, *unsure}]
     said = []
     if rest:
         what = " and ".join(rest)
         why = "no more than on other robots, or too little to narrow the gap"
         said.append(f"In the last model there is also a little {what}: {why}.")
+    said += [BELIED.format(name) for name in unsure]
     if hypothesis.plays and not _turned(problem):
         said.append(TURNLESS)
     return tuple(said)
@@ -155,14 +159,13 @@ def _fault(one: Damaged, gap: float) -> Finding:
 
 def _effect(  # noqa: PLR0917 - two rounds, and what to call them
     before: Round, now: Round, end: Round, errors: Mapping[str, float], gap_before: float,
-    gap_after: float, *, per: Unit, noise: float,
+    gap_after: float, *, per: Unit, least: float,
 ) -> Finding:  # fmt: skip
     name = now.suspect.effect
     effect = EFFECTS[name]
     last = end.suspect.point
     with_, bare = (now.gap, before.gap) if now.bare is None else (end.gap, now.bare)
-    far = end.gap.velocity > STRAYS * noise
-    major = with_.velocity <= (FAR_MAJOR if far else MAJOR) * bare.velocity
+    major = with_.velocity <= least * bare.velocity
     score = before.suspect.score - now.suspect.score if math.isnan(now.lost) else now.lost
     parameters = {}
     for one in effect.parameters:
@@ -194,51 +197,3 @@ def standard_errors(problem: Problem, point: Point) -> dict[str, float]:
     errors = np.sqrt(np.maximum(np.diag(inverse), 0.0)) / size
     names = point.hypothesis.searched
     return {name: float(error) for name, error in zip(names, errors, strict=False) if error > 0.0}
-
-
-def missed(strays: float, problem: Problem) -> float:
-    """[1] of the motion that a gap of so many noises misses."""
-    speeds = problem.measured[problem.moving, 1]
-    size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
-    return strays * problem.noise.velocity / max(size, 1e-300)
-
-
-def verdict_of(
-    findings: Sequence[Finding], moment: Moment, strays: float, problem: Problem
-) -> tuple[str, bool, str]:
-    """The verdict, whether something remains, and a sentence about it.
-
-    Args:
-        findings: what was named.
-        moment: that the last model explains least.
-        strays: [noises of a velocity] by which the last model leaves runs it was not fitted to.
-        problem: the measurements.
-    """
-    remains = ""
-    share = missed(strays, problem)
-    if not share <= LOST:
-        remains = (
-            f"The last model misses {share:.0%} of the motion on runs it was not fitted to: what "
-            "was tried is no explanation. Check that voltage, position and velocity are of the "
-            "same mechanism and the same moment."
-        )
-        return UNEXPLAINED, True, remains
-    if moment.size > SHAKEN:
-        lane = problem.lanes[moment.lane]
-        remains = (
-            f"In {lane.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
-            f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
-        )
-    elif strays > STRAYS:
-        remains = (
-            f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
-            "effect of the catalogue makes that less."
-        )
-    majors = [one for one in findings if one.size == "major"]
-    if remains and not majors:
-        return UNEXPLAINED, True, remains
-    if not majors:
-        return NOTHING_MISSING, bool(remains), remains
-    if any(one.ambiguous_with for one in majors):
-        return AMBIGUOUS, bool(remains), remains
-    return EXPLAINED, bool(remains), remains

@@ -37,8 +37,9 @@ Everyday effects that nobody has to name (50 mV of Stribeck friction, 8 % of sag
 shrink it by up to a tenth."""
 
 FAR_MAJOR = 0.6
-"""[1] the same while the last model is still far off (``STRAYS``): what nobody has named looks a
-little like many things, and none of them is worth a name that does not take much of it away."""
+"""[1] the same while the last model is still far off (``STRAYS``, ``ALIKE``): what nobody has named
+looks a little like many things, and none of them is worth a name that does not take much of it
+away."""
 
 CLOSE = 10.0
 """[of -2 log L] within which another effect explains as much: odds below 150 to one."""
@@ -86,6 +87,15 @@ STRAYS = 2.5
 
 A complete model of an arm, whose runs end where small errors of friction have added up, leaves two.
 """
+
+ALIKE = 6.0
+"""[standard deviations of chance] by which runs that go the same way miss alike: beyond it physics
+is missing. Last models of 42 complete logs with everyday dirt in half came to 3.6 at most, of logs
+with a bump, a brake or a band of friction that no effect has to 4 to 15."""
+
+MOSTLY = 0.5
+"""[1] of the base model's gap: where the last model strays and leaves more than that of it, what
+was named is not what is missing, and the verdict is that nothing explains it."""
 
 NEAR = 0.25
 """[1] of the best score of its round, from which an effect may begin another path where the first

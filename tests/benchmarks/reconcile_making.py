@@ -7,7 +7,16 @@ from pathlib import Path
 
 import numpy as np
 from reconcile_plan import FAULTS, Case
-from reconcile_recording import SESSIONS, Levels, exchanged, happened, heated, permuted, recorded
+from reconcile_recording import (
+    SESSIONS,
+    Day,
+    Levels,
+    exchanged,
+    happened,
+    heated,
+    permuted,
+    recorded,
+)
 from reconcile_sizes import hide
 
 from sim.contaminate import contaminate
@@ -47,8 +56,9 @@ def make(case: Case, *, seed: int) -> Made:
     levels = Levels.draw(hidden.mechanism, rng)
     hidden = heated(hidden, levels, period=period, rng=rng)
     hidden = happened(hidden, levels, period=period, rng=rng)
+    day = Day.draw(hidden, rng, dirty=case.dirty)
     logs = {
-        name: recorded(hidden, levels, session=name, period=period, dirty=case.dirty, rng=rng)
+        name: recorded(hidden, levels, day, session=name, period=period, rng=rng)
         for name in SESSIONS
     }
     for name in (one for one in case.hidden if one in FAULTS):

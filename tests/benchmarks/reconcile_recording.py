@@ -1,18 +1,22 @@
-"""Record a case's three sessions on the bench, clean or with everyday dirt."""
+"""Record a case's three sessions on the bench, clean or with everyday dirt.
+
+No robot is as clean as the bench: in every case friction differs from run to run, something shakes
+the mechanism that no log shows, and the velocity has more noise than on a good day.
+"""
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from reconcile_sizes import Hidden
 
 from sim.effect import Scale
 from sim.effects.inertia_change import LATER
-from sim.log import Log, Run
+from sim.log import Array, Log, Run
 from sim.mechanism import Mechanism
 from sim.model import Part
-from sim.routine import Routine
+from sim.routine import LOOPS_BEFORE_DRIVE, Routine
 from sim.simulate import simulate
 
 FOUR = ("quasistatic", "dynamic")
@@ -36,9 +40,12 @@ DIRT = {
     "cogging": (0.02, 0.05),  # [V]
 }
 """Everyday effect -> its size from to; nobody has to name it."""
+JITTER = (0.0004, 0.0015)  # [s] of dirty cases
+NOISE = (0.004, 0.012)  # [V] of the logged voltage of dirty cases
+
 FRICTION = (0.02, 0.06)  # [share] by which it differs from run to run
-JITTER = (0.0004, 0.0015)  # [s]
-NOISE = (0.004, 0.012)  # [V] of the logged voltage
+SHAKES, LOOP = (0.02, 0.08), 0.02  # [V] that the motors get in such a loop [s] beside the logged
+NOISY, FAST = (0.003, 0.010), 6.0  # [share] noise of the speed that so many volts reach
 
 WARMS, WARMER = "heating", 0.2  # [share] more resistance after a session's four tests: 50 K
 
@@ -69,13 +76,76 @@ class Levels:
         return cls(SHORT if mechanism.stops else LONG, {"train": most, **steps})
 
 
+@dataclass(frozen=True)
+class Shaken(Routine):
+    """A routine in which the motors get what the log does not show.
+
+    Args:
+        pushes: test -> (loops,) [V].
+        period: [s] of a loop.
+    """
+
+    pushes: Mapping[str, Array] = field(default_factory=dict)
+    period: float = LOOP
+
+    def voltage(self, test: str, time: float) -> float:
+        """The voltage of a test [V] and the push of that loop."""
+        return super().voltage(test, time) + float(self.pushes[test][round(time / self.period)])
+
+    def logged(self, run: Run) -> Array:
+        """(n,) [V] of a run, without the pushes."""
+        return run.voltage - self.pushes[run.test][LOOPS_BEFORE_DRIVE:][: len(run)]
+
+
+@dataclass(frozen=True)
+class Day:
+    """What all sessions of a case have in common, and nobody has to name; none of it at first.
+
+    Args:
+        parts: everyday effects.
+        wobble: [share] by which friction differs from run to run.
+        shakes: [V] of pushes in each ``LOOP``.
+        jitter: [s] of the loops.
+        noise: [V] of the logged voltage.
+        noisy: [m/s or rad/s] of the velocity; 0 leaves it to the mechanism's own sensor.
+    """
+
+    parts: tuple[Part, ...] = ()
+    wobble: float = 0.0
+    shakes: float = 0.0
+    jitter: float = 0.0
+    noise: float = 0.0
+    noisy: float = 0.0
+
+    @classmethod
+    def draw(cls, hidden: Hidden, rng: np.random.Generator, *, dirty: bool) -> "Day":
+        """A day of a mechanism.
+
+        Args:
+            hidden: the mechanism and what is hidden in it.
+            rng: the source of chance.
+            dirty: with everyday dirt.
+        """
+        mechanism = hidden.mechanism
+        wobble, shakes, noisy = (float(rng.uniform(*each)) for each in (FRICTION, SHAKES, NOISY))
+        day = cls(wobble=wobble, shakes=shakes, noisy=noisy * FAST / mechanism.gains["kV"])
+        if not dirty:
+            return day
+        jitter, noise = (float(rng.uniform(*each)) for each in (JITTER, NOISE))
+        everyday = tuple(_everyday(mechanism.scale, hidden.parts, rng))
+        return replace(day, parts=everyday, jitter=jitter, noise=noise)
+
+
+CALM = Day()
+
+
 def recorded(
     hidden: Hidden,
     levels: Levels,
+    day: Day,
     *,
     session: str,
     period: float,
-    dirty: bool,
     rng: np.random.Generator,
 ) -> Log:
     """One session.
@@ -83,19 +153,18 @@ def recorded(
     Args:
         hidden: the mechanism and what is hidden in it.
         levels: its voltages.
+        day: what is ordinary.
         session: one of ``SESSIONS``.
         period: [s] between samples.
-        dirty: with everyday dirt.
         rng: the source of chance.
     """
     routine = Routine(levels.ramp, levels.steps[session], TIMEOUT, SESSIONS[session])
-    parts = hidden.parts
-    mechanism = replace(hidden.mechanism, sensor=replace(hidden.mechanism.sensor, jitter=0.0))
-    wobble = noise = 0.0
-    if dirty:
-        parts = (*parts, *_everyday(mechanism.scale, parts, rng))
-        jitter, wobble, noise = (float(rng.uniform(*each)) for each in (JITTER, FRICTION, NOISE))
-        mechanism = replace(mechanism, sensor=replace(mechanism.sensor, jitter=jitter))
+    shaken = _shaken(routine, day.shakes * math.sqrt(LOOP / period), period=period, rng=rng)
+    sensor = replace(hidden.mechanism.sensor, jitter=day.jitter)
+    if day.noisy:
+        sensor = replace(sensor, velocity_noise=day.noisy)
+    mechanism = replace(hidden.mechanism, sensor=sensor)
+    parts = (*hidden.parts, *day.parts)
     lasting = tuple(part for part in parts if ONCE not in part.parameters)
     again = [part for part in parts if ONCE in part.parameters and ENDS not in part.parameters]
     changed = tuple(_since(part, session) for part in parts if _is_changed(part, session))
@@ -104,9 +173,21 @@ def recorded(
         pilot = simulate(built, routine, rng=rng, period=period)
         sudden = (replace(part, parameters=_at(part, pilot, rng)[0]) for part in again)
         built = replace(built, hidden=(*built.hidden, *sudden))
-    runs = _runs(built, routine, period=period, wobble=wobble, rng=rng)
-    runs = [replace(r, voltage=r.voltage + noise * rng.standard_normal(len(r))) for r in runs]
+    runs = _runs(built, shaken, period=period, wobble=day.wobble, rng=rng)
+    runs = [
+        replace(run, voltage=shaken.logged(run) + day.noise * rng.standard_normal(len(run)))
+        for run in runs
+    ]
     return Log(tuple(runs), units=mechanism.units, type=mechanism.type)
+
+
+def _shaken(routine: Routine, size: float, *, period: float, rng: np.random.Generator) -> Shaken:
+    """The same with pushes of that size [V], each loop's independent."""
+    loops = LOOPS_BEFORE_DRIVE + math.ceil(routine.timeout / period) + 1
+    return Shaken(
+        routine.ramp, routine.step, routine.timeout, routine.kinds,
+        {test: size * rng.standard_normal(loops) for test in routine.tests}, period,
+    )  # fmt: skip
 
 
 def heated(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Generator) -> Hidden:
@@ -123,7 +204,7 @@ def heated(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Gene
     if WARMS not in hidden.sizes:
         return hidden
     cold = replace(hidden, parts=tuple(p for p in hidden.parts if p.effect != WARMS))
-    log = recorded(cold, levels, session="train", period=period, dirty=False, rng=rng)
+    log = recorded(cold, levels, CALM, session="train", period=period, rng=rng)
     kv = hidden.mechanism.gains["kV"]
     heat = sum(period * float(np.sum((run.voltage - kv * run.velocity) ** 2)) for run in log.runs)
     warm = Part(WARMS, {"rate": WARMER * hidden.sizes[WARMS] / heat})
@@ -215,7 +296,7 @@ def happened(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Ge
         return hidden
     lasting = tuple(part for part in hidden.parts if ONCE not in part.parameters)
     still = replace(hidden, parts=lasting)
-    pilot = recorded(still, levels, session=FIRST, period=period, dirty=False, rng=rng)
+    pilot = recorded(still, levels, CALM, session=FIRST, period=period, rng=rng)
     return replace(hidden, parts=tuple(_happens(part, pilot, rng) for part in hidden.parts))
 
 

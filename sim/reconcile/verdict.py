@@ -1,0 +1,83 @@
+"""The verdict: what the findings come to, and what remains."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from sim.reconcile.alike import POSITION, Alike
+from sim.reconcile.problem import Problem
+from sim.reconcile.remainder import Moment
+from sim.reconcile.round import Round
+from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
+from sim.reconcile.thresholds import ALIKE, LOST, MOSTLY, SHAKEN, STRAYS
+from sim.units import Unit
+
+
+def verdict_of(
+    findings: Sequence[Finding], done: Sequence[Round], problem: Problem, *,
+    moment: Moment, alike: Alike, per: Unit,
+) -> tuple[str, bool, str]:  # fmt: skip
+    """The verdict, whether something remains, and a sentence about it.
+
+    Args:
+        findings: what was named.
+        done: the base and the rounds.
+        problem: the measurements.
+        moment: that the last model explains least.
+        alike: what runs miss of it alike.
+        per: the owner's unit.
+    """
+    remains = ""
+    strays, before = (
+        gap.velocity / problem.noise.velocity for gap in (done[-1].gap, done[0].before)
+    )
+    share = missed(strays, problem)
+    if not share <= LOST:
+        remains = (
+            f"The last model misses {share:.0%} of the motion on runs it was not fitted to: what "
+            "was tried is no explanation. Check that voltage, position and velocity are of the "
+            "same mechanism and the same moment."
+        )
+        return UNEXPLAINED, True, remains
+    if moment.size > SHAKEN:
+        lane = problem.lanes[moment.lane]
+        remains = (
+            f"In {lane.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
+            f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
+        )
+    elif alike.size > ALIKE:
+        remains = _habit(alike, per)
+    elif strays > STRAYS:
+        remains = (
+            f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
+            "effect of the catalogue makes that less."
+        )
+    majors = [one for one in findings if one.size == "major"]
+    effects = any(one.kind == "effect" for one in majors)
+    mostly = effects and strays > max(STRAYS, MOSTLY * before)
+    if mostly or (remains and not majors):
+        return UNEXPLAINED, True, remains
+    if not majors:
+        return NOTHING_MISSING, bool(remains), remains
+    if any(one.ambiguous_with for one in majors):
+        return AMBIGUOUS, bool(remains), remains
+    return EXPLAINED, bool(remains), remains
+
+
+def _habit(alike: Alike, per: Unit) -> str:
+    """A sentence about what runs miss alike."""
+    low, high = (f"{edge / per.si:.3g}".replace("-", "−") for edge in (alike.low, alike.high))
+    where, of = ("places", "") if alike.what == POSITION else ("speeds", "/s")
+    way = "forward" if alike.way > 0 else "in reverse"
+    return (
+        f"At the same {where} runs do the same, run after run ({alike.size:.0f} times what chance "
+        f"would), and no effect of the catalogue explains it; most of it {way}, between {low} and "
+        f"{high} {per.symbol}{of}."
+    )
+
+
+def missed(strays: float, problem: Problem) -> float:
+    """[1] of the motion that a gap of so many noises misses."""
+    speeds = problem.measured[problem.moving, 1]
+    size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
+    return strays * problem.noise.velocity / max(size, 1e-300)
