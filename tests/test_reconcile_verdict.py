@@ -1,5 +1,7 @@
 """The verdict: what the findings and what is left of the gap come to."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from reconcile_made import recorded
@@ -12,7 +14,7 @@ from sim.reconcile.alike import Alike
 from sim.reconcile.gates import Gap
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
-from sim.reconcile.naming import beside
+from sim.reconcile.naming import beside, findings_of
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
 from sim.reconcile.remainder import Moment
@@ -66,6 +68,63 @@ def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, 
 
     assert said[:2] == (verdict, remains)
     assert bool(said[2]) is remains
+
+
+def added(problem, *steps, values):
+    """The base and each effect with the gap it left, and the gap without it in the end [noises]."""
+    hypothesis = Hypothesis("simple", tuple(name for name, *_ in steps))
+    point = problem.at(hypothesis, values, Outset.seen(2), problem.noise.velocity**2)
+    gaps = [Gap(size * problem.noise.velocity, 1e-5) for size in (2.0, *(one[1] for one in steps))]
+    done = [Round(judged(problem, point), gaps[0], gaps[0])]
+    for (name, _, bare), gap, before in zip(steps, gaps[1:], gaps, strict=False):
+        without = Gap(bare * problem.noise.velocity, 1e-5)
+        done.append(Round(judged(problem, point, name), gap, before, lost=50.0, bare=without))
+    return done
+
+
+@pytest.mark.parametrize(
+    ("steps", "sizes"),
+    [
+        # either alone would do nearly as well: the first closed the gap
+        ([("drag", 1.1, 1.05), ("spring", 1.0, 1.1)], {"drag": "major", "spring": "minor"}),
+        ([("drag", 1.9, 1.1), ("spring", 1.0, 1.1)], {"drag": "minor", "spring": "major"}),
+        # each is missed alone
+        ([("drag", 1.4, 1.5), ("spring", 1.0, 1.4)], {"drag": "major", "spring": "major"}),
+        # together they close next to nothing
+        ([("drag", 1.95, 1.85), ("spring", 1.8, 1.85)], {"drag": "minor", "spring": "minor"}),
+    ],
+)
+def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is_major(
+    problem, steps, sizes
+):
+    values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
+    done = added(problem, *steps, values=values)
+    chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
+
+    found = findings_of(problem, done, [], chapters, moment=CALM, alike=Alike(), per=METERS)
+
+    assert {one.effect: one.size for one in found} == sizes
+
+
+@pytest.mark.parametrize(
+    ("effect", "name", "size", "named"),
+    [
+        ("constant-load", "load", 0.02, False),
+        ("constant-load", "load", -0.02, False),
+        ("constant-load", "load", 0.05, True),
+        ("asymmetric-friction", "lean", -0.02, False),
+        ("asymmetric-friction", "lean", -0.05, True),
+    ],
+)
+def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, name, size, named):
+    done = added(problem, (effect, 1.9, 2.0), values={**GAINS, f"{effect}.{name}": size})
+    chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
+
+    found = findings_of(problem, done, [], chapters, moment=CALM, alike=Alike(), per=METERS)
+    told = beside(problem, done, found, CALM)
+
+    assert [one.effect for one in found] == [effect] * named
+    assert any(f"a little {effect}" in sentence for sentence in told) is not named
 
 
 @pytest.mark.parametrize(("after", "told"), [(0.2, True), (0.9, False)])

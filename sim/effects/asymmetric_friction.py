@@ -12,6 +12,8 @@ import numpy as np
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
+EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
+
 
 def grip(way: float, lean: float) -> float:
     """[V] beyond kS."""
@@ -29,6 +31,11 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     yield {"lean": float(lean)}
 
 
+def everyday(values: Mapping[str, float]) -> bool:
+    """No gear and no bearing runs alike both ways."""
+    return abs(values["lean"]) <= EVERYDAY
+
+
 EFFECT = Effect(
     name="asymmetric-friction",
     kind="term",
@@ -44,6 +51,7 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
+    everyday=everyday,
     acts={"grip": grip},
     symmetric=False,
 )

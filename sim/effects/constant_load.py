@@ -12,6 +12,8 @@ import numpy as np
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
+EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
+
 
 def pull(load: float) -> float:
     """[V] toward negative positions."""
@@ -34,6 +36,11 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     yield {"load": float(load)}
 
 
+def everyday(values: Mapping[str, float]) -> bool:
+    """No floor is level, and no gear runs alike both ways."""
+    return abs(values["load"]) <= EVERYDAY
+
+
 EFFECT = Effect(
     name="constant-load",
     kind="term",
@@ -50,6 +57,7 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
+    everyday=everyday,
     acts={"pull": pull},
     symmetric=False,
     stores=stored,

@@ -102,7 +102,8 @@ def better(problem: Problem, point: Point, *, steps: int, enough: float = ENOUGH
     damping = FIRST_DAMPING
     for _ in range(steps):
         table, rest = _with_prior(problem, point)
-        size = np.linalg.norm(table, axis=0)
+        with np.errstate(over="ignore"):  # a value that nothing bears to be moved
+            size = np.linalg.norm(table, axis=0)
         size[size == 0.0] = 1.0
         table /= size
         square, slope = table.T @ table, table.T @ rest

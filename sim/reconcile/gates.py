@@ -141,10 +141,12 @@ def _missed(problem: Problem, track: Array) -> Array:
 
 
 def rms(errors: Array) -> Gap:
-    """The gap of errors (n, 2)."""
+    """The gap of errors (n, 2); not a number where nothing was measured to compare with."""
     if not errors.size:
         return Gap(0.0, 0.0)
-    position, velocity = np.sqrt(np.nanmean(np.square(errors), axis=0))
+    counts = np.count_nonzero(~np.isnan(errors), axis=0)
+    with np.errstate(over="ignore", invalid="ignore"):  # what ran away, and what is not there
+        position, velocity = np.sqrt(np.nansum(np.square(errors), axis=0) / counts)
     return Gap(float(velocity), float(position))
 
 

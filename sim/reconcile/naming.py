@@ -80,13 +80,22 @@ def findings_of(
         )
         for n in range(1, len(done))
     ]
+    whole = done[-1].gap.velocity <= least * done[0].before.velocity
+    if effects and whole and not any(one.size == "major" for one in effects):
+        first = min(range(len(effects)), key=lambda n: _step(done[n + 1]))
+        effects[first] = replace(effects[first], size="major")  # the others stand in for it
     astray = not missed(end, problem) <= LOST  # no number at all is lost, too
     if astray:
         effects = []
     effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
     effects = [one for one in effects if not belied(one.effect, problem, last, moment)]
-    effects.sort(key=lambda one: (one.size != "major", _everyday(one, last), -one.score))
+    effects.sort(key=lambda one: (_everyday(one, last), -one.score))
     return tuple(sorted((*faults, *(_no_alarm(one, last) for one in effects)), key=_rank))
+
+
+def _step(one: Round) -> float:
+    """[1] of the gap before it that an effect left when it was added."""
+    return one.gap.velocity / one.before.velocity if one.before.velocity > 0.0 else math.inf
 
 
 def _rank(one: Finding) -> int:
