@@ -107,6 +107,29 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
 
 
 @pytest.mark.parametrize(
+    "rest",
+    [
+        {"moment": Moment(20.0, 0, 0.5, 0.6), "alike": Alike()},
+        {"moment": CALM, "alike": Alike(9.0, "position", 1, 0.4, 0.5)},
+    ],
+    ids=["a moment", "a place"],
+)
+@pytest.mark.parametrize(("after", "size"), [(0.7, "minor"), (0.5, "major")])
+def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, rest, after, size):
+    values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
+    alone = added(problem, ("drag", 2.0 * after, 2.0), values=values)
+    alike = added(problem, ("drag", 1.1, 1.05), ("spring", 1.0, 1.1), values=values)
+
+    def sizes(done):
+        chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
+        found = findings_of(problem, done, [], chapters, per=METERS, **rest)
+        return [one.size for one in found]
+
+    assert sizes(alone) == [size]
+    assert sizes(alike) == ["minor", "minor"]  # neither, nor either
+
+
+@pytest.mark.parametrize(
     ("effect", "name", "size", "named"),
     [
         ("constant-load", "load", 0.02, False),

@@ -66,7 +66,8 @@ def findings_of(
     last = done[-1].suspect.point
     errors = standard_errors(problem, last)
     end = done[-1].gap.velocity / problem.noise.velocity
-    least = FAR_MAJOR if end > STRAYS or alike.size > ALIKE else MAJOR
+    far = end > STRAYS or alike.size > ALIKE or moment.size > SHAKEN
+    least = FAR_MAJOR if far else MAJOR
     effects = [
         _effect(
             done[n - 1],
@@ -81,7 +82,7 @@ def findings_of(
         for n in range(1, len(done))
     ]
     whole = done[-1].gap.velocity <= least * done[0].before.velocity
-    if effects and whole and not any(one.size == "major" for one in effects):
+    if effects and whole and not far and not any(one.size == "major" for one in effects):
         first = min(range(len(effects)), key=lambda n: _step(done[n + 1]))
         effects[first] = replace(effects[first], size="major")  # the others stand in for it
     astray = not missed(end, problem) <= LOST  # no number at all is lost, too

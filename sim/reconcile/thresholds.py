@@ -37,7 +37,7 @@ Everyday effects that nobody has to name (50 mV of Stribeck friction, 8 % of sag
 shrink it by up to a tenth."""
 
 FAR_MAJOR = 0.6
-"""[1] the same while the last model is still far off (``STRAYS``, ``ALIKE``): what nobody has named
+"""[1] the same while something remains (``STRAYS``, ``ALIKE``, ``SHAKEN``): what nobody has named
 looks a little like many things, and none of them is worth a name that does not take much of it
 away."""
 
