@@ -140,5 +140,6 @@ STORIES = {
     "damage and drag": story(SLIP, DRAG, SAG),
     "ambiguous": story(UNSURE, verdict="ambiguous"),
     "unexplained": story(verdict="unexplained", chapters=1, **REMAINS),
+    "unexplained and damaged": story(SLIP, verdict="unexplained", chapters=1, **REMAINS),
     "explained, and something remains": story(DRAG, **REMAINS),
 }

@@ -18,7 +18,7 @@ from sim.reconcile.lanes import SetAside, lanes
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.round import Round, Weighed
-from sim.reconcile.rounds import best_path, turnings
+from sim.reconcile.rounds import best_path, rounds, turnings
 from sim.reconcile.story import Tried
 from sim.reconcile.suspects import Suspect, suspects
 from sim.reconcile.thresholds import MAJOR
@@ -78,6 +78,47 @@ def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
     found = suspects(problem, point, evidence, only=["backlash"])
 
     assert all(math.isfinite(one.score) for one in found)
+
+
+@pytest.mark.parametrize(
+    ("inertia", "gaps", "asked"),
+    [
+        (0.05, [0.3, 0.29], 2),  # it follows the log: every suspect is tried, and again
+        (5000.0, [0.9], 0),  # voltage drives nothing in it
+        (5000.0, [0.3, 0.29], 2),  # and yet it follows
+        (0.05, [0.9, 0.85, 0.8], 1),  # the first effect took little away
+        (0.05, [0.9, 0.45, 0.44], 2),  # the first did, the second did not
+    ],
+)
+def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, asked):
+    log = session(bench("drivetrain"), "log")
+    problem = Problem.of(lanes(log))
+    moves = np.sqrt(np.nanmean(problem.measured[problem.moving, 1] ** 2))
+    sizes = [Gap(share * float(moves), 1.0) for share in gaps]
+    values = {"kS": 0.1, "kV": 2.0, "kA": 2.0 * inertia}
+    begun = Outset.seen(len(problem.lanes))
+    base = problem.at(Hypothesis("simple"), values, begun, problem.noise.velocity**2)
+    calls = []
+
+    def weighed(_, now, *__):
+        calls.append(now)
+        if len(calls) == len(sizes):
+            return []
+        other = replace(now.suspect, effect="drag", score=now.suspect.score - 500.0)
+        return [Weighed(other, sizes[len(calls)], Tried("drag", 500.0, 0.9, admitted=True, why=""))]
+
+    room = sys.modules["sim.reconcile.rounds"]
+    monkeypatch.setattr(room, "weigh", weighed)
+    monkeypatch.setattr(room, "outside", lambda *_: sizes[0])
+    monkeypatch.setattr(room, "ended", lambda _, point: point)
+    monkeypatch.setattr(room, "_seeds", lambda _: {})
+    for name in ("reconsidered", "simplified", "missed_by", "best_path"):
+        monkeypatch.setattr(room, name, lambda _, done, *__: done)
+
+    done = rounds(problem, base, log, [], lambda *_: None)
+
+    assert len(calls) == asked
+    assert len(done) == 1 + min(asked, len(sizes) - 1)
 
 
 # -- which path is gone ---------------------------------------------------------------------------

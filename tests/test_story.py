@@ -83,6 +83,7 @@ def test_the_numbers_of_the_story_are_those_of_its_log():
         ("damage and drag", "the record is damaged too (encoder-slip)."),
         ("ambiguous", "or stribeck, and these logs cannot tell which"),
         ("unexplained", "Something is missing that no effect of the catalogue explains"),
+        ("unexplained and damaged", "of the velocity; the record is damaged too (encoder-slip)."),
         ("explained, and something remains", "and something remains that nothing explains."),
     ],
 )

@@ -31,7 +31,11 @@ def lineup(story: Story, chapter: int = 0) -> Picture:
         raise BadRequest(f"no chapter {chapter}", advice=f"Choose one of 0 to {count - 1}.")
     tried = story.chapters[chapter].tried
     if not tried:
-        raise BadRequest("nothing was tried there", advice="Choose an earlier chapter.")
+        others = [number for number, one in enumerate(story.chapters) if one.tried]
+        advice = "No effect was tried on any model: read the verdict."
+        if others:
+            advice = f"Choose one of: {', '.join(map(str, others))}."
+        raise BadRequest(f"nothing was tried in chapter {chapter}", advice=advice)
     taken = next_of(story, chapter)
     drawn = tried[:BARS]
     figure, ((axes,),) = panels(1, 1, height=0.9 + 0.3 * len(drawn))

@@ -21,7 +21,7 @@ from sim.reconcile.alike import most_alike
 from sim.reconcile.aside import Aside, judge_damage
 from sim.reconcile.damage import Damaged
 from sim.reconcile.descent import better, ended, scanned, settle
-from sim.reconcile.gates import errors_of, folds, rms
+from sim.reconcile.gates import errors_of, folds, missed, rms
 from sim.reconcile.glitch import glitches
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, ended_after, in_a_row, lanes
@@ -34,7 +34,7 @@ from sim.reconcile.showing import Shown
 from sim.reconcile.story import Story
 from sim.reconcile.thresholds import LOST, MAJOR, WANDERS
 from sim.reconcile.usable import check_logs
-from sim.reconcile.verdict import missed, verdict_of
+from sim.reconcile.verdict import verdict_of
 from sim.units import unit
 
 __all__ = ["Damaged", "Story", "reconcile"]

@@ -150,5 +150,12 @@ def rms(errors: Array) -> Gap:
     return Gap(float(velocity), float(position))
 
 
+def missed(strays: float, problem: Problem) -> float:
+    """[1] of the motion that a gap of so many noises misses."""
+    speeds = problem.measured[problem.moving, 1]
+    size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
+    return strays * problem.noise.velocity / max(size, 1e-300)
+
+
 def _some(problem: Problem, chosen: Sequence[int]) -> Problem:
     return Problem(tuple(problem.lanes[n] for n in chosen), problem.noise)

@@ -11,6 +11,7 @@ from sim.effect import ONSET
 from sim.effects import EFFECTS
 from sim.reconcile.alike import Alike
 from sim.reconcile.damage import Damaged
+from sim.reconcile.gates import missed
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round
@@ -31,7 +32,6 @@ from sim.reconcile.thresholds import (
     STRAYS,
     TOLD_FIRST,
 )
-from sim.reconcile.verdict import missed
 from sim.units import Unit
 
 TURNLESS = (
@@ -64,11 +64,28 @@ def findings_of(
     """
     faults = [_fault(one, chapters[0].gap) for one in damages]
     last = done[-1].suspect.point
-    errors = standard_errors(problem, last)
     end = done[-1].gap.velocity / problem.noise.velocity
     far = end > STRAYS or alike.size > ALIKE or moment.size > SHAKEN
+    effects = _sized(problem, done, chapters, far=far, per=per)
+    if not missed(end, problem) <= LOST:  # no number at all is lost, too
+        effects = []
+    effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
+    effects = [one for one in effects if not belied(one.effect, problem, last, moment)]
+    effects.sort(key=lambda one: (_everyday(one, last), -one.score))
+    return tuple(sorted((*faults, *(_no_alarm(one, last) for one in effects)), key=_rank))
+
+
+def _sized(
+    problem: Problem, done: Sequence[Round], chapters: Sequence[Chapter], *, far: bool, per: Unit
+) -> list[Finding]:
+    """What each round added, major or minor.
+
+    Of effects that stand in for one another none is missed alone: if together they closed the gap,
+    the one that closed most of it is major.
+    """
     least = FAR_MAJOR if far else MAJOR
-    effects = [
+    errors = standard_errors(problem, done[-1].suspect.point)
+    found = [
         _effect(
             done[n - 1],
             done[n],
@@ -81,17 +98,12 @@ def findings_of(
         )
         for n in range(1, len(done))
     ]
-    whole = done[-1].gap.velocity <= least * done[0].before.velocity
-    if effects and whole and not far and not any(one.size == "major" for one in effects):
-        first = min(range(len(effects)), key=lambda n: _step(done[n + 1]))
-        effects[first] = replace(effects[first], size="major")  # the others stand in for it
-    astray = not missed(end, problem) <= LOST  # no number at all is lost, too
-    if astray:
-        effects = []
-    effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
-    effects = [one for one in effects if not belied(one.effect, problem, last, moment)]
-    effects.sort(key=lambda one: (_everyday(one, last), -one.score))
-    return tuple(sorted((*faults, *(_no_alarm(one, last) for one in effects)), key=_rank))
+    closed = done[-1].gap.velocity <= least * done[0].before.velocity
+    if closed and not far and all(one.size != "major" for one in found):
+        most = min(range(len(found)), key=lambda n: _step(done[n + 1]), default=None)
+        if most is not None:
+            found[most] = replace(found[most], size="major")
+    return found
 
 
 def _step(one: Round) -> float:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from sim.effects import EFFECTS
 from sim.log import Log
 from sim.reconcile.descent import ENOUGH, ended, settle
-from sim.reconcile.gates import Fold, outside
+from sim.reconcile.gates import Fold, missed, outside
 from sim.reconcile.once import otherwise
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.round import Round, Weighed
@@ -14,6 +14,8 @@ from sim.reconcile.second_thoughts import missed_by, reconsidered, simplified
 from sim.reconcile.suspects import Seeds, judged
 from sim.reconcile.thresholds import (
     CLOSE,
+    FAR_MAJOR,
+    LOST,
     MOST,
     MOST_QUIET,
     NEAR,
@@ -21,6 +23,7 @@ from sim.reconcile.thresholds import (
     STRAYS,
     SURE,
     SURER,
+    UNDRIVEN,
 )
 from sim.reconcile.weighing import HARDLY, WIDENS, gained, rivals, simplest, weigh, why_not
 
@@ -105,7 +108,7 @@ def _added(
 ) -> list[Round]:
     """The same, and a round for each effect that narrows the gap."""
     done = list(done)
-    while len(done) <= MOST:
+    while len(done) <= MOST and not _leads_nowhere(problem, done):
         progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
         now = done[-1]
         weighed = weigh(problem, now, log, parts)
@@ -134,6 +137,21 @@ def _added(
             )
         )
     return done
+
+
+def _leads_nowhere(problem: Problem, done: Sequence[Round]) -> bool:
+    """Whether the model is lost, and has nothing to add to, or its last effect took little away.
+
+    Of such a model nothing is told in the end, and it may take minutes to see four effects of it.
+    """
+    now = done[-1]
+    share = missed(now.gap.velocity / problem.noise.velocity, problem)
+    if share <= LOST:
+        return False
+    values = now.suspect.point.values
+    if len(done) == 1:
+        return values["kA"] > UNDRIVEN * values["kV"]
+    return not now.gap.velocity <= FAR_MAJOR * now.before.velocity
 
 
 def _ended(problem: Problem, best: Weighed, parts: Sequence[Fold]) -> Weighed:

@@ -66,6 +66,11 @@ LOST = 0.4
 log, and what it contains is no finding. The last models of 128 logs with hidden effects miss an
 eighth at most."""
 
+UNDRIVEN = 100.0
+"""[s] kA/kV of a base model that is lost, beyond which voltage drives nothing in it, and no effect
+is tried on top. Shuffled voltages make it a day and more, a hidden bound of the voltage five
+seconds at most; a heavy flywheel has one."""
+
 WANDERS = 0.1
 """[top speeds in a second] by which a mechanism is pushed at random at most, where a base model
 would else be nothing but pushes."""

@@ -2,9 +2,8 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from sim.reconcile.alike import POSITION, Alike
+from sim.reconcile.gates import missed
 from sim.reconcile.problem import Problem
 from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round
@@ -74,10 +73,3 @@ def _habit(alike: Alike, per: Unit) -> str:
         f"would), and no effect of the catalogue explains it; most of it {way}, between {low} and "
         f"{high} {per.symbol}{of}."
     )
-
-
-def missed(strays: float, problem: Problem) -> float:
-    """[1] of the motion that a gap of so many noises misses."""
-    speeds = problem.measured[problem.moving, 1]
-    size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
-    return strays * problem.noise.velocity / max(size, 1e-300)

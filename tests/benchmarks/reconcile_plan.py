@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import cycle, islice
 
 import numpy as np
-from reconcile_strangers import STRANGERS
+from reconcile_strangers import ADMITTED, STRANGERS
 
 from sim.effects import EFFECTS
 from sim.mechanisms import MECHANISMS
@@ -74,7 +74,7 @@ class Case:
 
 def catalogue() -> tuple[str, ...]:
     """The names that a solver may have to say, strangers not among them."""
-    return (*(name for name in EFFECTS if name not in STRANGERS), *FAULTS)
+    return (*(name for name in EFFECTS if name not in ADMITTED), *FAULTS)
 
 
 def why_not(mechanism: str, name: str) -> str:

@@ -5,18 +5,20 @@ the mechanism that no log shows, and the velocity has more noise than on a good 
 """
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 from reconcile_sizes import Hidden
+from reconcile_strangers import SHAKES
 
 from sim.effect import Scale
 from sim.effects.inertia_change import LATER
-from sim.log import Array, Log, Run
+from sim.engine.asked import COARSEST
+from sim.log import Log, Run
 from sim.mechanism import Mechanism
 from sim.model import Part
-from sim.routine import LOOPS_BEFORE_DRIVE, Routine
+from sim.routine import Routine
 from sim.simulate import simulate
 
 FOUR = ("quasistatic", "dynamic")
@@ -44,7 +46,7 @@ JITTER = (0.0004, 0.0015)  # [s] of dirty cases
 NOISE = (0.004, 0.012)  # [V] of the logged voltage of dirty cases
 
 FRICTION = (0.02, 0.06)  # [share] by which it differs from run to run
-SHAKES, LOOP = (0.02, 0.08), 0.02  # [V] that the motors get in such a loop [s] beside the logged
+SHAKEN, LOOP = (0.02, 0.08), 0.02  # [V] of what shakes it in such a loop [s], and no log shows
 NOISY, FAST = (0.003, 0.010), 6.0  # [share] noise of the speed that so many volts reach
 
 WARMS, WARMER = "heating", 0.2  # [share] more resistance after a session's four tests: 50 K
@@ -52,7 +54,6 @@ WARMS, WARMER = "heating", 0.2  # [share] more resistance after a session's four
 MOMENT = (0.3, 0.7)  # [share of a run's motion] when something happens once
 ONCE, ENDS = "onset", "until"  # parameters of what happens at a moment, and of what lasts
 FIRST, PASSING = "train", 0.4  # the session in which it happens; [1] of what ends with its run
-MIRRORED = (1, 0, 3, 2)  # order of the four tests in which all voltages have the other sign
 
 
 @dataclass(frozen=True)
@@ -77,34 +78,13 @@ class Levels:
 
 
 @dataclass(frozen=True)
-class Shaken(Routine):
-    """A routine in which the motors get what the log does not show.
-
-    Args:
-        pushes: test -> (loops,) [V].
-        period: [s] of a loop.
-    """
-
-    pushes: Mapping[str, Array] = field(default_factory=dict)
-    period: float = LOOP
-
-    def voltage(self, test: str, time: float) -> float:
-        """The voltage of a test [V] and the push of that loop."""
-        return super().voltage(test, time) + float(self.pushes[test][round(time / self.period)])
-
-    def logged(self, run: Run) -> Array:
-        """(n,) [V] of a run, without the pushes."""
-        return run.voltage - self.pushes[run.test][LOOPS_BEFORE_DRIVE:][: len(run)]
-
-
-@dataclass(frozen=True)
 class Day:
     """What all sessions of a case have in common, and nobody has to name; none of it at first.
 
     Args:
         parts: everyday effects.
         wobble: [share] by which friction differs from run to run.
-        shakes: [V] of pushes in each ``LOOP``.
+        shakes: [V] of pushes that no log shows, in each ``LOOP``.
         jitter: [s] of the loops.
         noise: [V] of the logged voltage.
         noisy: [m/s or rad/s] of the velocity; 0 leaves it to the mechanism's own sensor.
@@ -127,7 +107,7 @@ class Day:
             dirty: with everyday dirt.
         """
         mechanism = hidden.mechanism
-        wobble, shakes, noisy = (float(rng.uniform(*each)) for each in (FRICTION, SHAKES, NOISY))
+        wobble, shakes, noisy = (float(rng.uniform(*each)) for each in (FRICTION, SHAKEN, NOISY))
         day = cls(wobble=wobble, shakes=shakes, noisy=noisy * FAST / mechanism.gains["kV"])
         if not dirty:
             return day
@@ -159,12 +139,14 @@ def recorded(
         rng: the source of chance.
     """
     routine = Routine(levels.ramp, levels.steps[session], TIMEOUT, SESSIONS[session])
-    shaken = _shaken(routine, day.shakes * math.sqrt(LOOP / period), period=period, rng=rng)
     sensor = replace(hidden.mechanism.sensor, jitter=day.jitter)
     if day.noisy:
         sensor = replace(sensor, velocity_noise=day.noisy)
     mechanism = replace(hidden.mechanism, sensor=sensor)
     parts = (*hidden.parts, *day.parts)
+    if day.shakes:
+        pushes = day.shakes * math.sqrt(LOOP / COARSEST)
+        parts = (*parts, Part(SHAKES.name, {"volts": pushes, "seed": float(rng.random())}))
     lasting = tuple(part for part in parts if ONCE not in part.parameters)
     again = [part for part in parts if ONCE in part.parameters and ENDS not in part.parameters]
     changed = tuple(_since(part, session) for part in parts if _is_changed(part, session))
@@ -173,21 +155,12 @@ def recorded(
         pilot = simulate(built, routine, rng=rng, period=period)
         sudden = (replace(part, parameters=_at(part, pilot, rng)[0]) for part in again)
         built = replace(built, hidden=(*built.hidden, *sudden))
-    runs = _runs(built, shaken, period=period, wobble=day.wobble, rng=rng)
+    runs = _runs(built, routine, period=period, wobble=day.wobble, rng=rng)
     runs = [
-        replace(run, voltage=shaken.logged(run) + day.noise * rng.standard_normal(len(run)))
+        replace(run, voltage=run.voltage + day.noise * rng.standard_normal(len(run)))
         for run in runs
     ]
     return Log(tuple(runs), units=mechanism.units, type=mechanism.type)
-
-
-def _shaken(routine: Routine, size: float, *, period: float, rng: np.random.Generator) -> Shaken:
-    """The same with pushes of that size [V], each loop's independent."""
-    loops = LOOPS_BEFORE_DRIVE + math.ceil(routine.timeout / period) + 1
-    return Shaken(
-        routine.ramp, routine.step, routine.timeout, routine.kinds,
-        {test: size * rng.standard_normal(loops) for test in routine.tests}, period,
-    )  # fmt: skip
 
 
 def heated(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Generator) -> Hidden:
@@ -221,9 +194,10 @@ def permuted(log: Log, *, rng: np.random.Generator) -> Log:
 def exchanged(log: Log, *, rng: np.random.Generator) -> Log:
     """The log with every run's voltage from another run, and not merely of the other sign."""
     count = len(log.runs)
+    ahead = np.array([run.test.endswith("forward") for run in log.runs])
     while True:
         order = rng.permutation(count)
-        if not np.any(order == np.arange(count)) and tuple(order[:4]) != MIRRORED:
+        if not np.any(order == np.arange(count)) and np.any(ahead[order] == ahead):
             break
     stretched = [
         np.interp(

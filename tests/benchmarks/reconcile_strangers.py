@@ -114,6 +114,21 @@ def ordinary_cling(scale: Scale, size: float) -> Mapping[str, float]:
     return {"volts": 0.5 * size, "way": 0.1 * scale.reach}
 
 
+def shaken(u: float, memory: float, volts: float) -> float:
+    """[V] with what a floor and a gear shake it by: of that size, and another in each step."""
+    return u + volts * math.sqrt(12.0) * (memory - 0.5)
+
+
+def thrown(memory: float, seed: float) -> float:
+    """[1] from 0 to 1, the next of a sequence that nobody foretells."""
+    return (9821.0 * (memory + seed) + 0.211327) % 1.0
+
+
+def ordinary_shakes(_: Scale, size: float) -> Mapping[str, float]:
+    """A seventh of a volt in each step of the engine."""
+    return {"volts": 0.14 * size, "seed": 0.5}
+
+
 def no_starts(_: Evidence) -> Iterator[Mapping[str, float]]:
     """Nobody looks for it."""
     return iter(())
@@ -187,6 +202,14 @@ STRANGERS: Mapping[str, Effect] = {
 """Name -> what it is; no name is one of the catalogue."""
 
 
+SHAKES = _stranger(
+    "shakes", {"volts": 0.0, "seed": 0.0}, {"passes": shaken, "remembers": thrown}, ordinary_shakes
+)
+"""What is in every case and nobody has to flag: it is another in every run."""
+
+ADMITTED: Mapping[str, Effect] = {**STRANGERS, SHAKES.name: SHAKES}
+
+
 def admit() -> None:
     """Let this process's engine know them; before ``sim.engine`` is imported, which counts them."""
-    EFFECTS.update(STRANGERS)
+    EFFECTS.update(ADMITTED)
