@@ -194,6 +194,9 @@ def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
         (("drag", 45.0, 0.74), ("heating", 43.0, 0.735), "drag"),  # hardly: the likelier
         (("drag", 45.0, 0.74), ("heating", 30.0, 0.58), "drag"),  # surely likelier
         (("spring", 45.0, 0.58), ("drag", 43.0, 0.74), "drag"),  # fewer parameters go first
+        # what may be one run's accident has to be far likelier than what lasts
+        (("inertia-change", 400.0, 0.9), ("heating", 160.0, 0.9), "heating"),
+        (("inertia-change", 420.0, 0.9), ("heating", 160.0, 0.9), "inertia-change"),
     ],
 )
 def test_of_two_about_as_likely_the_validation_decides(one, other, taken):

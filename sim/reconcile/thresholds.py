@@ -20,8 +20,9 @@ ONCE = 250.0
 It may happen in a single run, and then no other run has a say: a snag, a push or that run's own
 friction look a little like it. On 400 logs made here, with everyday dirt in half, inertia changes
 that were none came to 24 to 250 where nothing was wrong with the record, most to less than 100;
-true ones to 250 and more, but for one of 79. Whether they narrow the gap of runs that know nothing
-of them is not asked.
+true ones to 250 and more, but for one of 79. By as much it has to be likelier than an effect that
+lasts, or that one is added first: a motor that warms up is not a load that joined once. Whether it
+narrows the gap of runs that know nothing of it is not asked.
 """
 
 KNOCK, AFTER = 2.0, 0.5
@@ -96,7 +97,7 @@ A complete model of an arm, whose runs end where small errors of friction have a
 ALIKE = 6.0
 """[standard deviations of chance] by which runs that go the same way miss alike: beyond it physics
 is missing. Last models of 42 complete logs with everyday dirt in half came to 3.6 at most, of logs
-with a bump, a brake or a band of friction that no effect has to 4 to 15."""
+with a bump, a brake or a band of friction that no effect has to 3 to 15, two of three beyond 6."""
 
 MOSTLY = 0.5
 """[1] of the base model's gap: where the last model strays and leaves more than that of it, what

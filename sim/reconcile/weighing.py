@@ -69,9 +69,13 @@ def why_not(gap: Gap, before: Gap, score: float) -> str:
 def simplest(admitted: Sequence[Weighed]) -> Weighed:
     """The likeliest, or one about as likely with fewer parameters.
 
-    Of as many parameters each, about as likely, the one that the validation clearly prefers.
+    Of as many parameters each, about as likely, the one that the validation clearly prefers. What
+    may be one run's accident has to be likelier than all that lasts by as much as than nothing.
     """
     best = admitted[0]
+    lasting = [one for one in admitted if not EFFECTS[one.suspect.effect].happens]
+    if lasting and best is not lasting[0] and best.tried.score - lasting[0].tried.score < ONCE:
+        admitted, best = lasting, lasting[0]
     top = best.tried.score
     simpler = EFFECTS[best.suspect.effect].simpler
     near = [
