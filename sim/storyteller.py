@@ -71,7 +71,10 @@ class _Sayer:
 
     def __call__(self, text: str, *, indent: int = 0, style: str = "") -> None:
         blank = " " * indent
-        lines = wrap(text, self.console.width, initial_indent=blank, subsequent_indent=blank)
+        lines = wrap(
+            text, self.console.width, initial_indent=blank, subsequent_indent=blank,
+            break_on_hyphens=False,
+        )  # fmt: skip
         for line in lines or [""]:
             self.console.print(Text(line, style=style), soft_wrap=True)
 

@@ -371,10 +371,13 @@ def test_a_chapter_that_there_is_not_is_refused(chapter):
 def test_a_round_without_suspects_is_refused():
     base, last = EXPLAINED.chapters
     bare = replace(EXPLAINED, chapters=(base, replace(last, tried=())))
+    none = replace(EXPLAINED, chapters=tuple(replace(one, tried=()) for one in (base, last)))
 
-    with pytest.raises(BadRequest, match="Choose an earlier chapter."):
+    with pytest.raises(BadRequest, match="No effect was tried on any model: read the verdict."):
+        none.plot_suspects(0)
+    with pytest.raises(BadRequest, match="in chapter 1. Choose one of: 0."):
         bare.plot_suspects(1)
-    assert page_flaws(story_page(bare, title="drive.csv")) == []
+    assert all(page_flaws(story_page(one, title="drive.csv")) == [] for one in (bare, none))
 
 
 # -- command -------------------------------------------------------------------------------------
