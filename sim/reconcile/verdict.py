@@ -33,9 +33,9 @@ def verdict_of(
     share = missed(strays, problem)
     if not share <= LOST:
         remains = (
-            f"The last model misses {share:.0%} of the motion on runs it was not fitted to: what "
-            "was tried is no explanation. Check that voltage, position and velocity are of the "
-            "same mechanism and the same moment."
+            f"The last model misses {share:.0%} of the motion on runs it was not fitted to, so "
+            "nothing is named. Check that voltage, position and velocity are of the same mechanism "
+            "and the same moment."
         )
         return UNEXPLAINED, True, remains
     if moment.size > SHAKEN:
