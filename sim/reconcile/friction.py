@@ -19,6 +19,7 @@ from sim.reconcile.problem import Point, Problem
 SHARES = (0.0, 0.005, 0.01, 0.02, 0.04, 0.08)
 """[of kS] τ that are tried: more than a tenth of the friction is no accident."""
 MOST_VARIED = SHARES[-1]
+USUAL = 0.04  # [of kS] by which it varies on most robots
 LEAST_KS = 0.05  # [V] of which they are shares where kS is less
 
 
@@ -27,7 +28,7 @@ def varied(problem: Problem, point: Point) -> float:
     columns = problem.columns(point)
     rest = problem.white(point, point.ahead)
     searched = list(point.hypothesis.searched)
-    friction = columns[:, searched.index("kS")]
+    friction = columns[:, searched.index("kS")] = _by_friction(problem, point)
     edges = (2 * problem.edges).tolist()
     runs = [slice(*pair) for pair in pairwise(edges)]
     square = np.array([friction[run] @ friction[run] for run in runs])
@@ -41,6 +42,24 @@ def varied(problem: Problem, point: Point) -> float:
     kept = max(point.values["kS"], LEAST_KS)
     changes = [_changed(share * kept, square, product, across, full, slope) for share in SHARES]
     return min(changes) - changes[0]
+
+
+def _by_friction(problem: Problem, point: Point) -> Array:
+    """(2 n,) change of the white innovations with friction, of the size by which it varies.
+
+    A run that is about to move begins a sample sooner or later with hardly less friction: what a
+    smaller step shows is whether it is about to.
+    """
+    kept = point.values["kS"]
+    step = USUAL * max(kept, LEAST_KS)
+    ends = (kept + step, max(kept - step, 0.0))
+    more, less = (
+        problem.ahead(
+            point.hypothesis.model({**point.values, "kS": one}), point.outset, point.trust
+        )
+        for one in ends
+    )
+    return problem.white(point, (more - less) / (ends[0] - ends[1]))
 
 
 def _changed(  # noqa: PLR0917 - an equation in six symbols

@@ -58,7 +58,8 @@ MOST = 4
 
 MOST_QUIET = 2
 """Effects that are kept in the model without being named: a delay of 2 ms makes a log much likelier
-and shrinks no gap, but what else is there shows better beside it."""
+and shrinks no gap, but what else is there shows better beside it. One that is surer than ``SURER``
+and larger than on any robot is named, as minor."""
 
 SLIPPED = 0.97
 """[1] confidence above which an encoder's slip is cut out: a start that sticks looks alike."""
