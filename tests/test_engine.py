@@ -355,7 +355,8 @@ def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
     given = {
         "edges": np.array([0.0, TIME.size]), "time": TIME, "asked": steady(3.0),
         "bodies": np.zeros((1, 5)), "low": np.full(1, -math.inf), "high": np.full(1, math.inf),
-        "sessions": np.zeros(1), "c": constants(PLAIN), "w": NO_WIRES, "on": on, "p": parameters,
+        "rubs": np.zeros(1), "sessions": np.zeros(1), "c": constants(PLAIN), "w": NO_WIRES,
+        "on": on, "p": parameters,
         "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS), "began": np.zeros(1),
         "finest": math.inf, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_TRUST,
         "out": np.zeros((TIME.size, 8)),

@@ -187,7 +187,7 @@ def test_what_would_leave_the_whole_log_is_no_moment():
 
 @pytest.mark.parametrize(
     ("effect", "score", "admitted"),
-    [("inertia-change", 240.0, False), ("inertia-change", 260.0, True), ("drag", 240.0, True)],
+    [("inertia-change", 120.0, False), ("inertia-change", 140.0, True), ("drag", 120.0, True)],
 )
 def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, score, admitted):
     log = log_with(())
@@ -245,7 +245,7 @@ def test_what_was_over_with_its_run_is_tried_for_good(joined):
     assert len(others) == 3  # two ends of it, each with and without a share of the momentum
     best = min(others, key=lambda one: one.cost)
     assert best.values["inertia-change.until"] == LATER
-    assert best.values["inertia-change.extra"] == pytest.approx(0.02, rel=0.02)
+    assert best.values["inertia-change.extra"] == pytest.approx(0.02, rel=0.05)
     assert best.cost < settle(problem, point).cost - 100.0
     plain = problem.at(Hypothesis("simple"), GAINS, Outset.seen(4), point.q)
     assert not list(otherwise(problem, plain))

@@ -17,12 +17,13 @@ from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, lanes
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
+from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round, Weighed
-from sim.reconcile.rounds import best_path, rounds, turnings
+from sim.reconcile.rounds import best_path, paired, rounds, turnings
 from sim.reconcile.story import Tried
 from sim.reconcile.suspects import Suspect, suspects
 from sim.reconcile.thresholds import MAJOR
-from sim.reconcile.weighing import WIDENS, simplest, why_not
+from sim.reconcile.weighing import HARDLY, WIDENS, simplest, why_not
 
 BAND = 0.25  # [V] of an elevator whose ramps begin at 1.5 V upward, and at once downward
 RIPPLE, RIPPLES = 0.04, 12.0  # [V] less than what is everyday, and how often along the way
@@ -112,7 +113,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     monkeypatch.setattr(room, "outside", lambda *_: sizes[0])
     monkeypatch.setattr(room, "ended", lambda _, point: point)
     monkeypatch.setattr(room, "_seeds", lambda _: {})
-    for name in ("reconsidered", "simplified", "missed_by", "best_path"):
+    for name in ("reconsidered", "simplified", "missed_by", "best_path", "paired"):
         monkeypatch.setattr(room, name, lambda _, done, *__: done)
 
     done = rounds(problem, base, log, [], lambda *_: None)
@@ -184,6 +185,43 @@ def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
     assert (found is path) is taken
 
 
+BLOCKED = ("compliance", 900.0, WIDENS)
+
+
+@pytest.mark.parametrize(
+    ("now", "other", "path", "taken"),
+    [
+        ((4.0, 3.0), BLOCKED, (5.0, 1.2), True),  # the second closes what the first opened
+        ((1.2, 20.0), BLOCKED, (5.0, 1.1), True),  # no gap, and yet a moment remains
+        ((1.2, 3.0), BLOCKED, (5.0, 1.1), False),  # nothing remains: no pair is tried
+        ((4.0, 3.0), BLOCKED, (5.0, 4.5), False),  # together they widen it, too
+        ((4.0, 3.0), BLOCKED, (1.2,), False),  # no second was found
+        ((4.0, 3.0), ("compliance", 90.0, WIDENS), (5.0, 1.2), False),  # hardly likelier
+        ((4.0, 3.0), ("compliance", 900.0, HARDLY), (5.0, 1.2), False),
+        ((4.0, 3.0), ("inertia-change", 900.0, WIDENS), (5.0, 1.2), False),  # masks nothing
+    ],
+)
+def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, now, other, path, taken):
+    (end, moment), (effect, score, why) = now, other
+    tried = Tried(effect, score, 1.2, admitted=False, why=why)
+    blocked = Weighed(Suspect(effect, NOWHERE, 0.0), Gap(5.0, 5.0), tried)
+    done = [replace(model("", 1000.0, gap=end), weighed=(blocked,))]
+    asked = []
+
+    def gone_on(_, begun, *__):
+        asked.append(begun[-1].suspect.effect)
+        return [*done, *(model("any", 100.0, gap=gap) for gap in path)]
+
+    room = sys.modules[best_path.__module__]
+    monkeypatch.setattr(room, "_gone", gone_on)
+    monkeypatch.setattr(room, "worst", lambda *_: Moment(moment, 0, 0.0, 0.1))
+
+    found = paired(ONE_NOISE, done, None, (), lambda *_: None)
+
+    assert (found is not done) is taken
+    assert set(asked) <= {"compliance"}
+
+
 # -- which of two is taken ------------------------------------------------------------------------
 
 
@@ -193,10 +231,13 @@ def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
         (("drag", 45.0, 0.74), ("heating", 43.0, 0.58), "heating"),  # the validation prefers it
         (("drag", 45.0, 0.74), ("heating", 43.0, 0.735), "drag"),  # hardly: the likelier
         (("drag", 45.0, 0.74), ("heating", 30.0, 0.58), "drag"),  # surely likelier
+        (("stribeck", 308.0, 0.74), ("deadband", 237.0, 0.35), "deadband"),  # closes far more
+        (("stribeck", 308.0, 0.74), ("deadband", 237.0, 0.5), "stribeck"),
+        (("stribeck", 308.0, 0.74), ("deadband", 140.0, 0.35), "stribeck"),  # not half as likely
         (("spring", 45.0, 0.58), ("drag", 43.0, 0.74), "drag"),  # fewer parameters go first
         # what may be one run's accident has to be far likelier than what lasts
-        (("inertia-change", 400.0, 0.9), ("heating", 160.0, 0.9), "heating"),
-        (("inertia-change", 420.0, 0.9), ("heating", 160.0, 0.9), "inertia-change"),
+        (("inertia-change", 280.0, 0.9), ("heating", 160.0, 0.9), "heating"),
+        (("inertia-change", 300.0, 0.9), ("heating", 160.0, 0.9), "inertia-change"),
     ],
 )
 def test_of_two_about_as_likely_the_validation_decides(one, other, taken):
@@ -254,7 +295,7 @@ def test_a_start_moves_its_own_run_and_heats_as_the_runs_before_it_did(effect):
     outset, count = Outset.seen(len(problem.lanes)), len(problem.lanes)
     point = problem.at(base, values, outset, problem.noise.velocity**2)
 
-    starts = problem.columns(point)[:, -count:]
+    starts = problem.columns(point)[:, -2 * count : -count]
 
     for number in range(count):
         by = np.zeros(count)

@@ -1,5 +1,6 @@
 """The verdict: what the findings and what is left of the gap come to."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -78,7 +79,7 @@ def added(problem, *steps, values):
     done = [Round(judged(problem, point), gaps[0], gaps[0])]
     for (name, _, bare), gap, before in zip(steps, gaps[1:], gaps, strict=False):
         without = Gap(bare * problem.noise.velocity, 1e-5)
-        done.append(Round(judged(problem, point, name), gap, before, lost=50.0, bare=without))
+        done.append(Round(judged(problem, point, name), gap, before, lost=150.0, bare=without))
     return done
 
 
@@ -148,6 +149,23 @@ def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, n
 
     assert [one.effect for one in found] == [effect] * named
     assert any(f"a little {effect}" in sentence for sentence in told) is not named
+
+
+@pytest.mark.parametrize(
+    ("score", "beside", "named"),
+    [(90.0, 1.9, False), (110.0, 1.9, True), (30.0, 1.0, True)],  # as a footnote to a major one
+)
+def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, beside, named):
+    values = {**GAINS, "drag.drag": 0.001, "spring.rate": 0.1, "spring.preload": 0.1}
+    done = added(problem, ("spring", beside, 2.0), ("drag", 0.95 * beside, beside), values=values)
+    done[1:] = [replace(done[1], lost=70.0), replace(done[2], lost=score)]
+    done[1:] = [replace(one, bare=one.before) for one in done[1:]]
+    chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
+
+    found = findings_of(problem, done, [], chapters, moment=CALM, alike=Alike(), per=METERS)
+
+    assert ("drag" in [one.effect for one in found]) is named
+    assert any(one.size == "major" for one in found) is (beside < 1.5)
 
 
 @pytest.mark.parametrize(("after", "told"), [(0.2, True), (0.9, False)])

@@ -127,9 +127,9 @@ def move(
     kernel = _plain() if plain else _compiled()
     kernel.move(
         np.array([0.0, time.size]), _doubles(time), _doubles(voltage), state.body[None],
-        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), constants(model), wires, on,
-        parameters, state.memory, np.zeros(WAYS), np.array([state.clock]), longest, simple,
-        _doubles(measured), _doubles(trust), out,
+        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), constants(model),
+        wires, on, parameters, state.memory, np.zeros(WAYS), np.array([state.clock]), longest,
+        simple, _doubles(measured), _doubles(trust), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track(
@@ -158,6 +158,7 @@ class Lead:
         clock: [s] since its log began.
         session: which log; what effects remember goes on within one.
         meshed: [1] where in its free play the motor is, from -1 to 1; nan where a weight decides.
+        rubs: [V] dry friction of this run beyond kS.
     """
 
     time: Array
@@ -170,6 +171,7 @@ class Lead:
     clock: float
     session: int
     meshed: float = math.nan
+    rubs: float = 0.0
 
 
 def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
@@ -199,12 +201,12 @@ def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
         measured = np.concatenate([lead.measured for lead in leads], dtype=np.float64)
     bodies = np.array([_begun(model, lead, play) for lead in leads])
     ahead = bodies[:, 2] - bodies[:, 0]
-    low, high, sessions, clocks = np.array(
-        [[lead.low, lead.high, lead.session, lead.clock] for lead in leads], dtype=np.float64
+    low, high, rubs, sessions, clocks = np.array(
+        [[one.low, one.high, one.rubs, one.session, one.clock] for one in leads], dtype=np.float64
     ).T.copy()
     out = empty(time.size)
     kernel.move(
-        edges, time, voltage, bodies, low + ahead, high + ahead, sessions, constants(model),
+        edges, time, voltage, bodies, low + ahead, high + ahead, rubs, sessions, constants(model),
         NO_WIRES, on, parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS), clocks, longest, simple,
         measured, _doubles(trust), out,
     )  # fmt: skip

@@ -42,6 +42,7 @@ SHAPES = {  # of the arrays that `runs` asks for, but for what effects remember
     "bodies": "(count, 5)",
     "low": "(count,)",
     "high": "(count,)",
+    "rubs": "(count,)",
     "sessions": "(count,)",
     "began": "(count,)",
     "ways": f"({WAYS},)",

@@ -31,7 +31,7 @@ NUMBER = np.dtype(np.float64)
 INTEGER, REAL, PLACE = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
 BYTES = ctypes.c_char * 0
 CALLED = ctypes.CFUNCTYPE(  # as `_entry` in sim/engine/compose.py says it
-    None, *[INTEGER] * 3, *[PLACE] * 14, REAL, INTEGER, *[PLACE] * 3
+    None, *[INTEGER] * 3, *[PLACE] * 15, REAL, INTEGER, *[PLACE] * 3
 )
 NO_USE = b""  # what is kept where object files were tried, and do not work
 PATIENCE = 60  # [s] for one that takes a tenth
@@ -53,8 +53,9 @@ class Kernel:
 
     def move(
         self, edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array,
-        sessions: Array, c: Array, w: Array, on: Array, p: Array, memory: Array, ways: Array,
-        began: Array, finest: float, plain: bool, measured: Array, trust: Array, out: Array,
+        rubs: Array, sessions: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
+        ways: Array, began: Array, finest: float, plain: bool, measured: Array, trust: Array,
+        out: Array,
     ) -> None:  # fmt: skip
         """As ``runs`` in ``sim.engine.stepping``.
 
@@ -65,14 +66,15 @@ class Kernel:
         n, count = time.size, began.size
         if asked.size != n or len(out) != n or len(measured) not in {0, n}:
             raise TypeError("arrays of the same runs are of one length")
-        if {len(bodies), low.size, high.size, sessions.size, edges.size - 1} != {count}:
+        each = low.size, high.size, rubs.size, sessions.size
+        if {len(bodies), *each, edges.size - 1} != {count}:
             raise TypeError("there is one of everything for each run")
         if count and not (edges[0] == 0 and edges[-1] == n and np.all(np.diff(edges) >= 0)):
             raise TypeError("runs lie one behind the other")
         self._call(
             count, n, len(measured), _place(edges), _place(time), _place(asked), _place(bodies),
-            _place(low), _place(high), _place(sessions), _place(c), _place(w), _place(on),
-            _place(p), _place(memory), _place(ways), _place(began), finest, plain,
+            _place(low), _place(high), _place(rubs), _place(sessions), _place(c), _place(w),
+            _place(on), _place(p), _place(memory), _place(ways), _place(began), finest, plain,
             _place(measured), _place(trust), _place(out),
         )  # fmt: skip
 
@@ -188,7 +190,7 @@ def tried(kept: Path) -> None:
     if found is None:
         sys.exit(1)
     none, some = np.zeros((0, 2)), np.zeros(ROOM)
-    runs = dict.fromkeys(("time", "asked", "low", "high", "sessions", "began"), none[:, 0])
+    runs = dict.fromkeys(("time", "asked", "low", "high", "rubs", "sessions", "began"), none[:, 0])
     model = dict.fromkeys(("c", "w", "on", "p", "memory", "ways", "trust"), some)
     Kernel(*found).move(
         edges=np.zeros(1), bodies=np.zeros((0, 5)), **runs, **model, finest=1.0, plain=True,

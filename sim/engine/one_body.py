@@ -24,10 +24,14 @@ X, V, Y, W, OFF_UNTIL = range(5)
 until which a brownout keeps the motors off. With one body, motor and load are the same."""
 
 
-def bounded(c: Numbers, low: float, high: float) -> Numbers:
-    """The base model, kept between two stops as well as between the ends of its travel."""
+def bounded(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
+    """The base model of one run, kept between two stops as well as between the ends of its travel.
+
+    ``rubs`` [V] is its dry friction beyond kS.
+    """
     return (
-        c[KS], c[KV], c[KA], c[LOAD], c[LEVEL], c[ANGLE], max(c[LOW], low), min(c[HIGH], high)
+        max(c[KS] + rubs, 0.0), c[KV], c[KA], c[LOAD], c[LEVEL], c[ANGLE],
+        max(c[LOW], low), min(c[HIGH], high),
     )  # fmt: skip
 
 

@@ -126,15 +126,16 @@ def run(
 
 
 def runs(
-    edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array,
+    edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array, rubs: Array,
     sessions: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, ways: Array,
     began: Array, finest: float, plain: bool, measured: Array, trust: Array, out: Array,
 ) -> None:  # fmt: skip
     """Move through runs that lie one behind the other, ``run`` by ``run``.
 
     A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
-    when the clock says ``began``, and is kept between ``low`` and ``high``. What effects remember
-    goes on through runs of the same number in ``sessions``.
+    when the clock says ``began``, and is kept between ``low`` and ``high``; its dry friction is
+    ``rubs`` [V] beyond kS. What effects remember goes on through runs of the same number in
+    ``sessions``.
     """
     for k in range(began.size):
         first, last = int(edges[k]), int(edges[k + 1])
@@ -143,8 +144,8 @@ def runs(
                 memory[i] = 0.0
         lead = measured[first:last] if measured.shape[0] > 0 else measured
         run(
-            time[first:last], asked[first:last], bodies[k], bounded(c, low[k], high[k]), w, on, p,
-            memory, ways, began[k], finest, plain, lead, trust, out[first:last],
+            time[first:last], asked[first:last], bodies[k], bounded(c, low[k], high[k], rubs[k]),
+            w, on, p, memory, ways, began[k], finest, plain, lead, trust, out[first:last],
         )  # fmt: skip
 
 

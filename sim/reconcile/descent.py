@@ -6,10 +6,12 @@ pushes at random.
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from sim.log import Array
+from sim.reconcile.friction import varies
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.meshing import closer, meshed, price
 from sim.reconcile.problem import Point, Problem
@@ -28,6 +30,34 @@ CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a 
 Begun = tuple[float, Point]  # what a start promises, and where it begins
 HALVED = 6  # times at most that play is halved
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
+
+
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """All that the values of a point, and what is each run's own, can make of white innovations.
+
+    Args:
+        ways: (2 n, k) orthonormal with rows for the priors, which are left out here.
+        held: (k,) what those rows hold of the point along each.
+    """
+
+    ways: Array
+    held: Array
+
+    def told(self, white: Array) -> Array:
+        """(k,) what of innovations (2 n,) the point adjusts to."""
+        return np.asarray(self.ways.T @ white + self.held)
+
+    def square(self, white: Array) -> float:
+        """Sum of the squares that are left once it has, but for a constant."""
+        told = self.told(white)
+        return float(white @ white - told @ told)
+
+    def along(self, change: Array, white: Array) -> tuple[float, float]:
+        """What is left of a change's product with innovations, and with itself."""
+        told = self.ways.T @ change
+        product = float(change @ white - told @ self.told(white))
+        return product, float(change @ change - told @ told)
 
 
 def settle(problem: Problem, point: Point) -> Point:
@@ -110,7 +140,7 @@ def better(problem: Problem, point: Point, *, steps: int, enough: float = ENOUGH
         return point
     damping = FIRST_DAMPING
     for _ in range(steps):
-        table, rest = _with_prior(problem, point)
+        table, rest = with_prior(problem, point)
         with np.errstate(over="ignore"):  # a value that nothing bears to be moved
             size = np.linalg.norm(table, axis=0)
         size[size == 0.0] = 1.0
@@ -132,7 +162,7 @@ def better(problem: Problem, point: Point, *, steps: int, enough: float = ENOUGH
 
 def promise(
     problem: Problem, point: Point, hypothesis: Hypothesis,
-    more: Sequence[Mapping[str, float]], *, kept: Array, as_given: bool = False,
+    more: Sequence[Mapping[str, float]], *, kept: Kept, as_given: bool = False,
 ) -> list[Begun]:  # fmt: skip
     """What each start of a suspect may gain once the gains have adjusted to it, and its point.
 
@@ -145,13 +175,9 @@ def promise(
         point: the best without the suspect.
         hypothesis: with it.
         more: values that it adds, one start after another.
-        kept: (2 n, k) of ``adjusting`` at that point.
+        kept: what the point adjusts to.
         as_given: none is tried smaller: they have been chosen from some that were.
     """
-
-    def off(ahead: Array) -> Array:
-        rest = problem.white(point, ahead)
-        return np.asarray(rest - kept @ (kept.T @ rest))
 
     def begun(one: Mapping[str, float]) -> tuple[float, Point]:
         other = problem.at(hypothesis, {**point.values, **one}, point.outset, point.q)
@@ -159,22 +185,21 @@ def promise(
             other = meshed(problem, other, aside=not as_given)
         if not math.isfinite(other.cost):
             return -math.inf, other
-        after = off(other.ahead)
-        return square - float(after @ after) - price(other), other
+        return square - kept.square(problem.white(point, other.ahead)) - price(other), other
 
-    now = off(point.ahead)
-    square = float(now @ now)
+    now = problem.white(point, point.ahead)
+    square = kept.square(now)
     found = []
     for one in more:
         gained, other = begun(one)
         if not math.isfinite(gained):
             continue
-        change = off(other.ahead) - now
-        along = float(change @ change)
-        part = -float(change @ now) / along if along > 0.0 else 0.0
+        change = problem.white(point, other.ahead) - now
+        along, size = kept.along(change, now)
+        part = -along / size if size > 0.0 else 0.0
         found.append((gained, other))
         near = as_given or not SMALL_PART < part < LARGE_PART
-        if not near and part**2 * along > gained + SURELY_MORE:
+        if not near and part**2 * size > gained + SURELY_MORE:
             found.append(begun(_smaller(hypothesis, one, part)))
     if found and not as_given:
         found += _halved(hypothesis, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
@@ -204,19 +229,27 @@ def _smaller(hypothesis: Hypothesis, one: Mapping[str, float], part: float) -> d
     return {name: value * part if name in sizes else value for name, value in one.items()}
 
 
-def adjusting(problem: Problem, point: Point) -> Array:
-    """(2 n, k) orthonormal: all that the values and starts of a point can make of it."""
-    kept, _ = np.linalg.qr(problem.columns(point))
-    return np.asarray(kept)
+def adjusting(problem: Problem, point: Point) -> Kept:
+    """All that the values of a point, and what is each run's own, can make of it."""
+    table, rest = with_prior(problem, point)
+    size = 2 * len(problem.measured)
+    ways, _ = np.linalg.qr(table)
+    return Kept(np.ascontiguousarray(ways[:size]), np.asarray(ways[size:].T @ rest[size:]))
 
 
-def _with_prior(problem: Problem, point: Point) -> tuple[Array, Array]:
-    """Columns and white innovations, with a row for each start: it is priced as noise."""
+def with_prior(problem: Problem, point: Point) -> tuple[Array, Array]:
+    """Columns and white innovations, with a row for what is each run's own: it is priced as noise.
+
+    Args:
+        problem: the measurements.
+        point: the values.
+    """
     table, rest = problem.columns(point), problem.white(point, point.ahead)
-    runs = len(problem.lanes)
-    prior = np.zeros((runs, table.shape[1]))
-    prior[:, -runs:] = np.eye(runs) / problem.loose
-    return np.vstack([table, prior]), np.concatenate([rest, point.outset.beside / problem.loose])
+    runs, tau = len(problem.lanes), varies(point.values)
+    prior = np.zeros((2 * runs, table.shape[1]))
+    prior[:, -2 * runs :] = np.diag(np.repeat([1.0 / problem.loose, 1.0 / tau], runs))
+    own = [point.outset.beside / problem.loose, point.outset.rubs / tau]
+    return np.vstack([table, prior]), np.concatenate([rest, *own])
 
 
 def _moved(problem: Problem, point: Point, by: Array) -> Point:
@@ -225,7 +258,14 @@ def _moved(problem: Problem, point: Point, by: Array) -> Point:
     searched = hypothesis.searched
     for name, step in zip(searched, by.tolist(), strict=False):
         values[name] = hypothesis.stepped(name, values[name], step)
-    return problem.at(hypothesis, values, point.outset.moved(by[len(searched) :]), point.q)
+    starts, rubs = by[len(searched) :].reshape(2, -1)
+    outset = point.outset.moved(starts).rubbing(rubs)
+    common = float(np.mean(outset.rubs))  # what all runs have is kS: only its price tells, hardly
+    values["kS"], outset = (
+        max(values["kS"] + common, 0.0),
+        outset.rubbing(np.full_like(outset.rubs, -common)),
+    )
+    return problem.at(hypothesis, values, outset, point.q)
 
 
 def scanned(problem: Problem, point: Point) -> Point:

@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 from sim.engine import NO_TRUST
 from sim.log import Array
 from sim.reconcile.descent import better
-from sim.reconcile.friction import LEAST_KS, MOST_VARIED
+from sim.reconcile.friction import LEAST_KS
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
 
 REFIT = 4  # steps
-EASED = (0.0, -1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0)
-"""[1] of the most that friction varies; none is tried first."""
+MOST_VARIED = 0.12  # [of kS] by which a run's friction may differ
+EASED = (-1.0, -2 / 3, -1 / 3, 0.0, 1 / 3, 2 / 3, 1.0)
+"""[1] of the most that friction varies."""
 
 
 @dataclass(frozen=True)
@@ -73,14 +74,8 @@ def outside(problem: Problem, point: Point, parts: Sequence[Fold]) -> Gap:
         fitted = _some(problem, part.fitted)
         begin = fitted.at(point.hypothesis, point.values, point.outset.of(part.fitted), point.q)
         found = better(fitted, begin, steps=REFIT)
-        errors.append(
-            errors_of(
-                _some(problem, part.predicted),
-                found,
-                point.outset.of(part.predicted),
-                eased=True,
-            )
-        )
+        outset = point.outset.of(part.predicted).alike
+        errors.append(errors_of(_some(problem, part.predicted), found, outset, eased=True))
     return rms(np.concatenate(errors))
 
 
@@ -116,21 +111,36 @@ def _eased(
     """The errors with the likeliest friction of each run's own.
 
     Each is simulated: over a long way, a wave along it falls out of step with a little friction,
-    and what that changes is in no proportion to it.
+    and what that changes is in no proportion to it. Between those that are tried, each run's
+    likeliest is where a parabola is lowest.
     """
     most = MOST_VARIED * max(point.values["kS"], LEAST_KS)
-    tried = []
-    for share in EASED:
-        values = {**point.values, "kS": max(point.values["kS"] + share * most, 0.0)}
-        other = problem.track(point.hypothesis.model(values), outset, NO_TRUST) if share else track
-        tried.append(_missed(problem, other))
-    every = np.stack(tried)  # (shares, n, 2)
+    model, runs = point.hypothesis.model(point.values), len(problem.lanes)
+
+    def missed(rubs: Array) -> Array:
+        other = problem.track(model, outset.rubbing(rubs), NO_TRUST) if rubs.any() else track
+        return _missed(problem, other)
+
+    every = np.stack([missed(np.full(runs, share * most)) for share in EASED])  # (shares, n, 2)
+    costs = _costs(problem, every, moves)
+    best = np.clip(np.argmin(costs, axis=0), 1, len(EASED) - 2)
+    less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        aside = 0.5 * (less - more) / (less - 2.0 * here + more)
+    aside = np.clip(np.nan_to_num(aside, posinf=0.0, neginf=0.0), -1.0, 1.0)
+    between = missed((np.array(EASED)[best] + (EASED[1] - EASED[0]) * aside) * most)
+    every = np.concatenate([every, between[None]])
+    best = np.argmin(_costs(problem, every, moves), axis=0)
+    return np.asarray(every[np.repeat(best, np.diff(problem.edges)), np.arange(len(track))])
+
+
+def _costs(problem: Problem, every: Array, moves: NDArray[np.bool_]) -> Array:
+    """(shares, runs) what each run misses, position and velocity in what is ordinary for both."""
     with np.errstate(over="ignore", invalid="ignore"):  # of what ran away
         squares = np.where(moves[:, None] & ~np.isnan(every), np.square(every), 0.0)
-        sizes = np.mean(squares[0], axis=0) + 1e-300
+        sizes = np.mean(squares[EASED.index(0.0)], axis=0) + 1e-300
         costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.edges[:-1], axis=1)
-    best = np.repeat(np.argmin(np.nan_to_num(costs, nan=np.inf), axis=0), np.diff(problem.edges))
-    return np.asarray(every[best, np.arange(best.size)])
+    return np.asarray(np.nan_to_num(costs, nan=np.inf))
 
 
 def _missed(problem: Problem, track: Array) -> Array:

@@ -11,6 +11,7 @@ from sim.effect import ONSET
 from sim.effects import EFFECTS
 from sim.reconcile.alike import Alike
 from sim.reconcile.damage import Damaged
+from sim.reconcile.descent import with_prior
 from sim.reconcile.gates import missed
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.remainder import Moment
@@ -31,6 +32,7 @@ from sim.reconcile.thresholds import (
     SHAKEN,
     STRAYS,
     TOLD_FIRST,
+    WORTH_A_NAME,
 )
 from sim.units import Unit
 
@@ -69,7 +71,12 @@ def findings_of(
     effects = _sized(problem, done, chapters, far=far, per=per)
     if not missed(end, problem) <= LOST:  # no number at all is lost, too
         effects = []
-    effects = [one for one in effects if one.size == "major" or not _everyday(one, last)]
+    alone = all(one.size != "major" for one in effects)
+    effects = [
+        one
+        for one in effects
+        if one.size == "major" or not (_everyday(one, last) or (alone and one.score < WORTH_A_NAME))
+    ]
     effects = [one for one in effects if not belied(one.effect, problem, last, moment)]
     effects.sort(key=lambda one: (_everyday(one, last), -one.score))
     return tuple(sorted((*faults, *(_no_alarm(one, last) for one in effects)), key=_rank))
@@ -210,7 +217,7 @@ def _effect(  # noqa: PLR0917 - two rounds, and what to call them
 
 def standard_errors(problem: Problem, point: Point) -> dict[str, float]:
     """Value -> one standard error, from how the innovations change with each."""
-    table = problem.columns(point)
+    table, _ = with_prior(problem, point)
     size = np.linalg.norm(table, axis=0)
     size[size == 0.0] = np.inf
     table = table / size

@@ -18,6 +18,7 @@ from sim.effect import ONSET, UNTIL, Effect
 from sim.effects import EFFECTS
 from sim.log import Array
 from sim.model import Part
+from sim.reconcile.descent import Kept
 from sim.reconcile.problem import Point, Problem
 
 PARTS = 24  # moments of a run that are tried
@@ -60,7 +61,7 @@ class _Sums:
 
 
 def moments(
-    problem: Problem, point: Point, effect: Effect, *, kept: Array
+    problem: Problem, point: Point, effect: Effect, *, kept: Kept
 ) -> Iterator[dict[str, float]]:
     """Values of its parameters at the moments that explain most.
 
@@ -68,7 +69,7 @@ def moments(
         problem: the measurements.
         point: the best without it.
         effect: that happens once.
-        kept: (2 n, k) of ``descent.adjusting`` at that point.
+        kept: what the point adjusts to.
     """
     scan = _Scan(problem, point, effect, kept)
     for kind in kinds(effect):
@@ -141,13 +142,13 @@ class _Moment:
 
 
 class _Scan:
-    def __init__(self, problem: Problem, point: Point, effect: Effect, kept: Array) -> None:
-        self.problem, self.point, self.effect, self.kept = problem, point, effect, kept
+    def __init__(self, problem: Problem, point: Point, effect: Effect, kept: Kept) -> None:
+        self.problem, self.point, self.effect, self.kept = problem, point, effect, kept.ways
         most = min(one.most for one in effect.parameters if one.searched)
         self.ka = min(point.values["kA"], most / MOST)  # which may be any number in the wild
         self.lasts = [float(lane.seen.time[-1] - lane.seen.time[0]) for lane in problem.lanes]
         rest = problem.white(point, point.ahead)
-        self.rest = rest - kept @ (kept.T @ rest)
+        self.rest = rest - kept.ways @ kept.told(rest)
 
     def coarse(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
         """Each run's likeliest moment, for the rest of the run and for good.

@@ -1,4 +1,4 @@
-"""How runs begin: what no sample tells exactly, or at all."""
+"""What is each run's own: how it begins, and how much more or less it rubs."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -10,30 +10,41 @@ from sim.log import Array
 
 @dataclass(frozen=True, eq=False)
 class Outset:
-    """How each run begins.
+    """What is each run's own.
 
     Args:
         beside: (runs,) [unit] true position at its first sample, less the one seen there.
         meshed: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where the load's
             weight decides.
+        rubs: (runs,) [V] its dry friction, beyond that of all runs.
     """
 
     beside: Array
     meshed: Array
+    rubs: Array
 
     @classmethod
     def seen(cls, runs: int) -> "Outset":
         """Just as the first samples say."""
-        return cls(np.zeros(runs), np.full(runs, np.nan))
+        return cls(np.zeros(runs), np.full(runs, np.nan), np.zeros(runs))
 
     def of(self, chosen: Sequence[int]) -> "Outset":
         """That of some runs."""
         places = list(chosen)
-        return Outset(self.beside[places], self.meshed[places])
+        return Outset(self.beside[places], self.meshed[places], self.rubs[places])
 
     def moved(self, by: Array) -> "Outset":
         """The same; ``by`` (runs,) [unit] further."""
         return replace(self, beside=self.beside + by)
+
+    def rubbing(self, by: Array) -> "Outset":
+        """The same; each run with ``by`` (runs,) [V] more friction."""
+        return replace(self, rubs=self.rubs + by)
+
+    @property
+    def alike(self) -> "Outset":
+        """The same, all runs with one friction."""
+        return replace(self, rubs=np.zeros_like(self.rubs))
 
     def meshing(self, meshed: Array) -> "Outset":
         """The same, with ``meshed`` (runs,)."""

@@ -1,8 +1,9 @@
 """How well values of a hypothesis follow the measurements, run by run.
 
-    -2 log L = N·log det Σ + Σ (start/noise)²       Σ the covariance (2, 2) of the innovations
+    -2 log L = N·log det Σ + Σ (start/noise)² + Σ (δ/τ)²    Σ covariance (2, 2) of the innovations
 
-A run may begin a little beside where its first sample was seen; that is priced as noise.
+A run may begin a little beside where its first sample was seen; that is priced as noise. So is what
+it rubs more or less than the others: kS of a run is kS + δ (``friction.py``).
 """
 
 import math
@@ -19,6 +20,7 @@ from sim.fit.innovations import trust_for
 from sim.fit.seen import Noise, noise
 from sim.log import Array
 from sim.model import Model
+from sim.reconcile.friction import friction_price, varies
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import Lane
 from sim.reconcile.outset import Outset
@@ -143,7 +145,7 @@ class Problem:
             time=seen.time, voltage=seen.voltage, measured=seen.measured,
             position=seen.position + start, velocity=seen.velocity,
             low=lane.low + start, high=lane.high + start, clock=lane.clock, session=lane.memory,
-            meshed=float(outset.meshed[number]),
+            meshed=float(outset.meshed[number]), rubs=float(outset.rubs[number]),
         )  # fmt: skip
 
     def ahead(self, model: Model, outset: Outset, trust: Array) -> Array:
@@ -170,7 +172,8 @@ class Problem:
             if not np.isfinite(ahead[self.telling]).any() or np.isinf(ahead).any():
                 return nowhere
             spread = self.spread(ahead)
-            cost = self._cost(spread) + float(np.sum((outset.beside / self.loose) ** 2))
+            own = float(np.sum((outset.beside / self.loose) ** 2))
+            cost = self._cost(spread) + own + friction_price(values, outset)
         if not math.isfinite(cost):
             return nowhere
         return Point(hypothesis, values, outset, q, trust, ahead, spread, cost)
@@ -199,14 +202,31 @@ class Problem:
         return np.asarray((np.nan_to_num(table) @ point.whitening.T).ravel())
 
     def columns(self, point: Point) -> Array:
-        """(2 n, searched + runs) change of the white innovations with each value and start.
+        """(2 n, searched + 2 runs) change of white innovations with each value, start and friction.
 
         Raises:
             ValueError: the point follows nothing.
         """
         hypothesis = point.hypothesis
         values = [self.white(point, self._by_value(point, name)) for name in hypothesis.searched]
-        return np.column_stack([*values, self._by_starts(point)])
+        moved = self._with(point, point.outset.moved(np.full(len(self.lanes), self.noise.position)))
+        starts = (moved - point.ahead) / self.noise.position
+        return np.column_stack(
+            [
+                *values,
+                self._by_run(self.white(point, starts)),
+                self.by_frictions(point),
+            ]
+        )
+
+    def by_frictions(self, point: Point) -> Array:
+        """(2 n, runs) change of the white innovations with each run's own friction."""
+        by = np.full(len(self.lanes), varies(point.values))
+        more, less = (self._with(point, point.outset.rubbing(one)) for one in (by, -by))
+        return self._by_run(self.white(point, (more - less) / (2.0 * by[0])))
+
+    def _with(self, point: Point, outset: Outset) -> Array:
+        return self.ahead(point.hypothesis.model(point.values), outset, point.trust)
 
     def _by_value(self, point: Point, name: str) -> Array:
         hypothesis, value = point.hypothesis, point.values[name]
@@ -217,17 +237,11 @@ class Problem:
         model = hypothesis.model({**point.values, name: value + step})
         return np.asarray((self.ahead(model, point.outset, point.trust) - point.ahead) / step)
 
-    def _by_starts(self, point: Point) -> Array:
-        """(2 n, runs): all starts are moved at once, and each is the business of its own run.
+    def _by_run(self, change: Array) -> Array:
+        """(2 n, runs): all runs are moved at once, and each is the business of its own column.
 
         A run is not moved without those before it, which may have heated what it found warm.
         """
-        step = self.noise.position
-        by = np.full(len(self.lanes), step)
-        moved = self.ahead(
-            point.hypothesis.model(point.values), point.outset.moved(by), point.trust
-        )
-        change = self.white(point, (moved - point.ahead) / step)
         table = np.zeros((change.size, len(self.lanes)))
         for number, (first, last) in enumerate(pairwise((2 * self.edges).tolist())):
             table[first:last, number] = change[first:last]

@@ -1,5 +1,6 @@
 """Round by round: try every suspect, admit one that narrows the gap, refit everything, go on."""
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -9,6 +10,7 @@ from sim.reconcile.descent import ENOUGH, ended, settle
 from sim.reconcile.gates import Fold, missed, outside
 from sim.reconcile.once import otherwise
 from sim.reconcile.problem import Point, Problem
+from sim.reconcile.remainder import worst
 from sim.reconcile.round import Round, Weighed
 from sim.reconcile.second_thoughts import missed_by, reconsidered, simplified
 from sim.reconcile.suspects import Seeds, judged
@@ -19,11 +21,14 @@ from sim.reconcile.thresholds import (
     MOST,
     MOST_QUIET,
     NEAR,
+    ONCE,
     PATHS,
+    SHAKEN,
     STRAYS,
     SURE,
     SURER,
     UNDRIVEN,
+    WORTH_A_NAME,
 )
 from sim.reconcile.weighing import HARDLY, WIDENS, gained, rivals, simplest, weigh, why_not
 
@@ -47,6 +52,7 @@ def rounds(
     """
     gap = outside(problem, base, parts)
     done = _gone(problem, [Round(judged(problem, base), gap, gap)], log, parts, progress)
+    done = paired(problem, done, log, parts, progress)
     done = best_path(problem, done, log, parts, progress)
     done = simplified(problem, done, log, parts)
     return missed_by(problem, done, parts)
@@ -63,6 +69,34 @@ def _gone(
             break
         done = thought
     return done
+
+
+def paired(
+    problem: Problem, done: list[Round], log: Log, parts: Sequence[Fold], progress: Progress
+) -> list[Round]:
+    """The same; or, where something remains, with two effects of which one alone widens the gap.
+
+    What a spring gives back may be hidden by a limit that nobody has named, and misses more than no
+    spring until that is there, too.
+    """
+    now = done[-1]
+    strays = now.gap.velocity > STRAYS * problem.noise.velocity
+    if not (strays or worst(problem, now.suspect.point).size > SHAKEN):
+        return done
+    blocked = [
+        one
+        for one in now.weighed
+        if one.tried.why == WIDENS
+        and one.tried.score >= ONCE
+        and not EFFECTS[one.suspect.effect].happens  # which masks nothing in other runs
+    ]
+    if not blocked or len(done) >= MOST or not math.isfinite(blocked[0].gap.velocity):
+        return done
+    one = blocked[0]
+    begun = Round(one.suspect, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
+    path = _gone(problem, [*done, begun], log, parts, lambda what, _: progress(what, BESIDE))
+    narrows = not why_not(path[-1].gap, now.gap, SURER)
+    return path if narrows and len(path) > len(done) + 1 else done
 
 
 def best_path(
@@ -116,7 +150,8 @@ def _added(
         seeds = {**now.seeds, **_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, weighed=tuple(weighed))
         admitted = [one for one in weighed if one.tried.admitted]
-        quiet = [one for one in weighed if one.tried.why == HARDLY][: MOST_QUIET - now.quiet]
+        quiet = [one for one in weighed if one.tried.why == HARDLY and one.tried.score >= SURER]
+        quiet = quiet[: MOST_QUIET - now.quiet]
         if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
             one = quiet[0]
             if worth_a_name(one):
@@ -151,7 +186,7 @@ def worth_a_name(one: Weighed) -> bool:
     effect = EFFECTS[one.suspect.effect]
     values = one.suspect.point.values
     mine = {name: values[f"{effect.name}.{name}"] for name in effect.names}
-    return one.tried.score >= SURER and not effect.everyday(mine)
+    return one.tried.score >= WORTH_A_NAME and not effect.everyday(mine)
 
 
 def _leads_nowhere(problem: Problem, done: Sequence[Round]) -> bool:

@@ -100,9 +100,9 @@ def _replaced(done: Sequence[Round], place: int, found: Suspect, gap: Gap) -> li
 
 def missed_by(problem: Problem, done: list[Round], parts: Sequence[Fold]) -> list[Round]:
     """The same, each with what the last model would be without its effect."""
-    if len(done) <= 2:  # noqa: PLR2004 - one effect: what it brought is what it is worth
-        return done
     last = done[-1].suspect
+    if len(last.point.hypothesis.effects) <= 1:  # what it brought is what it is worth
+        return done
     told = [done[0]]
     for one in done[1:]:
         reduced = without(problem, last, one.suspect.effect)

@@ -13,7 +13,7 @@ from sim.effect import Effect
 from sim.effects import EFFECTS
 from sim.evidence import Evidence
 from sim.reconcile.descent import AGITATED, CALM, adjusting, better, promise, settle
-from sim.reconcile.friction import varied
+from sim.reconcile.friction import chosen
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.meshing import price
 from sim.reconcile.once import moments
@@ -26,8 +26,11 @@ STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lower
 HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
 SHAKES = "two-body"  # kind of effects
 LIVELIEST = 2  # starts of two bodies that are simulated over all runs
-OWN: dict[str, tuple[str, ...]] = {"elevator": ("constant-load",), "arm": ("gravity-cosine",)}
-"""Base type -> the effects that it has already."""
+OWN: dict[str, tuple[str, ...]] = {
+    "elevator": ("constant-load", "gravity-cosine"),
+    "arm": ("gravity-cosine",),
+}
+"""Base type -> the effects that it has already, or cannot have: an elevator turns about nothing."""
 
 
 Seeds = Mapping[str, Mapping[str, float]]
@@ -53,7 +56,8 @@ class Suspect:
 def judged(problem: Problem, point: Point, effect: str = "") -> Suspect:
     """A point with its score: -2 log L + k·ln N, as of Schwarz (1978)."""
     values = point.hypothesis.free * math.log(max(problem.count, 2))
-    return Suspect(effect, point, point.cost + varied(problem, point) + price(point) + values)
+    own = chosen(point.values, problem.by_frictions(point))
+    return Suspect(effect, point, point.cost + own + price(point) + values)
 
 
 def suspects(

@@ -14,6 +14,7 @@ from sim.reconcile.suspects import Suspect, suspects
 from sim.reconcile.thresholds import (
     AS_GOOD,
     CLOSE,
+    MUCH_NARROWER,
     NARROWER,
     NOT_WIDER,
     ONCE,
@@ -24,6 +25,7 @@ from sim.reconcile.thresholds import (
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
 TINY = 1e-300  # no gap at all
+HALF = 0.5  # [1] of the likeliest's score, which one must have to be taken for its gap
 
 
 def weigh(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> list[Weighed]:
@@ -69,14 +71,20 @@ def why_not(gap: Gap, before: Gap, score: float) -> str:
 def simplest(admitted: Sequence[Weighed]) -> Weighed:
     """The likeliest, or one about as likely with fewer parameters.
 
-    Of as many parameters each, about as likely, the one that the validation clearly prefers. What
-    may be one run's accident has to be likelier than all that lasts by as much as than nothing.
+    Of as many parameters each, about as likely, the one that the validation clearly prefers; or one
+    half as likely, if that closes far more of its gap. What may be one run's accident has to be
+    likelier than all that lasts by as much as than nothing.
     """
     best = admitted[0]
     lasting = [one for one in admitted if not EFFECTS[one.suspect.effect].happens]
     if lasting and best is not lasting[0] and best.tried.score - lasting[0].tried.score < ONCE:
         admitted, best = lasting, lasting[0]
+    closer = [one for one in admitted if one.tried.score > HALF * best.tried.score]
+    closest = min(closer, key=lambda one: one.tried.gap)
+    if closest.tried.gap < MUCH_NARROWER * best.tried.gap:
+        best = closest
     top = best.tried.score
+    admitted = [one for one in admitted if one.tried.score <= top]
     simpler = EFFECTS[best.suspect.effect].simpler
     near = [
         one
