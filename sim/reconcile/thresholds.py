@@ -29,11 +29,11 @@ ONCE = 130.0
 """[of -2 log L] the same of an effect that begins at a moment.
 
 It may happen in a single run, and then no other run has a say: a snag or a push looks a little like
-it. On 430 logs, where no encoder slipped and no moment remained, inertia changes that were none came
-to 106 at most, but for 142, 147 and, beside free play, 230 and 344; true ones to 245 and more, but
-for seven that hardly show (below 0 to 170). By as much it has to be likelier than an effect that lasts, or
-that one is added first: a motor that warms up is not a load that joined once. Whether it narrows
-the gap of runs that know nothing of it is not asked.
+it. On 430 logs, where no encoder slipped and no moment remained, inertia changes that were none
+came to 106 at most, but for 142, 147 and, beside free play, 230 and 344; true ones to 245 and more,
+but for seven that hardly show (below 0 to 170). By as much it has to be likelier than an effect
+that lasts, or that one is added first: a motor that warms up is not a load that joined once.
+Whether it narrows the gap of runs that know nothing of it is not asked.
 """
 
 KNOCK, AFTER = 2.0, 0.5
