@@ -52,6 +52,7 @@ NOISY, FAST = (0.003, 0.010), 6.0  # [share] noise of the speed that so many vol
 WARMS, WARMER = "heating", 0.2  # [share] more resistance after a session's four tests: 50 K
 
 MOMENT = (0.3, 0.7)  # [share of a run's motion] when something happens once
+WHILE = (0.3, 0.7)  # [share of a step's top speed] at which inertia changes: later nothing shows it
 ONCE, ENDS = "onset", "until"  # parameters of what happens at a moment, and of what lasts
 FIRST, PASSING = "train", 0.4  # the session in which it happens; [1] of what ends with its run
 
@@ -153,7 +154,7 @@ def recorded(
     built = replace(mechanism, hidden=(*lasting, *changed))
     if again:
         pilot = simulate(built, routine, rng=rng, period=period)
-        sudden = (replace(part, parameters=_at(part, pilot, rng)[0]) for part in again)
+        sudden = (replace(part, parameters=_at(part, pilot, rng)) for part in again)
         built = replace(built, hidden=(*built.hidden, *sudden))
     runs = _runs(built, routine, period=period, wobble=day.wobble, rng=rng)
     runs = [
@@ -258,7 +259,9 @@ def _everyday(scale: Scale, parts: tuple[Part, ...], rng: np.random.Generator) -
 
 
 def happened(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Generator) -> Hidden:
-    """The same, with the moment at which what changes once does so: in the first session.
+    """The same, with the moment at which what changes once does so: in a step of the first session.
+
+    It does while that accelerates: inertia is seen in no ramp, and in no step that is over.
 
     Args:
         hidden: the mechanism and what is hidden in it.
@@ -277,18 +280,22 @@ def happened(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Ge
 def _happens(part: Part, pilot: Log, rng: np.random.Generator) -> Part:
     if ENDS not in part.parameters:
         return part
-    values, end = _at(part, pilot, rng)
+    step = [run for run in pilot.runs if "dynamic" in run.test][int(rng.integers(2))]
+    speed = np.abs(step.velocity)
+    onset = float(step.time[int(np.argmax(speed > rng.uniform(*WHILE) * speed.max()))])
+    began = float(pilot.runs[0].time[0])
+    values = {**part.parameters, ONCE: onset - began}
+    end = float(step.time[-1]) + 0.5 - began
     return replace(part, parameters={**values, ENDS: end} if rng.random() < PASSING else values)
 
 
-def _at(part: Part, pilot: Log, rng: np.random.Generator) -> tuple[dict[str, float], float]:
-    """Its parameters if it happens in the middle of a run's motion; and when that run is over."""
+def _at(part: Part, pilot: Log, rng: np.random.Generator) -> dict[str, float]:
+    """Its parameters if it happens in the middle of a run's motion."""
     run = pilot.runs[int(rng.integers(len(FOUR) * 2))]
     speed = np.abs(run.velocity)
     moving = run.time[speed > 0.1 * speed.max()]
     onset = float(moving[0] + rng.uniform(*MOMENT) * (moving[-1] - moving[0]))
-    began = float(pilot.runs[0].time[0])
-    return {**part.parameters, ONCE: onset - began}, float(run.time[-1]) + 0.5 - began
+    return {**part.parameters, ONCE: onset - float(pilot.runs[0].time[0])}
 
 
 def _is_changed(part: Part, session: str) -> bool:
