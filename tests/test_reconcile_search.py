@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from reconcile_made import SESSIONS, bench, session, told
 
+from sim.effects import EFFECTS
 from sim.evidence import gather
 from sim.fit.seen import Noise
 from sim.model import Part
@@ -17,7 +18,6 @@ from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, lanes
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
-from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round, Weighed
 from sim.reconcile.rounds import best_path, paired, rounds, turnings
 from sim.reconcile.story import Tried
@@ -189,23 +189,25 @@ BLOCKED = ("compliance", 900.0, WIDENS)
 
 
 @pytest.mark.parametrize(
-    ("now", "other", "path", "taken"),
+    ("other", "path", "taken"),
     [
-        ((4.0, 3.0), BLOCKED, (5.0, 1.2), True),  # the second closes what the first opened
-        ((1.2, 20.0), BLOCKED, (5.0, 1.1), True),  # no gap, and yet a moment remains
-        ((1.2, 3.0), BLOCKED, (5.0, 1.1), False),  # nothing remains: no pair is tried
-        ((4.0, 3.0), BLOCKED, (5.0, 4.5), False),  # together they widen it, too
-        ((4.0, 3.0), BLOCKED, (1.2,), False),  # no second was found
-        ((4.0, 3.0), ("compliance", 90.0, WIDENS), (5.0, 1.2), False),  # hardly likelier
-        ((4.0, 3.0), ("compliance", 900.0, HARDLY), (5.0, 1.2), False),
-        ((4.0, 3.0), ("inertia-change", 900.0, WIDENS), (5.0, 1.2), False),  # masks nothing
+        (BLOCKED, (5.0, 1.2), True),  # the second closes what the first opened
+        (BLOCKED, (5.0, 4.5), False),  # together they widen it, too
+        (BLOCKED, (5.0, 3.8), False),  # and a pair has to close much of it
+        (BLOCKED, (1.2,), False),  # no second was found
+        (("compliance", 90.0, WIDENS), (5.0, 1.2), False),  # hardly likelier
+        (("compliance", 900.0, HARDLY), (5.0, 1.2), False),
+        (("inertia-change", 900.0, WIDENS), (5.0, 1.2), False),  # masks nothing
+        (("delay", 900.0, WIDENS), (5.0, 1.2), False),  # any robot has as much
     ],
 )
-def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, now, other, path, taken):
-    (end, moment), (effect, score, why) = now, other
+def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other, path, taken):
+    effect, score, why = other
+    small = {f"{effect}.{name}": 0.001 for name in EFFECTS[effect].names}
+    point = replace(NOWHERE, values=small)
     tried = Tried(effect, score, 1.2, admitted=False, why=why)
-    blocked = Weighed(Suspect(effect, NOWHERE, 0.0), Gap(5.0, 5.0), tried)
-    done = [replace(model("", 1000.0, gap=end), weighed=(blocked,))]
+    another = Weighed(Suspect(effect, point, 0.0), Gap(5.0, 5.0), tried)
+    done = [replace(model("", 1000.0, gap=4.0), weighed=(another,))]
     asked = []
 
     def gone_on(_, begun, *__):
@@ -214,7 +216,6 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, now, 
 
     room = sys.modules[best_path.__module__]
     monkeypatch.setattr(room, "_gone", gone_on)
-    monkeypatch.setattr(room, "worst", lambda *_: Moment(moment, 0, 0.0, 0.1))
 
     found = paired(ONE_NOISE, done, None, (), lambda *_: None)
 

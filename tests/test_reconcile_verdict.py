@@ -19,9 +19,11 @@ from sim.reconcile.naming import beside, findings_of
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
 from sim.reconcile.remainder import Moment
-from sim.reconcile.round import Round
+from sim.reconcile.round import Round, Weighed
+from sim.reconcile.story import Tried
 from sim.reconcile.suspects import judged
 from sim.reconcile.verdict import verdict_of
+from sim.reconcile.weighing import WIDENS
 from sim.units import unit
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
@@ -69,6 +71,23 @@ def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, 
 
     assert said[:2] == (verdict, remains)
     assert bool(said[2]) is remains
+
+
+@pytest.mark.parametrize(
+    ("score", "softness", "verdict"), [(1983.0, 0.3, "unexplained"), (90.0, 0.3, "nothing-missing")]
+)
+def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, softness, verdict):
+    done = rounds(problem, 2.0)
+    values = {"compliance.softness": softness, "compliance.share": 0.2}
+    point = replace(done[0].suspect.point, values=values)
+    tried = Tried("compliance", score, 1.6, admitted=False, why=WIDENS)
+    other = Weighed(replace(done[0].suspect, effect="compliance", point=point), done[0].gap, tried)
+    done = [replace(done[0], weighed=(other,))]
+
+    said = verdict_of([], done, problem, moment=CALM, alike=Alike(), per=METERS)
+
+    assert said[0] == verdict
+    assert ("compliance" in said[2]) is (verdict == "unexplained")
 
 
 def added(problem, *steps, values):

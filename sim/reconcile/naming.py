@@ -34,6 +34,7 @@ from sim.reconcile.thresholds import (
     TOLD_FIRST,
     WORTH_A_NAME,
 )
+from sim.reconcile.weighing import everyday
 from sim.units import Unit
 
 TURNLESS = (
@@ -130,9 +131,7 @@ def _no_alarm(one: Finding, last: Point) -> Finding:
 
 def _everyday(one: Finding, last: Point) -> bool:
     """Whether a finding is what any robot has a little of; it stays in the model."""
-    effect = EFFECTS[one.effect]
-    values = {name: last.values[f"{one.effect}.{name}"] for name in effect.names}
-    return effect.everyday(values)
+    return everyday(one.effect, last.values)
 
 
 def belied(effect: str, problem: Problem, last: Point, moment: Moment) -> bool:

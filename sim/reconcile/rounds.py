@@ -10,7 +10,6 @@ from sim.reconcile.descent import ENOUGH, ended, settle
 from sim.reconcile.gates import Fold, missed, outside
 from sim.reconcile.once import otherwise
 from sim.reconcile.problem import Point, Problem
-from sim.reconcile.remainder import worst
 from sim.reconcile.round import Round, Weighed
 from sim.reconcile.second_thoughts import missed_by, reconsidered, simplified
 from sim.reconcile.suspects import Seeds, judged
@@ -18,19 +17,28 @@ from sim.reconcile.thresholds import (
     CLOSE,
     FAR_MAJOR,
     LOST,
+    MAJOR,
     MOST,
     MOST_QUIET,
     NEAR,
-    ONCE,
     PATHS,
-    SHAKEN,
     STRAYS,
     SURE,
     SURER,
     UNDRIVEN,
     WORTH_A_NAME,
 )
-from sim.reconcile.weighing import HARDLY, WIDENS, gained, rivals, simplest, weigh, why_not
+from sim.reconcile.weighing import (
+    HARDLY,
+    WIDENS,
+    blocked,
+    everyday,
+    gained,
+    rivals,
+    simplest,
+    weigh,
+    why_not,
+)
 
 PART = 0.5  # [1] of the score of a quiet effect, which an admitted one must have to go before it
 SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
@@ -74,28 +82,20 @@ def _gone(
 def paired(
     problem: Problem, done: list[Round], log: Log, parts: Sequence[Fold], progress: Progress
 ) -> list[Round]:
-    """The same; or, where something remains, with two effects of which one alone widens the gap.
+    """The same; or with two effects of which one alone is far likelier, and yet widens the gap.
 
     What a spring gives back may be hidden by a limit that nobody has named, and misses more than no
-    spring until that is there, too.
+    spring until that is there, too. Such a pair has to close much of the gap.
     """
     now = done[-1]
-    strays = now.gap.velocity > STRAYS * problem.noise.velocity
-    if not (strays or worst(problem, now.suspect.point).size > SHAKEN):
+    found = blocked(now.weighed)
+    if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
         return done
-    blocked = [
-        one
-        for one in now.weighed
-        if one.tried.why == WIDENS
-        and one.tried.score >= ONCE
-        and not EFFECTS[one.suspect.effect].happens  # which masks nothing in other runs
-    ]
-    if not blocked or len(done) >= MOST or not math.isfinite(blocked[0].gap.velocity):
-        return done
-    one = blocked[0]
+    one = found[0]
     begun = Round(one.suspect, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
     path = _gone(problem, [*done, begun], log, parts, lambda what, _: progress(what, BESIDE))
-    narrows = not why_not(path[-1].gap, now.gap, SURER)
+    closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
+    narrows = closes and why_not(path[-1].gap, now.gap, SURER) != WIDENS
     return path if narrows and len(path) > len(done) + 1 else done
 
 
@@ -183,10 +183,8 @@ def worth_a_name(one: Weighed) -> bool:
 
     Free play of a motor is lost in what a simulation misses after ten seconds, and yet is there.
     """
-    effect = EFFECTS[one.suspect.effect]
-    values = one.suspect.point.values
-    mine = {name: values[f"{effect.name}.{name}"] for name in effect.names}
-    return one.tried.score >= WORTH_A_NAME and not effect.everyday(mine)
+    small = everyday(one.suspect.effect, one.suspect.point.values)
+    return one.tried.score >= WORTH_A_NAME and not small
 
 
 def _leads_nowhere(problem: Problem, done: Sequence[Round]) -> bool:

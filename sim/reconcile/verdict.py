@@ -9,6 +9,7 @@ from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round
 from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
 from sim.reconcile.thresholds import ALIKE, LOST, MOSTLY, SHAKEN, STRAYS
+from sim.reconcile.weighing import blocked
 from sim.units import Unit
 
 
@@ -50,6 +51,11 @@ def verdict_of(
         remains = (
             f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
             "effect of the catalogue makes that less."
+        )
+    elif likely := blocked(done[-1].weighed):
+        remains = (
+            f"With {likely[0].suspect.effect} the log would be far likelier, and yet runs that "
+            "were not fitted are missed by more: something else is missing, or more than that."
         )
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)

@@ -1,7 +1,7 @@
 """Weighing: each suspect of a round against the gates, and the one that is taken."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from sim.effects import EFFECTS
 from sim.evidence import gather
@@ -106,6 +106,28 @@ def rivals(best: Weighed, weighed: Sequence[Weighed]) -> list[Weighed]:
         for one in weighed
         if one is not best and one.tried.admitted and best.tried.score - one.tried.score <= CLOSE
     ]
+
+
+def blocked(weighed: Sequence[Weighed]) -> list[Weighed]:
+    """What is far likelier than nothing, and yet widens the gap of other runs; the likeliest first.
+
+    It is not what is missing, or not alone: something is. What happens once is left out, of which
+    other runs know nothing, and so is what any robot has a little of.
+    """
+    return [
+        one
+        for one in weighed
+        if one.tried.why == WIDENS
+        and one.tried.score >= ONCE
+        and not EFFECTS[one.suspect.effect].happens
+        and not everyday(one.suspect.effect, one.suspect.point.values)
+    ]
+
+
+def everyday(effect: str, values: Mapping[str, float]) -> bool:
+    """Whether an effect of a model is as small as on any robot in good order."""
+    known = EFFECTS[effect]
+    return known.everyday({name: values[f"{effect}.{name}"] for name in known.names})
 
 
 def gained(now: Suspect, other: Suspect) -> float:
