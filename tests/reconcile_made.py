@@ -7,10 +7,10 @@ import numpy as np
 
 from sim.battery import Battery
 from sim.effects import EFFECTS
-from sim.engine import move
-from sim.log import Run
+from sim.engine import State, move
+from sim.log import Log, Run
 from sim.mechanisms import MECHANISMS
-from sim.model import Part
+from sim.model import Model, Part
 from sim.reconcile import reconcile
 from sim.routine import Routine
 from sim.simulate import simulate
@@ -52,6 +52,21 @@ def recorded(kind, model, *, step, state, noise, rng, began=0.0, still=0):
         for one, size in zip((track.position, track.velocity), noise, strict=True)
     )
     return Run(kind, began + time, volts, *noisy)
+
+
+TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
+
+
+def rubbing(gains, shares, *parts, noise, step, seed):
+    """Four tests of a mechanism, of which every run has a share of the friction of its own."""
+    rng = np.random.default_rng(seed)
+    runs, clock = [], 0.0
+    for test, share in zip(TESTS, shares, strict=True):
+        model = Model("simple", {**gains, "kS": share * gains["kS"]}, parts)
+        begun = {"state": State.at(0.0), "began": clock}
+        runs.append(recorded(test, model, step=step, noise=noise, rng=rng, **begun))
+        clock = float(runs[-1].time[-1]) + 2.0
+    return Log(tuple(runs), units="meters", type="simple")
 
 
 def bench(name, effect="", *, size=1.0, simple=False):

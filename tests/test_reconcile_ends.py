@@ -1,12 +1,9 @@
 """Where a search ends: as far as it leads, and with no more parameters than are due."""
 
-import numpy as np
 import pytest
-from reconcile_made import recorded
+from reconcile_made import rubbing
 
-from sim.engine import State
-from sim.log import Log
-from sim.model import Model, Part
+from sim.model import Part
 from sim.reconcile import descent
 from sim.reconcile.descent import ended, settle
 from sim.reconcile.gates import errors_of, folds, outside, rms
@@ -20,19 +17,10 @@ from sim.reconcile.suspects import judged
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
-TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
 
 
 def session(*parts, step, frictions=(1.0, 1.0, 1.0, 1.0)):
-    """Four tests of a mechanism, of which every run has a share of the friction of its own."""
-    rng = np.random.default_rng(round(100.0 * step))
-    runs, clock = [], 0.0
-    for test, share in zip(TESTS, frictions, strict=True):
-        model = Model("simple", {**GAINS, "kS": share * GAINS["kS"]}, parts)
-        begun = {"state": State.at(0.0), "began": clock}
-        runs.append(recorded(test, model, step=step, noise=NOISE, rng=rng, **begun))
-        clock = float(runs[-1].time[-1]) + 2.0
-    return Log(tuple(runs), units="meters", type="simple")
+    return rubbing(GAINS, frictions, *parts, noise=NOISE, step=step, seed=round(100.0 * step))
 
 
 def at(problem, values, *effects, q=1.0):

@@ -4,10 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from reconcile_made import recorded
+from reconcile_made import rubbing
 
-from sim.engine import NO_TRUST, Lead, State, follow
-from sim.log import Log
+from sim.engine import NO_TRUST, Lead, follow
 from sim.model import Model, Part
 from sim.reconcile.descent import adjusting, ended, settle, with_prior
 from sim.reconcile.friction import chosen, varies
@@ -20,19 +19,12 @@ from sim.reconcile.problem import Problem
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
-TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
 SHARES = (1.06, 0.95, 0.98, 1.04)  # [1] of the friction that each run has
 
 
 def session(shares, *parts, step=4.0, seed=0):
-    rng = np.random.default_rng(seed)
-    runs, clock = [], 0.0
-    for test, share in zip(TESTS, shares, strict=True):
-        model = Model("simple", {**GAINS, "kS": share * GAINS["kS"]}, parts)
-        begun = {"state": State.at(0.0), "began": clock}
-        runs.append(recorded(test, model, step=step, noise=NOISE, rng=rng, **begun))
-        clock = float(runs[-1].time[-1]) + 2.0
-    return Problem.of(lanes(Log(tuple(runs), units="meters", type="simple")))
+    log = rubbing(GAINS, shares, *parts, noise=NOISE, step=step, seed=seed)
+    return Problem.of(lanes(log))
 
 
 def begun(problem, *effects, **values):
