@@ -260,11 +260,9 @@ def _moved(problem: Problem, point: Point, by: Array) -> Point:
         values[name] = hypothesis.stepped(name, values[name], step)
     starts, rubs = by[len(searched) :].reshape(2, -1)
     outset = point.outset.moved(starts).rubbing(rubs)
-    common = float(np.mean(outset.rubs))  # what all runs have is kS: only its price tells, hardly
-    values["kS"], outset = (
-        max(values["kS"] + common, 0.0),
-        outset.rubbing(np.full_like(outset.rubs, -common)),
-    )
+    common = float(np.mean(outset.rubs))  # what all runs have is kS: only the price tells, hardly
+    values["kS"] = max(values["kS"] + common, 0.0)
+    outset = outset.rubbing(np.full_like(outset.rubs, -common))
     return problem.at(hypothesis, values, outset, point.q)
 
 

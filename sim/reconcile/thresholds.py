@@ -22,8 +22,11 @@ On 430 logs, given and made here, right names of that kind came to 108 and more,
 84, 91); wrong ones of more than an everyday size to 26 to 127, three of four to less than 100."""
 
 MUCH_NARROWER = 0.6
-"""[1] of the likeliest effect's gap, from which another one is taken, if it has half of its score:
-what a simulation of other runs says is as good as what the next sample does."""
+"""[1] of the likeliest effect's gap, from which another one is taken, if it has ``HALF`` of its
+score: what a simulation of other runs says is as good as what the next sample does."""
+
+HALF = 0.5
+"""[1] of the likeliest effect's score: with less, what closes the gap resembles what is missing."""
 
 ONCE = 130.0
 """[of -2 log L] the same of an effect that begins at a moment.

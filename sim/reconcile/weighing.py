@@ -14,6 +14,7 @@ from sim.reconcile.suspects import Suspect, suspects
 from sim.reconcile.thresholds import (
     AS_GOOD,
     CLOSE,
+    HALF,
     MUCH_NARROWER,
     NARROWER,
     NOT_WIDER,
@@ -25,7 +26,6 @@ from sim.reconcile.thresholds import (
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
 TINY = 1e-300  # no gap at all
-HALF = 0.5  # [1] of the likeliest's score, which one must have to be taken for its gap
 
 
 def weigh(problem: Problem, now: Round, log: Log, parts: Sequence[Fold]) -> list[Weighed]:
