@@ -31,6 +31,8 @@ ASKS: Mapping[str, tuple[str, ...]] = {
     "heft": ("clock",),
     # share of the momentum that what joins takes from what moves: 1 if it was at rest
     "jolt": (),
+    # [s] of the clock at which inertia changes next: no step of the engine goes across it
+    "changes": ("clock",),
     # a path: the voltage that gets through, from the voltage ``u`` that arrives
     "passes": ("u", "v", "kv", "memory"),
     # [s] by which a command comes late

@@ -320,6 +320,18 @@ def test_the_best_start_is_near_the_truth(name):
     assert math.exp(off) < factor, (truth, starts)
 
 
+def test_where_a_load_draws_it_along_a_ramp_that_turns_it_tells_the_deadband():
+    mechanism = MECHANISMS["drivetrain"].hiding("constant-load", 1.2).hiding("deadband", 1.2)
+    load, deadband = (part.parameters for part in mechanism.hidden)
+    assert load["load"] > MECHANISMS["drivetrain"].gains["kS"]  # else nothing is drawn along
+    log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
+    seen = gather(log, MECHANISMS["drivetrain"].gains, type="simple")
+
+    starts = [one["band"] for one in EFFECTS["deadband"].starts(seen)]
+
+    assert min(abs(one / deadband["band"] - 1.0) for one in starts) < 0.1, starts
+
+
 def test_starts_survive_a_log_in_which_nothing_moves():
     still = np.zeros(60)
     time = np.arange(60) * 0.02

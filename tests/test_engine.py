@@ -130,6 +130,21 @@ def test_inertia_that_joins_shares_its_momentum():
     assert track.velocity[TIME > 0.51] == pytest.approx(0.5, abs=1e-6)
 
 
+@pytest.mark.parametrize("until", [0.537, 1e6])
+def test_what_happens_between_two_samples_happens_at_its_moment(until):
+    values = {"extra": 0.3, "onset": 0.413, "until": until, "shared": 1.0}
+    model, finer = PLAIN + Part("inertia-change", values), np.union1d(TIME, [0.413, 0.537])
+
+    track, every = (
+        move(model, time=time, voltage=np.full(time.size, 6.0), state=State())
+        for time in (TIME, finer)
+    )
+
+    there = np.isin(finer, TIME)
+    assert track.velocity == pytest.approx(every.velocity[there], abs=1e-9)
+    assert track.position == pytest.approx(every.position[there], abs=1e-9)
+
+
 def test_heat_stays_from_run_to_run_and_fades_in_a_pause():
     warm = PLAIN + Part("heating", {"rate": 0.05})
     state = State()

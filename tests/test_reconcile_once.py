@@ -17,7 +17,7 @@ from sim.reconcile.gates import Gap, folds
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import ended_after, in_a_row, lanes
 from sim.reconcile.naming import belied
-from sim.reconcile.once import moments, otherwise
+from sim.reconcile.once import closer, moments, otherwise
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
 from sim.reconcile.remainder import Moment
@@ -249,6 +249,37 @@ def test_what_was_over_with_its_run_is_tried_for_good(joined):
     assert best.cost < settle(problem, point).cost - 100.0
     plain = problem.at(Hypothesis("simple"), GAINS, Outset.seen(4), point.q)
     assert not list(otherwise(problem, plain))
+
+
+@pytest.mark.parametrize("shared", [0.0, 1.0])
+@pytest.mark.parametrize("off", [-0.011, 0.007])
+def test_a_moment_is_found_between_two_samples(dynamic, shared, off):
+    onset = dynamic + 0.0934
+    given = {"extra": 0.03, "onset": onset, "until": LATER, "shared": shared}
+    problem = Problem.of(lanes(log_with((Part("inertia-change", given),))))
+    begun = {
+        **GAINS,
+        **{f"inertia-change.{n}": v for n, v in {**given, "onset": onset + off}.items()},
+    }
+    hypothesis = Hypothesis("simple") + "inertia-change"
+    point = problem.at(hypothesis, begun, Outset.seen(4), problem.noise.velocity**2)
+
+    found = closer(problem, point)
+
+    assert found.values["inertia-change.onset"] == pytest.approx(onset, abs=problem.period / 8.0)
+    assert found.cost < point.cost
+    assert closer(problem, found) is found
+
+
+def test_a_moment_stays_on_the_clock():
+    problem = Problem.of(lanes(log_with(())))
+    given = {"extra": 0.01, "onset": 0.0, "until": LATER, "shared": 0.0}
+    values = {**GAINS, **{f"inertia-change.{n}": v for n, v in given.items()}}
+    hypothesis = Hypothesis("simple") + "inertia-change"
+
+    found = closer(problem, problem.at(hypothesis, values, Outset.seen(4), 1e-4))
+
+    assert found.values["inertia-change.onset"] >= 0.0
 
 
 @pytest.mark.parametrize(

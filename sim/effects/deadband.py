@@ -26,15 +26,19 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
 
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
-    """The voltages at which the ramps began to move: it acts by a threshold, so a grid is due."""
+    """The voltages at which the ramps began to move: it acts by a threshold, so a grid is due.
+
+    What a load draws along moves before any voltage does, until a ramp turns it.
+    """
     onset = [
-        abs(float(run.voltage[np.argmax(np.abs(run.velocity) > STARTED * seen.speed)]))
+        abs(float(run.voltage[np.argmax(run.velocity * np.sign(run.voltage) > started)]))
+        for started in (STARTED * seen.speed,)
         for run in seen.log.runs
         if run.kind == "quasistatic" and len(run)
     ]
-    around = float(np.median(onset)) if onset else 0.4
+    around = {float(np.median(onset)), max(onset)} if onset else {0.4}
     for part in (1.0, 0.92, 0.84, 0.76, 0.68, 0.6, 1.1):
-        yield {"band": max(part * around, 0.02)}
+        yield from ({"band": max(part * one, 0.02)} for one in sorted(around))
 
 
 EFFECT = Effect(

@@ -23,7 +23,7 @@ LATER = 1e6  # [s] after any log
 FEWEST = 20  # samples of a run that tell which change of velocity is usual
 SHARPEST = 4  # of them: breaking away is as sharp
 SHARP, LEFT = 6.0, 0.3  # [robust standard deviations] of a drop beyond it; [1] of the speed left
-EARLY = 0.25  # [samples] after the last one before a drop: a step asks in its middle what there is
+EARLY = 0.25  # [samples] after the last one before a drop: a search looks around from there
 ROBUST, TINY = 1.4826, 1e-12  # standard deviations in a median absolute deviation; [unit/s] none
 
 
@@ -35,6 +35,13 @@ def heft(clock: float, extra: float, onset: float, until: float) -> float:
 def jolt(shared: float) -> float:
     """[1] of the momentum that what joins takes."""
     return shared
+
+
+def changes(clock: float, onset: float, until: float) -> float:
+    """[s] of the clock at which it begins or ends."""
+    if clock < onset:
+        return onset
+    return until if clock < until else math.inf
 
 
 def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
@@ -142,5 +149,5 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"heft": heft, "jolt": jolt},
+    acts={"heft": heft, "jolt": jolt, "changes": changes},
 )

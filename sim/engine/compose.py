@@ -30,6 +30,7 @@ HOOKS: Mapping[str, tuple[str, str, str]] = {
     "grip": ("on, p, v, way", "0.0", "{0} + {1}"),
     "heft": ("on, p, clock", "0.0", "{0} + {1}"),
     "jolt": ("on, p", "0.0", "max({0}, {1})"),
+    "changes": ("on, p, clock", "math.inf", "min({0}, {1})"),
     "slack": ("on, p", "0.0", "{0} + {1}"),
     "softness": ("on, p", "0.0", "{0} + {1}"),
     "share": ("on, p", "0.0", "max({0}, {1})"),

@@ -5,6 +5,8 @@ the same names and arguments that ask each effect that is ``on``. ``p`` holds th
 effects, ``memory`` one number for each effect.
 """
 
+import math
+
 from sim.log import Array
 
 Numbers = tuple[float, ...]
@@ -43,6 +45,11 @@ def heft(on: Numbers, p: Numbers, clock: float) -> float:
 def jolt(on: Numbers, p: Numbers) -> float:
     """[1] of the momentum it needs that joining inertia takes from what moves."""
     return 0.0
+
+
+def changes(on: Numbers, p: Numbers, clock: float) -> float:
+    """[s] of the clock at which something happens next."""
+    return math.inf
 
 
 def slack(on: Numbers, p: Numbers) -> float:

@@ -10,7 +10,16 @@ import math
 
 import numpy as np
 
-from sim.engine.hooks import Numbers, heft, jolt, late, remembers, sees, share  # composed: begin
+from sim.engine.hooks import (  # composed: begin
+    Numbers,
+    changes,
+    heft,
+    jolt,
+    late,
+    remembers,
+    sees,
+    share,
+)
 from sim.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bounded, single
 from sim.engine.two_bodies import double
 from sim.engine.wires import CUT, EMF, OHM, REST, STOP, bus_at, reaches
@@ -19,6 +28,9 @@ from sim.log import Array  # composed: end
 POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, EXPECTED, SEEN = range(8)
 """Columns of what is recorded. Where a measurement corrects the motion, the first three are after
 it; the position that was expected and the velocity that the sensor would see are before."""
+
+
+NONE = 1e-9  # [s] a step that is none
 
 
 def advance(
@@ -75,6 +87,12 @@ def correct(state: Array, ahead: float, faster: float, trust: Array) -> None:
     state[W] += speed
 
 
+def pause(on: Numbers, p: Numbers, now: float, after: float, clock: float) -> float:
+    """[s] at which steps must end: ``after``, or before it where something happens."""
+    when = now + changes(on, p, clock) - clock
+    return when if now + NONE < when < after else after
+
+
 def run(
     time: Array, asked: Array, state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers,
     memory: Array, ways: Array, began: float, finest: float, plain: bool, measured: Array,
@@ -108,9 +126,8 @@ def run(
         if k == n - 1:
             break
         while now < time[k + 1] - 1e-12:
-            after = time[k + 1]
-            if command + 1 < n:
-                after = min(after, time[command + 1] + lag)
+            arrives = time[command + 1] + lag if command + 1 < n else math.inf
+            after = pause(on, p, now, min(time[k + 1], arrives), began + now - time[0])
             if command < 0 and rests:
                 state[V] = state[W] = 0.0  # whatever a measurement made of it
             else:

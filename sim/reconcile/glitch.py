@@ -45,7 +45,7 @@ def glitches(problem: Problem, point: Point) -> Iterator[tuple[int, Damaged]]:
         lane = problem.lanes[number]
         mine = np.where(np.isnan(errors[first:last]), 0.0, errors[first:last])
         told = problem.telling[first:last]
-        if mine.size < 4 * near:
+        if mine.size < 4 * near or not told.any():
             continue
         apart = mine - _median(mine, near)
         spread = max(1.4826 * float(np.median(np.abs(apart[told]))), problem.noise.velocity)

@@ -32,9 +32,8 @@ from sim.reconcile.thresholds import (
     SHAKEN,
     STRAYS,
     TOLD_FIRST,
-    WORTH_A_NAME,
 )
-from sim.reconcile.weighing import everyday
+from sim.reconcile.weighing import everyday, worth_a_name
 from sim.units import Unit
 
 TURNLESS = (
@@ -76,7 +75,8 @@ def findings_of(
     effects = [
         one
         for one in effects
-        if one.size == "major" or not (_everyday(one, last) or (alone and one.score < WORTH_A_NAME))
+        if one.size == "major"
+        or (worth_a_name(one.effect, last.values, one.score) if alone else not _everyday(one, last))
     ]
     effects = [one for one in effects if not belied(one.effect, problem, last, moment)]
     effects.sort(key=lambda one: (_everyday(one, last), -one.score))

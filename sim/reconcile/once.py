@@ -23,8 +23,9 @@ from sim.reconcile.problem import Point, Problem
 
 PARTS = 24  # moments of a run that are tried
 NEARER, LOOKS = 4, 2  # moments between two of these, and how often they are taken closer
+HALVINGS = 5  # of a sample, in a last look around
 NEXT, ECHO, LONGEST = 1, 3.0, 50  # [samples] about a knock; [timescales], [samples] it is heard
-EARLY = 0.25  # [samples] after the last one before it: a step asks in its middle what there is
+EARLY = 0.25  # [samples] after the last one before it: a search looks around from there
 SHOWN = 2  # moments of each kind that are worth a start
 PROBE = 0.1  # [1] of kA: so little that what it does is in proportion
 LEAST, MOST = -0.8, 2.0  # [1] of kA that may leave, and that may join: a search goes on from there
@@ -96,6 +97,24 @@ def otherwise(problem: Problem, point: Point) -> Iterator[Point]:
             values = {**point.values, **changed}
             if values != point.values:
                 yield problem.at(point.hypothesis, values, point.outset, point.q)
+
+
+def closer(problem: Problem, point: Point) -> Point:
+    """The same at the likeliest moment around, where something happens once.
+
+    No search moves a moment: across a sample what is likely jumps.
+    """
+    for name in point.hypothesis.effects:
+        if not EFFECTS[name].happens:
+            continue
+        onset, step, hypothesis = f"{name}.{ONSET}", problem.period, point.hypothesis
+        for _ in range(HALVINGS):
+            around = (hypothesis.within(onset, point.values[onset] + by) for by in (-step, step))
+            moved = ({**point.values, onset: moment} for moment in around)
+            tried = [problem.at(hypothesis, one, point.outset, point.q) for one in moved]
+            point = min(point, *tried, key=lambda one: one.cost)
+            step *= 0.5
+    return point
 
 
 def kinds(effect: Effect) -> Iterator[Mapping[str, float]]:

@@ -8,7 +8,7 @@ from sim.effects import EFFECTS
 from sim.log import Log
 from sim.reconcile.descent import ENOUGH, ended, settle
 from sim.reconcile.gates import Fold, missed, outside
-from sim.reconcile.once import otherwise
+from sim.reconcile.once import closer, otherwise
 from sim.reconcile.problem import Point, Problem
 from sim.reconcile.round import Round, Weighed
 from sim.reconcile.second_thoughts import missed_by, reconsidered, simplified
@@ -26,18 +26,17 @@ from sim.reconcile.thresholds import (
     SURE,
     SURER,
     UNDRIVEN,
-    WORTH_A_NAME,
 )
 from sim.reconcile.weighing import (
     HARDLY,
     WIDENS,
     blocked,
-    everyday,
     gained,
     rivals,
     simplest,
     weigh,
     why_not,
+    worth_a_name,
 )
 
 PART = 0.5  # [1] of the score of a quiet effect, which an admitted one must have to go before it
@@ -154,7 +153,7 @@ def _added(
         quiet = quiet[: MOST_QUIET - now.quiet]
         if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
             one = quiet[0]
-            if worth_a_name(one):
+            if worth_a_name(one.suspect.effect, one.suspect.point.values, one.tried.score):
                 done.append(Round(one.suspect, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds))
             else:
                 done[-1] = _with_quiet(now, one)
@@ -176,15 +175,6 @@ def _added(
             )
         )
     return done
-
-
-def worth_a_name(one: Weighed) -> bool:
-    """Whether what hardly narrows the gap is there beyond doubt, and no robot has a little of it.
-
-    Free play of a motor is lost in what a simulation misses after ten seconds, and yet is there.
-    """
-    small = everyday(one.suspect.effect, one.suspect.point.values)
-    return one.tried.score >= WORTH_A_NAME and not small
 
 
 def _leads_nowhere(problem: Problem, done: Sequence[Round]) -> bool:
@@ -210,6 +200,9 @@ def _ended(problem: Problem, best: Weighed, parts: Sequence[Fold]) -> Weighed:
         settled = settle(problem, other)
         if settled.cost < point.cost - CLOSE:
             point = settled
+    near = closer(problem, point)
+    if near is not point:
+        point = settle(problem, near)
     if abs(suspect.point.cost - point.cost) < ENOUGH:
         return best
     gap = outside(problem, point, parts)

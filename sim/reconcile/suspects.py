@@ -16,7 +16,7 @@ from sim.reconcile.descent import AGITATED, CALM, adjusting, better, promise, se
 from sim.reconcile.friction import chosen
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.meshing import price
-from sim.reconcile.once import moments
+from sim.reconcile.once import closer, moments
 from sim.reconcile.problem import STEPWISE, Point, Problem
 
 TRIED, KEPT = 8, 4  # suspects that go downhill a little, and to the end
@@ -79,7 +79,7 @@ def suspects(
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
     begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
-    gone = [better(problem, start, steps=A_LITTLE) for _, start in begun]
+    gone = [better(problem, closer(problem, start), steps=A_LITTLE) for _, start in begun]
     best = _each_once(gone)[:KEPT]
     calmer = _calmer(problem, point)
     if calmer is not None:

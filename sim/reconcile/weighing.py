@@ -14,6 +14,7 @@ from sim.reconcile.suspects import Suspect, suspects
 from sim.reconcile.thresholds import (
     AS_GOOD,
     CLOSE,
+    FAR,
     HALF,
     MUCH_NARROWER,
     NARROWER,
@@ -22,6 +23,7 @@ from sim.reconcile.thresholds import (
     SIMPLER,
     SURE,
     SURER,
+    WORTH_A_NAME,
 )
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
@@ -128,6 +130,27 @@ def everyday(effect: str, values: Mapping[str, float]) -> bool:
     """Whether an effect of a model is as small as on any robot in good order."""
     known = EFFECTS[effect]
     return known.everyday({name: values[f"{effect}.{name}"] for name in known.names})
+
+
+def worth_a_name(effect: str, values: Mapping[str, float], score: float) -> bool:
+    """Whether an effect is there beyond doubt, and no robot has a little of it.
+
+    Free play of a motor is lost in what a simulation misses after ten seconds, and yet is there.
+
+    Args:
+        effect: its name.
+        values: of the model.
+        score: [of -2 log L] by which it makes the model likelier.
+    """
+    if everyday(effect, values):
+        return False
+    known = EFFECTS[effect]
+    part = {
+        one.name: one.neutral + (values[f"{effect}.{one.name}"] - one.neutral) / FAR
+        for one in known.parameters
+    }
+    far = known.everyday(known.neutral) and not known.everyday(part)
+    return score >= (SURER if far else WORTH_A_NAME)
 
 
 def gained(now: Suspect, other: Suspect) -> float:
