@@ -240,3 +240,19 @@ def test_damage_is_reported_as_damage_and_physics_beside_it_is_still_named():
         ("encoder-slip", "fault"), ("gravity-cosine", "effect"),
     ]  # fmt: skip
     assert story.verdict == "explained"
+
+
+def test_a_run_of_which_nothing_is_believed_is_told_and_left_out():
+    sessions = logs("drivetrain", "drag")
+    log = sessions["log"]
+    whole = log.runs[-1]
+    nothing = Damaged(
+        len(log.runs) - 1, float(whole.time[0]), float(whole.time[-1]), "sign-flip", 1.0,
+        "It goes the wrong way.", "Turn the sign.",
+    )  # fmt: skip
+
+    story = told(sessions, damages={"log": (nothing,)})
+
+    assert [(one.effect, one.kind) for one in story.findings] == [
+        ("sign-flip", "fault"), ("drag", "effect"),
+    ]  # fmt: skip

@@ -23,7 +23,7 @@ from sim.reconcile.round import Round, Weighed
 from sim.reconcile.story import Tried
 from sim.reconcile.suspects import judged
 from sim.reconcile.verdict import verdict_of
-from sim.reconcile.weighing import WIDENS
+from sim.reconcile.weighing import WIDENS, worth_a_name
 from sim.units import unit
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
@@ -185,6 +185,26 @@ def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, 
 
     assert ("drag" in [one.effect for one in found]) is named
     assert any(one.size == "major" for one in found) is (beside < 1.5)
+
+
+@pytest.mark.parametrize(
+    ("effect", "values", "score", "worth"),
+    [
+        ("battery-sag", {"share": 0.3}, 70.0, True),  # more than twice what is everyday
+        ("battery-sag", {"share": 0.3}, 50.0, False),
+        ("battery-sag", {"share": 0.15}, 70.0, False),
+        ("battery-sag", {"share": 0.15}, 110.0, True),
+        ("battery-sag", {"share": 0.05}, 500.0, False),
+        ("cogging", {"cosine": -0.1, "sine": 0.1, "turns": 9.0}, 70.0, True),
+        ("cogging", {"cosine": -0.05, "sine": 0.05, "turns": 9.0}, 70.0, False),
+        ("drag", {"drag": 5.0}, 70.0, False),  # nobody says how much of it is everyday
+        ("drag", {"drag": 5.0}, 110.0, True),
+    ],
+)
+def test_what_is_far_more_than_on_any_robot_is_believed_sooner(effect, values, score, worth):
+    of_model = {f"{effect}.{name}": value for name, value in values.items()}
+
+    assert worth_a_name(effect, of_model, score) is worth
 
 
 @pytest.mark.parametrize(("after", "told"), [(0.2, True), (0.9, False)])
