@@ -1,11 +1,13 @@
 """How often ``sysid reconcile`` names what is missing: made here, solved blind, then scored.
 
     python tests/benchmarks/bench_reconcile.py [--seed N] [--cases 22] [--jobs 2] [--keep FOLDER]
+                                               [--physics mujoco]
 
 One process makes fresh cases, another solves them and is told nothing but the logs, the base type
 and the travel. The answers are written before the key is opened. What a mechanism can have of the
 catalogue is hidden in a realistic and in a third of that size, clean and with everyday dirt; beside
-it are complete models, physics of no catalogue, two effects at once, and shuffled voltages.
+it are complete models, physics of no catalogue, two effects at once, and shuffled voltages. The
+bench moves the mechanisms; or MuJoCo does, which knows nothing of the solver's engine.
 """
 
 import argparse
@@ -36,6 +38,7 @@ def main() -> None:
     parser.add_argument("--cases", type=int, default=CASES, help="Of each group of one effect.")
     parser.add_argument("--shuffled", type=int, default=20, help="Controls.")
     parser.add_argument("--jobs", type=int, default=2, help="Cases at a time.")
+    parser.add_argument("--physics", default="bench", help="Or mujoco, where it is installed.")
     parser.add_argument("--keep", type=Path, help="Folder for cases, answers and key.")
     parser.add_argument("--json", action="store_true", help="Plain data for other programs.")
     parser.add_argument("--command", default="sysid reconcile", help="Another solver.")
@@ -63,7 +66,8 @@ def main() -> None:
 def _made(asked: argparse.Namespace, *, seed: int, out: Path, key: Path) -> float:
     """[s] it took to make the cases."""
     words = ["--seed", str(seed), "--cases", str(asked.cases), "--shuffled", str(asked.shuffled)]
-    words += ["--jobs", str(asked.jobs), "--out", str(out), "--key", str(key)]
+    words += ["--jobs", str(asked.jobs), "--physics", asked.physics]
+    words += ["--out", str(out), "--key", str(key)]
     return _run("reconcile_cases.py", *words)
 
 

@@ -17,6 +17,8 @@ from pathlib import Path
 from reconcile_plan import plan
 from reconcile_strangers import admit
 
+PHYSICS = ("bench", "mujoco")  # what may move the mechanisms
+
 
 def main() -> None:
     """Make all cases of a plan."""
@@ -25,6 +27,7 @@ def main() -> None:
     parser.add_argument("--cases", type=int, required=True)
     parser.add_argument("--shuffled", type=int, required=True)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--physics", choices=PHYSICS, default=PHYSICS[0])
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--key", type=Path, required=True)
     asked = parser.parse_args()
@@ -32,11 +35,17 @@ def main() -> None:
         sys.exit(f"{asked.key} is in the solver's folder. Put the key elsewhere.")
     admit()
     from reconcile_making import store  # noqa: PLC0415 - the engine counts effects when imported
+    from reconcile_recording import on_the_bench as moved  # noqa: PLC0415 - the same
 
     from sim.engine import ready  # noqa: PLC0415 - the same
 
     cases = plan(seed=asked.seed, cases=asked.cases, shuffled=asked.shuffled)
-    work = partial(store, seed=asked.seed, out=asked.out)
+    if asked.physics == "mujoco":
+        try:
+            from reconcile_mujoco import moved  # noqa: PLC0415 - not everybody has it
+        except ModuleNotFoundError:
+            sys.exit("MuJoCo is not installed. Run: pip install 'sysid-course[physics]'")
+    work = partial(store, seed=asked.seed, out=asked.out, moved=moved)
     ready()  # compiled once, for all
     with ProcessPoolExecutor(asked.jobs, initializer=admit) as pool:
         key = dict(pool.map(work, cases))

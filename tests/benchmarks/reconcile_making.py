@@ -11,9 +11,11 @@ from reconcile_recording import (
     SESSIONS,
     Day,
     Levels,
+    Moves,
     exchanged,
     happened,
     heated,
+    on_the_bench,
     permuted,
     recorded,
 )
@@ -42,23 +44,24 @@ class Made:
     answer: Mapping[str, object]
 
 
-def make(case: Case, *, seed: int) -> Made:
+def make(case: Case, *, seed: int, moved: Moves = on_the_bench) -> Made:
     """One case, the same for the same seed.
 
     Args:
         case: what it is.
         seed: of the whole benchmark.
+        moved: the physics.
     """
     rng = np.random.default_rng([seed, case.number])
     hidden = hide(case, rng=rng)
     quick = hidden.mechanism.stops is not None and rng.random() < QUICK
     period = 0.005 if quick else 0.02
     levels = Levels.draw(hidden.mechanism, rng)
-    hidden = heated(hidden, levels, period=period, rng=rng)
-    hidden = happened(hidden, levels, period=period, rng=rng)
+    hidden = heated(hidden, levels, period=period, rng=rng, moved=moved)
+    hidden = happened(hidden, levels, period=period, rng=rng, moved=moved)
     day = Day.draw(hidden, rng, dirty=case.dirty)
     logs = {
-        name: recorded(hidden, levels, day, session=name, period=period, rng=rng)
+        name: recorded(hidden, levels, day, session=name, period=period, rng=rng, moved=moved)
         for name in SESSIONS
     }
     for name in (one for one in case.hidden if one in FAULTS):
@@ -84,13 +87,15 @@ def make(case: Case, *, seed: int) -> Made:
     return Made(logs, known, answer)
 
 
-def store(case: Case, *, seed: int, out: Path) -> tuple[str, Mapping[str, object]]:
+def store(
+    case: Case, *, seed: int, out: Path, moved: Moves = on_the_bench
+) -> tuple[str, Mapping[str, object]]:
     """Write a case into its folder.
 
     Returns:
         The folder's name under ``out`` and the answer, which is not in it.
     """
-    made = make(case, seed=seed)
+    made = make(case, seed=seed, moved=moved)
     name = f"{case.number:03d}"
     folder = out / ("shuffled" if case.shuffled else "") / name
     folder.mkdir(parents=True)

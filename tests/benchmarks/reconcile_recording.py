@@ -4,8 +4,9 @@ No robot is as clean as the bench: in every case friction differs from run to ru
 the mechanism that no log shows, and the velocity has more noise than on a good day.
 """
 
+import inspect
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,6 +14,7 @@ from reconcile_sizes import Hidden
 from reconcile_strangers import SHAKES
 
 from sim.effect import Scale
+from sim.effects import effect as find
 from sim.effects.inertia_change import LATER
 from sim.engine.asked import COARSEST
 from sim.log import Log, Run
@@ -55,6 +57,10 @@ MOMENT = (0.3, 0.7)  # [share of a run's motion] when something happens once
 WHILE = (0.3, 0.7)  # [share of a step's top speed] at which inertia changes: later nothing shows it
 ONCE, ENDS = "onset", "until"  # parameters of what happens at a moment, and of what lasts
 FIRST, PASSING = "train", 0.4  # the session in which it happens; [1] of what ends with its run
+
+
+Moves = Callable[..., list[Run]]
+"""The runs of a session, of a mechanism and a routine, as ``on_the_bench`` makes them."""
 
 
 @dataclass(frozen=True)
@@ -128,6 +134,7 @@ def recorded(
     session: str,
     period: float,
     rng: np.random.Generator,
+    moved: Moves,
 ) -> Log:
     """One session.
 
@@ -138,6 +145,7 @@ def recorded(
         session: one of ``SESSIONS``.
         period: [s] between samples.
         rng: the source of chance.
+        moved: the physics.
     """
     routine = Routine(levels.ramp, levels.steps[session], TIMEOUT, SESSIONS[session])
     sensor = replace(hidden.mechanism.sensor, jitter=day.jitter)
@@ -153,10 +161,10 @@ def recorded(
     changed = tuple(_since(part, session) for part in parts if _is_changed(part, session))
     built = replace(mechanism, hidden=(*lasting, *changed))
     if again:
-        pilot = simulate(built, routine, rng=rng, period=period)
+        pilot = moved(built, routine, rng=rng, period=period, wobble=0.0)
         sudden = (replace(part, parameters=_at(part, pilot, rng)) for part in again)
         built = replace(built, hidden=(*built.hidden, *sudden))
-    runs = _runs(built, routine, period=period, wobble=day.wobble, rng=rng)
+    runs = moved(built, routine, rng=rng, period=period, wobble=day.wobble)
     runs = [
         replace(run, voltage=run.voltage + day.noise * rng.standard_normal(len(run)))
         for run in runs
@@ -164,7 +172,9 @@ def recorded(
     return Log(tuple(runs), units=mechanism.units, type=mechanism.type)
 
 
-def heated(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Generator) -> Hidden:
+def heated(
+    hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Generator, moved: Moves
+) -> Hidden:
     """The same, with a motor that warms by as much whatever it drives.
 
     The catalogue's example goes by time, and leaves cold what draws current for a moment only.
@@ -174,15 +184,30 @@ def heated(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Gene
         levels: its voltages.
         period: [s] between samples.
         rng: the source of chance.
+        moved: the physics.
     """
     if WARMS not in hidden.sizes:
         return hidden
     cold = replace(hidden, parts=tuple(p for p in hidden.parts if p.effect != WARMS))
-    log = recorded(cold, levels, CALM, session="train", period=period, rng=rng)
-    kv = hidden.mechanism.gains["kV"]
-    heat = sum(period * float(np.sum((run.voltage - kv * run.velocity) ** 2)) for run in log.runs)
+    log = recorded(cold, levels, CALM, session="train", period=period, rng=rng, moved=moved)
+    heat = sum(period * float(np.sum(_drop(cold, run) ** 2)) for run in log.runs)
     warm = Part(WARMS, {"rate": WARMER * hidden.sizes[WARMS] / heat})
     return replace(cold, parts=(*cold.parts, warm))
+
+
+def _drop(hidden: Hidden, run: Run) -> np.ndarray:
+    """(n,) [V] that drive current: what comes of the logged voltage on its way to the motor."""
+    kv = hidden.mechanism.gains["kV"]
+    volts = run.voltage
+    for part in sorted(hidden.parts, key=lambda one: find(one.effect).order):
+        act = find(part.effect).acts.get("passes")
+        if act is None:
+            continue
+        asked = inspect.signature(act).parameters
+        pairs = zip(volts.tolist(), run.velocity.tolist(), strict=True)
+        given = ({**part.parameters, "u": u, "v": v, "kv": kv} for u, v in pairs)
+        volts = np.array([act(**{name: one[name] for name in asked}) for one in given])
+    return volts - kv * run.velocity
 
 
 def permuted(log: Log, *, rng: np.random.Generator) -> Log:
@@ -216,13 +241,13 @@ def _with_voltages(log: Log, volts: list[np.ndarray]) -> Log:
     return replace(log, runs=tuple(runs))
 
 
-def _runs(
+def on_the_bench(
     mechanism: Mechanism,
     routine: Routine,
     *,
+    rng: np.random.Generator,
     period: float,
     wobble: float,
-    rng: np.random.Generator,
 ) -> list[Run]:
     """The runs of a session, each with the friction of its own moment.
 
@@ -258,7 +283,9 @@ def _everyday(scale: Scale, parts: tuple[Part, ...], rng: np.random.Generator) -
     return (Part(name, each) for name, each in values.items() if name not in there)
 
 
-def happened(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Generator) -> Hidden:
+def happened(
+    hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Generator, moved: Moves
+) -> Hidden:
     """The same, with the moment at which what changes once does so: in a step of the first session.
 
     It does while that accelerates: inertia is seen in no ramp, and in no step that is over.
@@ -268,12 +295,13 @@ def happened(hidden: Hidden, levels: Levels, *, period: float, rng: np.random.Ge
         levels: its voltages.
         period: [s] between samples.
         rng: the source of chance.
+        moved: the physics.
     """
     if not any(ENDS in part.parameters for part in hidden.parts):
         return hidden
     lasting = tuple(part for part in hidden.parts if ONCE not in part.parameters)
     still = replace(hidden, parts=lasting)
-    pilot = recorded(still, levels, CALM, session=FIRST, period=period, rng=rng)
+    pilot = recorded(still, levels, CALM, session=FIRST, period=period, rng=rng, moved=moved)
     return replace(hidden, parts=tuple(_happens(part, pilot, rng) for part in hidden.parts))
 
 
@@ -289,13 +317,13 @@ def _happens(part: Part, pilot: Log, rng: np.random.Generator) -> Part:
     return replace(part, parameters={**values, ENDS: end} if rng.random() < PASSING else values)
 
 
-def _at(part: Part, pilot: Log, rng: np.random.Generator) -> dict[str, float]:
+def _at(part: Part, runs: Sequence[Run], rng: np.random.Generator) -> dict[str, float]:
     """Its parameters if it happens in the middle of a run's motion."""
-    run = pilot.runs[int(rng.integers(len(FOUR) * 2))]
+    run = runs[int(rng.integers(len(FOUR) * 2))]
     speed = np.abs(run.velocity)
     moving = run.time[speed > 0.1 * speed.max()]
     onset = float(moving[0] + rng.uniform(*MOMENT) * (moving[-1] - moving[0]))
-    return {**part.parameters, ONCE: onset - float(pilot.runs[0].time[0])}
+    return {**part.parameters, ONCE: onset - float(runs[0].time[0])}
 
 
 def _is_changed(part: Part, session: str) -> bool:

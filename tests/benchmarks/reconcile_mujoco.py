@@ -1,0 +1,253 @@
+"""Move a case's mechanism by MuJoCo: physics that was written by others, for other robots.
+
+Inertia, weight, dry friction, back-EMF, stops, springs, and joints that give or have play are
+MuJoCo's, in volts instead of newtons. What a motor controller and a sensor make of a command and of
+a motion are the effects' own functions, asked in every step. Nothing is exact as on the bench:
+friction creeps a little at rest, stops and teeth give a little, steps are of a millisecond.
+
+Words of a scene: https://mujoco.readthedocs.io/en/stable/XMLreference.html#body-joint
+"""
+
+import inspect
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from types import SimpleNamespace
+from xml.etree.ElementTree import Element, SubElement, tostring
+
+import mujoco
+import numpy as np
+from reconcile_strangers import SHAKES
+
+from sim.effects import effect as find
+from sim.engine.asked import COARSEST
+from sim.log import Array, Run
+from sim.mechanism import Mechanism
+from sim.model import Part
+from sim.routine import Routine
+from sim.sensing import read
+from sim.simulate import PAUSE, _begin, _end, _loops
+from sim.units import unit
+
+STEP = 0.001  # [s]
+G = 9.81  # [m/s²]
+FIRM = "0.004 1"  # [s], [1] in which stops and teeth give, and dry friction holds (solref)
+GRIPS = "0.98 0.998 0.001"  # how much of it holds (solimp); the default lets it creep
+DAMPED = 0.04  # [1] of critical damping in a joint that gives
+STILL = 1e-6  # [unit/s] below which friction goes by where the voltage pushes
+WIDEST = 2.5  # [standard deviations] by which friction differs from run to run at most
+MOVED_BY_SCENE = ("spring",)  # terms that are springs of MuJoCo
+
+
+def moved(
+    mechanism: Mechanism,
+    routine: Routine,
+    *,
+    rng: np.random.Generator,
+    period: float,
+    wobble: float = 0.0,
+) -> list[Run]:
+    """The runs of a session.
+
+    Args:
+        mechanism: with what is hidden in it.
+        routine: its voltages.
+        rng: the source of chance.
+        period: [s] between samples.
+        wobble: [share] by which friction differs from run to run.
+    """
+    body = _Body(mechanism)
+    runs: list[Run] = []
+    start, last = PAUSE, 0.0
+    for test in routine.tests:
+        time = _loops(routine.timeout, period=period, jitter=mechanism.sensor.jitter, rng=rng)
+        volts = np.array([routine.voltage(test, one) for one in time.tolist()])
+        rubs = 1.0 + wobble * float(np.clip(rng.standard_normal(), -WIDEST, WIDEST))
+        body.clock = float(start + time[0] - (runs[0].time[0] if runs else start + time[0]))
+        position, velocity, kept = body.run(_begin(mechanism, test, last), time, volts, rubs=rubs)
+        end = _end(SimpleNamespace(position=position), mechanism, test=test)
+        time, volts, position, velocity = (one[:end] for one in (time, volts, position, velocity))
+        body.memory = kept[end - 1]
+        seen = body.sees(time, position, velocity)
+        sensed = read(mechanism.sensor, position=position, velocity=seen, time=time, rng=rng)
+        runs.append(Run(test, start + time, volts, *sensed))
+        body.rests(PAUSE)
+        start, last = start + float(time[-1]) + PAUSE, float(position[-1])
+    return runs
+
+
+def scene(mechanism: Mechanism) -> str:
+    """The mechanism in MuJoCo's own words: a motor, and a load if something joins the two."""
+    gains = mechanism.gains
+    turns = unit(mechanism.units).angular
+    joint = {"type": "hinge" if turns else "slide", "axis": "0 -1 0" if turns else "0 0 1"}
+    weight, arm = gains.get("kG", 0.0), mechanism.type == "arm"
+    between = next((part for part in mechanism.hidden if _kind(part) == "two-body"), None)
+    share = between.parameters["share"] if between else 1.0
+    heavy = gains["kA"] * ((1.0 - share) if between else 1.0)  # what weighs
+    root = Element("mujoco")
+    SubElement(root, "compiler", angle="radian")
+    down = weight / heavy if not arm else G
+    SubElement(
+        root, "option", timestep=f"{STEP}", gravity=f"0 0 {-down}", integrator="implicitfast"
+    )
+    motor = SubElement(SubElement(root, "worldbody"), "body", name="motor")
+    drive = SubElement(motor, "joint", name="motor", **joint)
+    drive.attrib |= {"damping": f"{gains['kV']}", "frictionloss": f"{gains['kS']}"}
+    drive.attrib |= {"solreffriction": FIRM, "solimpfriction": GRIPS}
+    if mechanism.stops:
+        low, high = mechanism.stops
+        drive.attrib |= {"limited": "true", "range": f"{low} {high}", "solreflimit": FIRM}
+    for part in (one for one in mechanism.hidden if one.effect in MOVED_BY_SCENE):
+        rate, preload = part.parameters["rate"], part.parameters["preload"]
+        drive.attrib |= {"stiffness": f"{rate}", "springref": f"{-preload / rate}"}
+    if between:
+        motor.set("gravcomp", "1")
+        _filled(motor, gains["kA"] * share, out=0.0)
+        load = SubElement(motor, "body", name="load")
+        SubElement(load, "joint", name="load", **joint, **_joins(between, gains["kA"]))
+    _filled(load if between else motor, heavy, out=G * heavy / weight if arm and weight else 0.0)
+    return tostring(root, encoding="unicode")
+
+
+def _filled(body: Element, inertia: float, *, out: float) -> None:
+    """Give a body its inertia; ``out`` [m] from its axis as a point, if that is not zero."""
+    if out:
+        mass, rest = inertia / out**2, 1e-6 * inertia
+    else:
+        mass = rest = inertia
+    place, around = f"{out} 0 0", f"{rest} {rest} {rest}"
+    SubElement(body, "inertial", pos=place, mass=f"{mass}", diaginertia=around)
+
+
+def _joins(part: Part, ka: float) -> dict[str, str]:
+    """What joins motor and load."""
+    values = part.parameters
+    if part.effect == "backlash":
+        half = 0.5 * values["slack"]
+        return {"limited": "true", "range": f"{-half} {half}", "solreflimit": FIRM}
+    stiff = 1.0 / values["softness"]
+    damping = 2.0 * DAMPED * math.sqrt(stiff * ka * values["share"] * (1.0 - values["share"]))
+    return {"stiffness": f"{stiff}", "damping": f"{damping}"}
+
+
+def _kind(part: Part) -> str:
+    return find(part.effect).kind
+
+
+def _in_steps(part: Part) -> Part:
+    """The same; what pushes at random in each step pushes as much in shorter ones, all in all."""
+    if part.effect != SHAKES.name:
+        return part
+    volts = part.parameters["volts"] * math.sqrt(COARSEST / STEP)
+    return replace(part, parameters={**part.parameters, "volts": volts})
+
+
+class _Body:
+    """A mechanism that moves, and what its effects remember."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        parts = (_in_steps(part) for part in mechanism.hidden)
+        self.parts = sorted(parts, key=lambda part: find(part.effect).order)
+        self.model = mujoco.MjModel.from_xml_string(scene(mechanism))
+        self.data = mujoco.MjData(self.model)
+        self.kv, self.ka = mechanism.gains["kV"], mechanism.gains["kA"]
+        self.ks = mechanism.gains["kS"]
+        self.memory = {part.effect: 0.0 for part in self.parts}
+        self.clock = self.more = 0.0  # [s] since the log began; [V·s²/unit] of inertia beyond kA
+
+    def run(
+        self, begin: float, time: Array, volts: Array, *, rubs: float
+    ) -> tuple[Array, Array, list[dict[str, float]]]:
+        """Position and velocity (n,) at each sample, and what was remembered then."""
+        mujoco.mj_resetData(self.model, self.data)
+        self.data.qpos[0] = begin
+        late = sum(self._ask("late"))
+        arrives = time + late
+        position, velocity, kept = np.empty_like(time), np.empty_like(time), []
+        now, command = float(time[0]), -1
+        for sample, due in enumerate(time.tolist()):
+            while now < due - 0.5 * STEP:
+                while command + 1 < time.size and arrives[command + 1] <= now + 0.5 * STEP:
+                    command += 1
+                self._step(float(volts[command]) if command >= 0 else 0.0, rubs)
+                now += STEP
+            ahead = due - now  # less than half a step
+            velocity[sample] = self.data.qvel[0]
+            position[sample] = self.data.qpos[0] + ahead * velocity[sample]
+            kept.append(dict(self.memory))
+        return position, velocity, kept
+
+    def sees(self, time: Array, position: Array, velocity: Array) -> Array:
+        """(n,) the velocity that the sensor says."""
+        seen = velocity
+        for part in self.parts:
+            act = find(part.effect).acts.get("sees")
+            if act is not None:
+                motion = {"time": time, "position": position, "velocity": velocity}
+                seen = np.array(
+                    [
+                        _asked(act, part.parameters, seen=one, now=now, **motion)
+                        for now, one in enumerate(seen.tolist())
+                    ]
+                )
+        return seen
+
+    def rests(self, pause: float) -> None:
+        """Let what is remembered fade for so many seconds."""
+        self._remember(0.0, 0.0, pause)
+
+    def _step(self, volts: float, rubs: float) -> None:
+        x, v = float(self.data.qpos[0]), float(self.data.qvel[0])
+        at_motor = volts
+        for part in self.parts:
+            act = find(part.effect).acts.get("passes")
+            if act is not None:
+                memory = self.memory[part.effect]
+                at_motor = _asked(act, part.parameters, u=at_motor, v=v, kv=self.kv, memory=memory)
+        self._remember(at_motor, v, STEP)
+        way = math.copysign(1.0, v if abs(v) > STILL else at_motor)
+        grips = sum(self._ask("grip", v=v, way=way))
+        self.model.dof_frictionloss[0] = max(rubs * self.ks + grips, 0.0)
+        self._carry()
+        pulls = sum(self._ask("pull", x=x, v=v))
+        self.data.qfrc_applied[0] = at_motor - pulls
+        mujoco.mj_step(self.model, self.data)
+        self.clock += STEP
+
+    def _carry(self) -> None:
+        """Take up inertia, or give it away; what was at rest takes its share of the momentum."""
+        more = sum(self._ask("heft", clock=self.clock))
+        if more > self.more:
+            kept = (self.ka + self.more) / (self.ka + more)
+            self.data.qvel[0] *= 1.0 - sum(self._ask("jolt")) * (1.0 - kept)
+        self.model.dof_armature[0] = more
+        self.model.dof_M0[0] += more - self.more  # what MuJoCo keeps where nothing else couples
+        self.more = more
+
+    def _remember(self, volts: float, v: float, dt: float) -> None:
+        for part in self.parts:
+            act = find(part.effect).acts.get("remembers")
+            if act is not None:
+                known = {"memory": self.memory[part.effect], "dt": dt, "u": volts}
+                self.memory[part.effect] = _asked(act, part.parameters, v=v, kv=self.kv, **known)
+
+    def _ask(self, hook: str, **known: float) -> list[float]:
+        """What each effect says that has something to say."""
+        return [
+            _asked(act, part.parameters, **known)
+            for part in self.parts
+            if part.effect not in MOVED_BY_SCENE
+            for act in (find(part.effect).acts.get(hook),)
+            if act is not None
+        ]
+
+
+ARGUMENTS: dict[Callable[..., float], list[str]] = {}
+
+
+def _asked(act: Callable[..., float], parameters: Mapping[str, float], **known: object) -> float:
+    """An effect's function, given what it asks for."""
+    names = ARGUMENTS.setdefault(act, list(inspect.signature(act).parameters))
+    given = {**known, **parameters}
+    return act(*(given[name] for name in names))

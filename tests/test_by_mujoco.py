@@ -1,0 +1,69 @@
+"""The bench beside MuJoCo: the same mechanisms and effects, moved by other people's physics.
+
+MuJoCo moves inertia, weight, friction, springs, stops and joints in steps of a millisecond, and
+softly where the bench is exact; what a controller and a sensor do is the effects' own in both.
+"""
+
+from dataclasses import replace
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from sim.battery import Battery
+from sim.effects import EFFECTS
+from sim.mechanisms import MECHANISMS
+from sim.routine import Routine
+
+pytest.importorskip("mujoco", reason="MuJoCo is not installed (extra `physics`)")
+
+ROUTINE = Routine(ramp=0.5, step=5.0)
+CLOSE = 0.003  # [share of a run's top speed] of steps of a millisecond, and what rubs softly
+SOFT = {"backlash": 0.012, "compliance": 0.005}  # teeth that give; a joint that is damped a little
+
+
+@pytest.fixture
+def moved(root, monkeypatch):
+    """The runs of a mechanism without a battery or a sensor around it, by name of who moves it."""
+    monkeypatch.syspath_prepend(root / "tests" / "benchmarks")
+    physics = {
+        "mujoco": import_module("reconcile_mujoco").moved,
+        "bench": import_module("reconcile_recording").on_the_bench,
+    }
+
+    def made(mechanism, who):
+        sensor = replace(mechanism.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
+        plain = {"battery": Battery(resistance=0.0), "stator": 1e4, "supply": 1e4}
+        bare = replace(mechanism, sensor=sensor, **plain)
+        chance = np.random.default_rng(0)
+        return physics[who](bare, ROUTINE, rng=chance, period=0.02, wobble=0.0)
+
+    return made
+
+
+def off(runs, others):
+    """[share of a run's top speed] by which velocities differ, in the run where they do most."""
+    return max(
+        np.sqrt(np.mean((one.velocity[:n] - other.velocity[:n]) ** 2))
+        / np.abs(other.velocity).max()
+        for one, other in zip(runs, others, strict=True)
+        for n in (min(len(one), len(other)),)
+    )
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_a_complete_mechanism_moves_as_mujoco_moves_it(moved, name):
+    theirs, ours = (moved(MECHANISMS[name], who) for who in ("mujoco", "bench"))
+
+    assert [len(run) for run in theirs] == pytest.approx([len(run) for run in ours], abs=1)
+    assert off(theirs, ours) < CLOSE
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_an_effect_does_what_it_does_in_mujoco(moved, effect):
+    plain = MECHANISMS["turret"]
+
+    theirs, ours = (moved(plain.hiding(effect), who) for who in ("mujoco", "bench"))
+
+    assert off(theirs, ours) < SOFT.get(effect, CLOSE)
+    assert off(theirs, moved(plain, "bench")) > off(theirs, ours)
