@@ -10,8 +10,9 @@ Words of a scene: https://mujoco.readthedocs.io/en/stable/XMLreference.html#body
 
 import inspect
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 from xml.etree.ElementTree import Element, SubElement, tostring
 
@@ -19,6 +20,7 @@ import mujoco
 import numpy as np
 from reconcile_strangers import SHAKES
 
+from sim.effect import ASKS
 from sim.effects import effect as find
 from sim.engine.asked import COARSEST
 from sim.log import Array, Run
@@ -35,7 +37,9 @@ FIRM = "0.004 1"  # [s], [1] in which stops and teeth give, and dry friction hol
 GRIPS = "0.98 0.998 0.001"  # how much of it holds (solimp); the default lets it creep
 DAMPED = 0.04  # [1] of critical damping in a joint that gives
 STILL = 1e-6  # [unit/s] below which friction goes by where the voltage pushes
+LOOKS = 20  # [samples] between two looks whether someone has ended the test
 WIDEST = 2.5  # [standard deviations] by which friction differs from run to run at most
+Act = Callable[[Mapping[str, object]], float]
 MOVED_BY_SCENE = ("spring",)  # terms that are springs of MuJoCo
 
 
@@ -64,10 +68,8 @@ def moved(
         volts = np.array([routine.voltage(test, one) for one in time.tolist()])
         rubs = 1.0 + wobble * float(np.clip(rng.standard_normal(), -WIDEST, WIDEST))
         body.clock = float(start + time[0] - (runs[0].time[0] if runs else start + time[0]))
-        position, velocity, kept = body.run(_begin(mechanism, test, last), time, volts, rubs=rubs)
-        end = _end(SimpleNamespace(position=position), mechanism, test=test)
-        time, volts, position, velocity = (one[:end] for one in (time, volts, position, velocity))
-        body.memory = kept[end - 1]
+        position, velocity = body.run(test, last, time, volts, rubs=rubs)
+        time, volts = time[: position.size], volts[: position.size]
         seen = body.sees(time, position, velocity)
         sensed = read(mechanism.sensor, position=position, velocity=seen, time=time, rng=rng)
         runs.append(Run(test, start + time, volts, *sensed))
@@ -147,24 +149,24 @@ class _Body:
     """A mechanism that moves, and what its effects remember."""
 
     def __init__(self, mechanism: Mechanism) -> None:
-        parts = (_in_steps(part) for part in mechanism.hidden)
-        self.parts = sorted(parts, key=lambda part: find(part.effect).order)
+        self.mechanism = mechanism
         self.model = mujoco.MjModel.from_xml_string(scene(mechanism))
         self.data = mujoco.MjData(self.model)
         self.kv, self.ka = mechanism.gains["kV"], mechanism.gains["kA"]
         self.ks = mechanism.gains["kS"]
-        self.memory = {part.effect: 0.0 for part in self.parts}
+        self.memory = {part.effect: 0.0 for part in mechanism.hidden}
         self.clock = self.more = 0.0  # [s] since the log began; [V·s²/unit] of inertia beyond kA
+        parts = sorted(mechanism.hidden, key=lambda part: find(part.effect).order)
+        self.acts = {hook: list(_acts(parts, hook)) for hook in ASKS}
 
     def run(
-        self, begin: float, time: Array, volts: Array, *, rubs: float
-    ) -> tuple[Array, Array, list[dict[str, float]]]:
-        """Position and velocity (n,) at each sample, and what was remembered then."""
+        self, test: str, last: float, time: Array, volts: Array, *, rubs: float
+    ) -> tuple[Array, Array]:
+        """Position and velocity (n,) at the samples until someone ends the test."""
         mujoco.mj_resetData(self.model, self.data)
-        self.data.qpos[0] = begin
-        late = sum(self._ask("late"))
-        arrives = time + late
-        position, velocity, kept = np.empty_like(time), np.empty_like(time), []
+        self.data.qpos[0] = _begin(self.mechanism, test, last)
+        arrives = time + sum(self._ask("late"))
+        motion, kept = np.empty((time.size, 2)), []
         now, command = float(time[0]), -1
         for sample, due in enumerate(time.tolist()):
             while now < due - 0.5 * STEP:
@@ -172,25 +174,25 @@ class _Body:
                     command += 1
                 self._step(float(volts[command]) if command >= 0 else 0.0, rubs)
                 now += STEP
-            ahead = due - now  # less than half a step
-            velocity[sample] = self.data.qvel[0]
-            position[sample] = self.data.qpos[0] + ahead * velocity[sample]
+            speed = float(self.data.qvel[0])
+            motion[sample] = self.data.qpos[0] + (due - now) * speed, speed
             kept.append(dict(self.memory))
-        return position, velocity, kept
+            if sample % LOOKS == LOOKS - 1 or sample == time.size - 1:
+                track = SimpleNamespace(position=motion[: sample + 1, 0])
+                end = _end(track, self.mechanism, test=test)
+                if end <= sample:
+                    break
+        self.memory = kept[end - 1]
+        return motion[:end, 0], motion[:end, 1]
 
     def sees(self, time: Array, position: Array, velocity: Array) -> Array:
         """(n,) the velocity that the sensor says."""
         seen = velocity
-        for part in self.parts:
-            act = find(part.effect).acts.get("sees")
-            if act is not None:
-                motion = {"time": time, "position": position, "velocity": velocity}
-                seen = np.array(
-                    [
-                        _asked(act, part.parameters, seen=one, now=now, **motion)
-                        for now, one in enumerate(seen.tolist())
-                    ]
-                )
+        motion = {"time": time, "position": position, "velocity": velocity}
+        for _, act in self.acts["sees"]:
+            seen = np.array(
+                [act({"seen": one, "now": now, **motion}) for now, one in enumerate(seen.tolist())]
+            )
         return seen
 
     def rests(self, pause: float) -> None:
@@ -200,18 +202,16 @@ class _Body:
     def _step(self, volts: float, rubs: float) -> None:
         x, v = float(self.data.qpos[0]), float(self.data.qvel[0])
         at_motor = volts
-        for part in self.parts:
-            act = find(part.effect).acts.get("passes")
-            if act is not None:
-                memory = self.memory[part.effect]
-                at_motor = _asked(act, part.parameters, u=at_motor, v=v, kv=self.kv, memory=memory)
+        for effect, act in self.acts["passes"]:
+            known = {"u": at_motor, "v": v, "kv": self.kv, "memory": self.memory[effect]}
+            at_motor = act(known)
         self._remember(at_motor, v, STEP)
         way = math.copysign(1.0, v if abs(v) > STILL else at_motor)
         grips = sum(self._ask("grip", v=v, way=way))
         self.model.dof_frictionloss[0] = max(rubs * self.ks + grips, 0.0)
-        self._carry()
-        pulls = sum(self._ask("pull", x=x, v=v))
-        self.data.qfrc_applied[0] = at_motor - pulls
+        if self.acts["heft"]:
+            self._carry()
+        self.data.qfrc_applied[0] = at_motor - sum(self._ask("pull", x=x, v=v))
         mujoco.mj_step(self.model, self.data)
         self.clock += STEP
 
@@ -226,28 +226,26 @@ class _Body:
         self.more = more
 
     def _remember(self, volts: float, v: float, dt: float) -> None:
-        for part in self.parts:
-            act = find(part.effect).acts.get("remembers")
-            if act is not None:
-                known = {"memory": self.memory[part.effect], "dt": dt, "u": volts}
-                self.memory[part.effect] = _asked(act, part.parameters, v=v, kv=self.kv, **known)
+        for effect, act in self.acts["remembers"]:
+            known = {"memory": self.memory[effect], "dt": dt, "u": volts, "v": v, "kv": self.kv}
+            self.memory[effect] = act(known)
 
     def _ask(self, hook: str, **known: float) -> list[float]:
         """What each effect says that has something to say."""
-        return [
-            _asked(act, part.parameters, **known)
-            for part in self.parts
-            if part.effect not in MOVED_BY_SCENE
-            for act in (find(part.effect).acts.get(hook),)
-            if act is not None
-        ]
+        return [act(known) for _, act in self.acts[hook]]
 
 
-ARGUMENTS: dict[Callable[..., float], list[str]] = {}
+def _acts(parts: Iterable[Part], hook: str) -> Iterator[tuple[str, Act]]:
+    """Effects and what they do there, each a function of all that is known."""
+    for part in map(_in_steps, parts):
+        act = find(part.effect).acts.get(hook)
+        if act is not None and part.effect not in MOVED_BY_SCENE:
+            yield part.effect, _given(act, part.parameters)
 
 
-def _asked(act: Callable[..., float], parameters: Mapping[str, float], **known: object) -> float:
-    """An effect's function, given what it asks for."""
-    names = ARGUMENTS.setdefault(act, list(inspect.signature(act).parameters))
-    given = {**known, **parameters}
-    return act(*(given[name] for name in names))
+def _given(act: Callable[..., float], parameters: Mapping[str, float]) -> Act:
+    """An effect's function, which takes what it asks for."""
+    asked = inspect.signature(act).parameters
+    own = partial(act, **{name: parameters[name] for name in asked if name in parameters})
+    names = [name for name in asked if name not in parameters]
+    return lambda known: own(**{name: known[name] for name in names})
