@@ -4,6 +4,9 @@ MuJoCo moves inertia, weight, friction, springs, stops and joints in steps of a 
 softly where the bench is exact; what a controller and a sensor do is the effects' own in both.
 """
 
+import json
+import subprocess
+import sys
 from dataclasses import replace
 from importlib import import_module
 
@@ -12,6 +15,7 @@ import pytest
 
 from sim.battery import Battery
 from sim.effects import EFFECTS
+from sim.formats import read
 from sim.mechanisms import MECHANISMS
 from sim.routine import Routine
 
@@ -67,3 +71,20 @@ def test_an_effect_does_what_it_does_in_mujoco(moved, effect):
 
     assert off(theirs, ours) < SOFT.get(effect, CLOSE)
     assert off(theirs, moved(plain, "bench")) > off(theirs, ours)
+
+
+def test_the_benchmarks_cases_are_made_by_it_on_request(root, tmp_path):
+    script = root / "tests" / "benchmarks" / "reconcile_cases.py"
+    told = ["--seed", "7", "--cases", "1", "--shuffled", "1", "--physics", "mujoco"]
+    where = ["--out", str(tmp_path / "cases"), "--key", str(tmp_path / "key.json")]
+
+    command = [sys.executable, str(script), *told, *where]
+    run = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
+
+    assert run.returncode == 0, run.stderr
+    key = json.loads((tmp_path / "key.json").read_text(encoding="utf-8"))
+    assert len(key) == 11
+    for name in key:
+        for file in ("train.csv", "validation.csv", "test.csv"):
+            log = read(tmp_path / "cases" / name / file)
+            assert all(np.ptp(one.velocity) > 0.0 for one in log.runs)
