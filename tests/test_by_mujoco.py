@@ -23,7 +23,7 @@ pytest.importorskip("mujoco", reason="MuJoCo is not installed (extra `physics`)"
 
 ROUTINE = Routine(ramp=0.5, step=5.0)
 CLOSE = 0.003  # [share of a run's top speed] of steps of a millisecond, and what rubs softly
-SOFT = {"backlash": 0.012, "compliance": 0.005}  # teeth that give; a joint that is damped a little
+SOFT = {"backlash": 0.006, "compliance": 0.004}  # teeth that give; a joint that is damped a little
 
 
 @pytest.fixture

@@ -4,6 +4,7 @@ Inertia, weight, dry friction, back-EMF, stops, springs, and joints that give or
 MuJoCo's, in volts instead of newtons. What a motor controller and a sensor make of a command and of
 a motion are the effects' own functions, asked in every step. Nothing is exact as on the bench:
 friction creeps a little at rest, stops and teeth give a little, steps are of a millisecond.
+Motor and load rub as much as they are heavy; what pulls does so at the load.
 
 Words of a scene: https://mujoco.readthedocs.io/en/stable/XMLreference.html#body-joint
 """
@@ -84,7 +85,7 @@ def scene(mechanism: Mechanism) -> str:
     turns = unit(mechanism.units).angular
     joint = {"type": "hinge" if turns else "slide", "axis": "0 -1 0" if turns else "0 0 1"}
     weight, arm = gains.get("kG", 0.0), mechanism.type == "arm"
-    between = next((part for part in mechanism.hidden if _kind(part) == "two-body"), None)
+    between = _between(mechanism)
     share = between.parameters["share"] if between else 1.0
     heavy = gains["kA"] * ((1.0 - share) if between else 1.0)  # what weighs
     root = Element("mujoco")
@@ -95,14 +96,20 @@ def scene(mechanism: Mechanism) -> str:
     )
     motor = SubElement(SubElement(root, "worldbody"), "body", name="motor")
     drive = SubElement(motor, "joint", name="motor", **joint)
-    drive.attrib |= {"damping": f"{gains['kV']}", "frictionloss": f"{gains['kS']}"}
-    drive.attrib |= {"solreffriction": FIRM, "solimpfriction": GRIPS}
+    rubs = {"frictionloss": f"{gains['kS']}", "solreffriction": FIRM, "solimpfriction": GRIPS}
+    drive.attrib |= {"damping": f"{gains['kV']}", **rubs}
+    end = drive
+    if between:  # what is moved in the end lies on its stops, and rubs
+        end = SubElement(SubElement(root, "tendon"), "fixed", name="end", **rubs)
+        for name in ("motor", "load"):
+            SubElement(end, "joint", joint=name, coef="1")
     if mechanism.stops:
         low, high = mechanism.stops
-        drive.attrib |= {"limited": "true", "range": f"{low} {high}", "solreflimit": FIRM}
+        end.attrib |= {"limited": "true", "range": f"{low} {high}", "solreflimit": FIRM}
     for part in (one for one in mechanism.hidden if one.effect in MOVED_BY_SCENE):
         rate, preload = part.parameters["rate"], part.parameters["preload"]
-        drive.attrib |= {"stiffness": f"{rate}", "springref": f"{-preload / rate}"}
+        relaxed = "springlength" if between else "springref"
+        end.attrib |= {"stiffness": f"{rate}", relaxed: f"{-preload / rate}"}
     if between:
         motor.set("gravcomp", "1")
         _filled(motor, gains["kA"] * share, out=0.0)
@@ -133,8 +140,10 @@ def _joins(part: Part, ka: float) -> dict[str, str]:
     return {"stiffness": f"{stiff}", "damping": f"{damping}"}
 
 
-def _kind(part: Part) -> str:
-    return find(part.effect).kind
+def _between(mechanism: Mechanism) -> Part | None:
+    """What stands between motor and load, if anything does."""
+    joints = (part for part in mechanism.hidden if find(part.effect).kind == "two-body")
+    return next(joints, None)
 
 
 def _in_steps(part: Part) -> Part:
@@ -154,6 +163,8 @@ class _Body:
         self.data = mujoco.MjData(self.model)
         self.kv, self.ka = mechanism.gains["kV"], mechanism.gains["kA"]
         self.ks = mechanism.gains["kS"]
+        between = _between(mechanism)
+        self.share = between.parameters["share"] if between else 1.0  # on the motor's side
         self.memory = {part.effect: 0.0 for part in mechanism.hidden}
         self.clock = self.more = 0.0  # [s] since the log began; [V·s²/unit] of inertia beyond kA
         parts = sorted(mechanism.hidden, key=lambda part: find(part.effect).order)
@@ -200,7 +211,7 @@ class _Body:
         self._remember(0.0, 0.0, pause)
 
     def _step(self, volts: float, rubs: float) -> None:
-        x, v = float(self.data.qpos[0]), float(self.data.qvel[0])
+        v, y, z = (float(one) for one in (self.data.qvel[0], *self._load))
         at_motor = volts
         for effect, act in self.acts["passes"]:
             known = {"u": at_motor, "v": v, "kv": self.kv, "memory": self.memory[effect]}
@@ -208,19 +219,27 @@ class _Body:
         self._remember(at_motor, v, STEP)
         way = math.copysign(1.0, v if abs(v) > STILL else at_motor)
         grips = sum(self._ask("grip", v=v, way=way))
-        self.model.dof_frictionloss[0] = max(rubs * self.ks + grips, 0.0)
+        rub = max(rubs * self.ks + grips, 0.0)  # as heavy bodies do, each its share
+        self.model.dof_frictionloss[0] = self.share * rub
+        self.model.tendon_frictionloss[:] = (1.0 - self.share) * rub
         if self.acts["heft"]:
             self._carry()
-        self.data.qfrc_applied[0] = at_motor - sum(self._ask("pull", x=x, v=v))
+        self.data.qfrc_applied[:] = -sum(self._ask("pull", x=y, v=z))
+        self.data.qfrc_applied[0] += at_motor
         mujoco.mj_step(self.model, self.data)
         self.clock += STEP
+
+    @property
+    def _load(self) -> tuple[float, float]:
+        """Position and velocity of what is moved in the end; a joint's is beside the motor's."""
+        return self.data.qpos.sum(), self.data.qvel.sum()
 
     def _carry(self) -> None:
         """Take up inertia, or give it away; what was at rest takes its share of the momentum."""
         more = sum(self._ask("heft", clock=self.clock))
         if more > self.more:
             kept = (self.ka + self.more) / (self.ka + more)
-            self.data.qvel[0] *= 1.0 - sum(self._ask("jolt")) * (1.0 - kept)
+            self.data.qvel[:] *= 1.0 - sum(self._ask("jolt")) * (1.0 - kept)
         self.model.dof_armature[0] = more
         self.model.dof_M0[0] += more - self.more  # what MuJoCo keeps where nothing else couples
         self.more = more
