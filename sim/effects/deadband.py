@@ -30,9 +30,9 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
 
     What a load draws along moves before any voltage does, until a ramp turns it.
     """
+    started = STARTED * seen.speed
     onset = [
         abs(float(run.voltage[np.argmax(run.velocity * np.sign(run.voltage) > started)]))
-        for started in (STARTED * seen.speed,)
         for run in seen.log.runs
         if run.kind == "quasistatic" and len(run)
     ]
