@@ -12,6 +12,7 @@ from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
 MOMENTS = (0.001, 0.002, 0.004, 0.008, 0.016, 0.03)  # [s] that a log can show at a start
+LIGHT, HEAVY = 0.2, 0.5  # [1] shares of the motor: a search from one seldom finds the other
 
 
 def slack(slack: float) -> float:
@@ -31,8 +32,9 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     """Ways of some milliseconds at the top speed; how heavy the motor is shows beside all of kA."""
-    for moment in MOMENTS:
-        yield {"slack": moment * max(seen.speed, 1e-6), "share": 0.25}
+    for share in (LIGHT, HEAVY):
+        for moment in MOMENTS:
+            yield {"slack": moment * max(seen.speed, 1e-6), "share": share}
 
 
 EFFECT = Effect(

@@ -12,8 +12,10 @@ from collections.abc import Iterator, Mapping
 from sim.effect import Effect, Parameter, Scale
 from sim.evidence import Evidence
 
-TRIED = (2.0, 3.0, 4.5, 6.0, 8.0, 10.5, 13.5, 17.0, 22.0)  # [Hz] of swings that a log can show
-HALF = 0.5  # [1] of the inertia on each side, from where a search finds other shares
+SLOWEST, NEXT, TRIED = 2.0, 1.15, 23
+"""[Hz] of swings that a log can show, how many times faster the next one is, and how many: between
+two of them a search finds its way, unless the motor is light; up to 43 Hz, which look slower."""
+LIGHT, HALF = 0.15, 0.5  # [1] shares of the motor: a search from one seldom finds the other
 
 
 def softness(softness: float) -> float:
@@ -33,10 +35,12 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
 
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
-    """Swings of every pace that a log can show: between two of them a search finds its way."""
-    for swing in TRIED:
-        reduced = HALF * (1.0 - HALF) * abs(seen.gains["kA"])
-        yield {"softness": 1.0 / max(reduced * (2.0 * math.pi * swing) ** 2, 1e-9), "share": HALF}
+    """Swings of every pace that a log can show, of a light motor and of half the inertia."""
+    for share in (LIGHT, HALF):
+        reduced = share * (1.0 - share) * abs(seen.gains["kA"])
+        for number in range(TRIED):
+            stiff = reduced * (2.0 * math.pi * SLOWEST * NEXT**number) ** 2
+            yield {"softness": 1.0 / max(stiff, 1e-9), "share": share}
 
 
 EFFECT = Effect(

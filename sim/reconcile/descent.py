@@ -84,7 +84,7 @@ def ended(problem: Problem, point: Point) -> Point:
     if found[0].q > AGITATED * calm:
         calmer = problem.at(point.hypothesis, found[0].values, found[0].outset, calm)
         found.append(_settled(problem, better(problem, calmer, steps=STEPS)))
-    best = min(found, key=_paid)
+    best = min(found, key=paid)
     return _tight(problem, best) if point.hypothesis.plays else best
 
 
@@ -93,14 +93,15 @@ def _tight(problem: Problem, point: Point) -> Point:
     best = point
     for _ in range(HALVED):
         less = settle(problem, closer(problem, point))
-        if not _paid(less) < _paid(best) + CLOSE:
+        if not paid(less) < paid(best) + CLOSE:
             break
         point = less
-        best = min(best, point, key=_paid)
+        best = min(best, point, key=paid)
     return point
 
 
-def _paid(point: Point) -> float:
+def paid(point: Point) -> float:
+    """[of -2 log L] of a point, and of what was told of where its runs began."""
     return point.cost + price(point)
 
 

@@ -12,20 +12,18 @@ from dataclasses import dataclass
 from sim.effect import Effect
 from sim.effects import EFFECTS
 from sim.evidence import Evidence
-from sim.reconcile.descent import AGITATED, CALM, adjusting, better, promise, settle
+from sim.reconcile.descent import AGITATED, CALM, Begun, adjusting, better, paid, promise, settle
 from sim.reconcile.friction import chosen
-from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.lively import SHAKES, Lively
 from sim.reconcile.meshing import price
 from sim.reconcile.once import closer, moments
 from sim.reconcile.problem import STEPWISE, Point, Problem
 
 TRIED, KEPT = 8, 4  # suspects that go downhill a little, and to the end
 A_LITTLE = 2  # steps
+FURTHER = 6  # steps from each valley of what shakes, which are to be compared
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
 STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
-HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
-SHAKES = "two-body"  # kind of effects
-LIVELIEST = 2  # starts of two bodies that are simulated over all runs
 OWN: dict[str, tuple[str, ...]] = {
     "elevator": ("constant-load", "gravity-cosine"),
     "arm": ("gravity-cosine",),
@@ -79,12 +77,12 @@ def suspects(
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
     begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
-    gone = [better(problem, closer(problem, start), steps=A_LITTLE) for _, start in begun]
+    gone = [_further(problem, closer(problem, one)) for starts in begun for _, one in starts]
     best = _each_once(gone)[:KEPT]
     calmer = _calmer(problem, point)
     if calmer is not None:
         begun = _begun(problem, calmer, effects, evidence, seeds, heavy=True)[:TRIED_CALM]
-        calm = [better(problem, start, steps=A_LITTLE) for _, start in begun]
+        calm = [_further(problem, one) for starts in begun for _, one in starts]
         best = _each_once([*gone, *calm])[:KEPT]
         best += _each_once(calm)[:1]  # the likeliest of these has the longer way to go
     ended = [settle(problem, one) for one in dict.fromkeys(best)]
@@ -92,6 +90,12 @@ def suspects(
     ended = _each_once([*ended, *(settle(problem, one) for one in simpler if one)])
     found = [judged(problem, one, one.hypothesis.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
+
+
+def _further(problem: Problem, start: Point) -> Point:
+    """A start of a suspect after some steps downhill, by which it is compared with others."""
+    shakes = EFFECTS[start.hypothesis.effects[-1]].kind == SHAKES
+    return better(problem, start, steps=FURTHER if shakes else A_LITTLE)
 
 
 def _calmer(problem: Problem, point: Point) -> Point | None:
@@ -136,7 +140,7 @@ def simpler_than(
 def _each_once(points: Iterable[Point]) -> list[Point]:
     """The best point of each effect, the likeliest first."""
     best: dict[str, Point] = {}
-    for one in sorted(points, key=lambda one: one.cost):
+    for one in sorted(points, key=paid):
         best.setdefault(one.hypothesis.effects[-1], one)
     return list(best.values())
 
@@ -144,10 +148,11 @@ def _each_once(points: Iterable[Point]) -> list[Point]:
 def _begun(
     problem: Problem, point: Point, effects: Iterable[Effect], evidence: Evidence, seeds: Seeds,
     *, heavy: bool = False,
-) -> list[tuple[float, Point]]:  # fmt: skip
-    """The best start of each effect, with what it promises; the most promising first.
+) -> list[list[Begun]]:  # fmt: skip
+    """The best start of each effect, with what it promises; the most promising effect first.
 
-    ``heavy`` tries two bodies of more inertia, too.
+    Of what shakes, each valley that its lively runs show: how promising one is, is no sign of where
+    it leads. ``heavy`` tries two bodies of more inertia, too.
     """
     kept = adjusting(problem, point)
     found = []
@@ -161,19 +166,21 @@ def _begun(
             }
             for start in effect.starts(evidence)
         ]
+        shakes = False
         if effect.kind == SHAKES:
-            lively = lively or _Lively(problem, point)
-            more = lively.best(hypothesis, more, heavy=heavy)
+            lively = lively or Lively(problem, point)
+            if shakes := lively.there:
+                more = lively.valleys(hypothesis, more, heavy=heavy)
         more += _steps_below(effect, more)
         if effect.happens:
             more += moments(problem, point, effect, kept=kept)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))
-        chosen = effect.kind == SHAKES and lively is not None and lively.there
-        begun = promise(problem, point, hypothesis, more, kept=kept, as_given=chosen)
+        begun = promise(problem, point, hypothesis, more, kept=kept, as_given=shakes)
+        begun.sort(key=lambda one: -one[0])
         if begun:
-            found.append(max(begun, key=lambda one: one[0]))
-    return sorted(found, key=lambda one: -one[0])
+            found.append(begun if shakes else begun[:1])
+    return sorted(found, key=lambda starts: -starts[0][0])
 
 
 def _steps_below(
@@ -185,36 +192,3 @@ def _steps_below(
         least = min(starts, key=lambda one: one[names[0]])
         for power in range(1, STEPS_BELOW + 1):
             yield {**least, **{name: least[name] * STEP_BELOW**power for name in names}}
-
-
-class _Lively:
-    """The runs in which the voltage jumps, for a quick look at what shakes."""
-
-    def __init__(self, problem: Problem, point: Point) -> None:
-        chosen = [n for n, lane in enumerate(problem.lanes) if "quasistatic" not in lane.test]
-        self.there = False
-        if not chosen:
-            return
-        self.problem = Problem(tuple(problem.lanes[n] for n in chosen), problem.noise)
-        self.point = self.problem.at(
-            point.hypothesis, point.values, point.outset.of(chosen), point.q
-        )
-        if math.isfinite(self.point.cost):  # else all of them were set aside, or fly off
-            self.there = True
-            self.kept = adjusting(self.problem, self.point)
-
-    def best(
-        self, hypothesis: Hypothesis, more: list[dict[str, float]], *, heavy: bool
-    ) -> list[dict[str, float]]:
-        """The starts that are worth a look at all runs: none if none promises anything."""
-        if not self.there:
-            return more
-        tried = list(more)
-        if heavy:
-            whole = HEAVIER * self.point.values["kA"]
-            tried += [{**one, "kA": whole} for one in more]
-        begun = promise(self.problem, self.point, hypothesis, tried, kept=self.kept)
-        begun = sorted((one for one in begun if one[0] > 0.0), key=lambda one: -one[0])
-        effect = hypothesis.effects[-1]
-        names = ["kA", *(f"{effect}.{name}" for name in EFFECTS[effect].names)]
-        return [{name: one.values[name] for name in names} for _, one in begun[:LIVELIEST]]

@@ -1,0 +1,85 @@
+"""What shakes: where a search for two bodies starts, from the runs in which the voltage jumps.
+
+Free play and a soft joint show for a moment after each change of voltage, and a slow ramp says
+little of them. They have many valleys: a light motor, a heavy one, a swing that falls in step with
+the samples. So many starts are simulated on the lively runs, the best go downhill there, which
+costs little, and the valleys that these find are tried on all runs.
+"""
+
+import math
+from collections.abc import Iterable, Mapping
+
+from sim.effects import EFFECTS
+from sim.reconcile.descent import Begun, adjusting, better, paid, promise
+from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.problem import Point, Problem
+
+SHAKES = "two-body"  # kind of effects
+SLOW = "quasistatic"  # tests that say little of them
+MOST = 4  # starts of each kind that go downhill on the lively runs
+STEPS = 3  # that they go
+SAME = 0.2  # [1] by which the parameters of two valleys differ at least
+VALLEYS, NEAR = 2, 0.5  # that are tried on all runs, if they gain this much of what the best gains
+HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
+
+
+class Lively:
+    """The runs in which the voltage jumps.
+
+    Args:
+        problem: the measurements of all runs.
+        point: the best without what shakes.
+    """
+
+    def __init__(self, problem: Problem, point: Point) -> None:
+        chosen = [n for n, lane in enumerate(problem.lanes) if SLOW not in lane.test]
+        self.there = False
+        if not chosen:
+            return
+        self.problem = Problem(tuple(problem.lanes[n] for n in chosen), problem.noise)
+        self.point = self.problem.at(
+            point.hypothesis, point.values, point.outset.of(chosen), point.q
+        )
+        if math.isfinite(self.point.cost):  # else all of them were set aside, or fly off
+            self.there = True
+            self.kept = adjusting(self.problem, self.point)
+
+    def valleys(
+        self, hypothesis: Hypothesis, more: list[dict[str, float]], *, heavy: bool
+    ) -> list[dict[str, float]]:
+        """The starts that are worth a look at all runs: none if none explains anything.
+
+        Args:
+            hypothesis: with the effect that shakes as its last one.
+            more: values that it adds, one start after another.
+            heavy: two bodies of more inertia are tried, too.
+        """
+        effect = hypothesis.effects[-1]
+        names = ["kA", *(f"{effect}.{name}" for name in EFFECTS[effect].names)]
+        tried = list(more)
+        if heavy:
+            tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in more]
+        begun = promise(self.problem, self.point, hypothesis, tried, kept=self.kept)
+        gone = [better(self.problem, one, steps=STEPS) for one in _best_of_each(begun, effect)]
+        gains = [self.point.cost - paid(one) for one in gone]
+        least = max(NEAR * max(gains, default=0.0), 0.0)
+        found: list[dict[str, float]] = []
+        for gain, one in sorted(zip(gains, gone, strict=True), key=lambda each: -each[0]):
+            values = {name: one.values[name] for name in names}
+            if gain > least and not any(_same(values, other) for other in found):
+                found.append(values)
+        return found[:VALLEYS]
+
+
+def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Point]:
+    """The most promising of the starts that differ in size alone: the same share of the motor."""
+    kinds: dict[tuple[float, ...], list[Point]] = {}
+    fixed = [f"{effect}.{one.name}" for one in EFFECTS[effect].parameters if one.neutral]
+    for _, point in sorted(begun, key=lambda one: -one[0]):
+        kinds.setdefault(tuple(point.values[name] for name in fixed), []).append(point)
+    return [one for kind in kinds.values() for one in kind[:MOST]]
+
+
+def _same(values: Mapping[str, float], other: Mapping[str, float]) -> bool:
+    """Whether two valleys are one."""
+    return all(math.isclose(values[name], other[name], rel_tol=SAME) for name in values)
