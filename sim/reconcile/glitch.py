@@ -2,31 +2,69 @@
 
 What pushes a mechanism changes its velocity for as long as its time scale kA/kV. A sensor that
 loses a few teeth shows a velocity that is far off for some samples and right again in the next, and
-a position that stays off. Where the time scale is too short to tell the two apart, nothing is said.
+one that slips reads a share of the speed for a while; either goes and comes within a sample. Where
+the time scale is too short to tell that from a push, nothing is said.
 """
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.engine import NO_TRUST
+from sim.fit.seen import ROBUST
 from sim.log import Array
 from sim.reconcile.damage import Damaged
 from sim.reconcile.lanes import Lane
 from sim.reconcile.problem import Point, Problem
 
 FAR = 10.0  # [robust standard deviations] that a slip's velocity is off at least
-LONGEST = 0.1  # [s] it lasts
-STARTING = 0.3  # [s] of a motion in which a model that lacks something errs by itself
 BESIDE = 0.16  # [s] before and after it that must agree
-BACK = 0.2  # [1] of its size that may be left after it
-LONGEST_SHARP, FEWEST = 1.0, 3  # [s] the same of what comes and goes within a sample; samples of it
-SLOW = 2.0  # [1] times a sample must be the time scale of the mechanism then
+BACK = 0.2  # [1] of its size that may be left after it, or be otherwise than a slip has it
+
+# What is over before a mechanism could have answered:
+STARTING = 0.3  # [s] of a motion in which a model that lacks something errs by itself
+LONGEST = 0.1  # [s] it lasts
 SUDDEN = 0.4  # [1] of its size that it comes and goes by from one sample to the next
 CLEARLY = 4.0  # [1] times as long as it lasts must be the time scale of the mechanism
+
+# What is a share of the speed, and comes and goes within a sample:
+STARTING_SHARP = 0.2  # [s] the same: free play is crossed by then
+LONGEST_SHARP, FEWEST = 1.0, 3  # [s] it lasts at most, and samples at least, and those after it
+SEEN, NOISES = 4.0, 2.0  # [robust standard deviations] of its lesser edge, and of noise at one
+SLOW = 1.25  # [1] times a sample must be the time scale of the mechanism then
+"""What pushes brings it to half of its new speed in a sample, and a slip to all of it."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Errors:
+    """What an open loop leaves of a run's velocity.
+
+    Args:
+        lane: the run.
+        left: (n,) measured less simulated.
+        speed: (n,) simulated.
+        told: (n,) whether it is compared, and not at the very beginning or end.
+        since: (n,) [s] since it moved.
+        near: samples before and after a slip that must agree.
+        spread: what is ordinary from one sample to the next.
+    """
+
+    lane: Lane
+    left: Array
+    speed: Array
+    told: NDArray[np.bool_]
+    since: Array
+    near: int
+    spread: float
+
+    @property
+    def jumps(self) -> Array:
+        """(n,) from the sample before, where a slip may begin or end."""
+        jumps = np.diff(self.left, prepend=self.left[:1])
+        return np.where(self.told & (self.since > STARTING_SHARP), jumps, 0.0)
 
 
 def glitches(problem: Problem, point: Point) -> Iterator[tuple[int, Damaged]]:
@@ -38,34 +76,39 @@ def glitches(problem: Problem, point: Point) -> Iterator[tuple[int, Damaged]]:
     """
     gains = point.hypothesis.model(point.values).gains
     scale = gains["kA"] / gains["kV"]
-    track = problem.track(point.hypothesis.model(point.values), point.outset, NO_TRUST)
-    errors = problem.measured[:, 1] - track[:, 3]
-    near = max(round(BESIDE / problem.period), 3)
-    for number, (first, last) in enumerate(pairwise(problem.edges.tolist())):
-        lane = problem.lanes[number]
-        mine = np.where(np.isnan(errors[first:last]), 0.0, errors[first:last])
-        told = problem.telling[first:last]
-        if mine.size < 4 * near or not told.any():
-            continue
-        apart = mine - _median(mine, near)
-        spread = max(1.4826 * float(np.median(np.abs(apart[told]))), problem.noise.velocity)
-        moves = np.flatnonzero(lane.seen.moving)
-        began = float(lane.seen.time[moves[0]]) + STARTING if moves.size else np.inf
-        open_ = told & (lane.seen.time > began)
-        open_[:near] = open_[-near:] = False
-        short = _short(apart, open_, spread, near=near, longest=scale / CLEARLY, lane=lane)
-        sharp = _sharp(mine, open_, spread, near=near, scale=scale, lane=lane)
-        for begin, end, size in (*short, *sharp):
-            slip = _slip(lane, begin, end, size / spread, scale)
+    every = dict(_errors(problem, point))
+    sharp = _sharp_of_all(every.values()) if scale >= SLOW * problem.period else {}
+    for number, run in every.items():
+        short = _short(run, longest=scale / CLEARLY)
+        for begin, end, size in (*short, *sharp.get(run, ())):
+            slip = _slip(run.lane, begin, end, size / run.spread, scale)
             yield number, replace(slip, run=number)
 
 
-def _short(
-    apart: Array, told: NDArray[np.bool_], spread: float, *, near: int, longest: float, lane: Lane
-) -> Iterator[tuple[int, int, float]]:
+def _errors(problem: Problem, point: Point) -> Iterator[tuple[int, _Errors]]:
+    """Which run -> what is left of it."""
+    speeds = problem.track(point.hypothesis.model(point.values), point.outset, NO_TRUST)[:, 3]
+    near = max(round(BESIDE / problem.period), 3)
+    for number, (first, last) in enumerate(pairwise(problem.edges.tolist())):
+        lane, told = problem.lanes[number], problem.telling[first:last].copy()
+        left = np.nan_to_num(problem.measured[first:last, 1] - speeds[first:last])
+        moves = np.flatnonzero(lane.seen.moving)
+        if left.size < 4 * near or not told.any() or not moves.size:
+            continue
+        apart = np.abs(left - _median(left, near))[told]
+        spread = max(ROBUST * float(np.median(apart)), problem.noise.velocity)
+        told[:near] = told[-FEWEST:] = False
+        since = lane.seen.time - float(lane.seen.time[moves[0]])
+        yield number, _Errors(lane, left, speeds[first:last], told, since, near, spread)
+
+
+def _short(run: _Errors, *, longest: float) -> Iterator[tuple[int, int, float]]:
     """First and last sample, and size, of what is over before a mechanism could have answered."""
-    time = lane.seen.time
-    for begin, end in _stretches((np.abs(apart) > FAR * spread) & told):
+    time, near = run.lane.seen.time, run.near
+    apart = run.left - _median(run.left, near)
+    told = run.told & (run.since > STARTING)
+    told[-near:] = False
+    for begin, end in _stretches((np.abs(apart) > FAR * run.spread) & told):
         length = float(time[end] - time[begin]) + float(time[1] - time[0])
         peak = float(np.max(np.abs(apart[begin : end + 1])))
         after = float(np.mean(apart[end + 2 : end + 2 + near // 2]))
@@ -76,28 +119,50 @@ def _short(
             yield begin, end, peak
 
 
-def _sharp(
-    errors: Array, told: NDArray[np.bool_], spread: float, *, near: int, scale: float, lane: Lane
-) -> Iterator[tuple[int, int, float]]:
-    """The same of what leaves from one sample to the next, stays, and is back as suddenly."""
-    time = lane.seen.time
-    if scale < SLOW * float(np.median(np.diff(time))):
-        return  # so light a mechanism may do that
-    jumps = np.diff(errors, prepend=errors[:1])
-    far = np.flatnonzero((np.abs(jumps) > FAR * spread) & told)
-    for begin, end in pairwise(far.tolist()):
-        before, inside = errors[begin - near : begin], errors[begin:end]
-        after = errors[end : end + near]
-        size = abs(float(np.median(inside) - np.median(before)))
-        if (
-            end - begin >= FEWEST
-            and time[end] - time[begin] <= LONGEST_SHARP
-            and jumps[begin] * jumps[end] < 0.0
-            and abs(float(np.median(after) - np.median(before))) < BACK * size
-            and float(np.max(np.abs(inside - np.median(inside)))) < BACK * size
-            and min(abs(jumps[begin]), abs(jumps[end])) > (1.0 - BACK) * size
-        ):
+def _sharp_of_all(every: Iterable[_Errors]) -> dict[_Errors, list[tuple[int, int, float]]]:
+    """The same, of each run, of what goes from one sample to the next and is back as suddenly.
+
+    An encoder slips once: where more jumps are left that are none, something else makes them.
+    """
+    found = {run: list(_sharp(run)) for run in every}
+    jumps = sum(np.count_nonzero(np.abs(run.jumps) > FAR * run.spread) for run in found)
+    return found if jumps <= 4 * sum(map(len, found.values())) else {}
+
+
+def _sharp(run: _Errors) -> Iterator[tuple[int, int, float]]:
+    time, jumps = run.lane.seen.time, run.jumps
+    edges = np.flatnonzero(np.abs(jumps) > SEEN * run.spread).tolist()
+    done = 0
+    for clear in np.flatnonzero(np.abs(jumps) > FAR * run.spread).tolist():
+        others = [
+            one
+            for one in edges
+            if abs(one - clear) >= FEWEST
+            and abs(time[one] - time[clear]) <= LONGEST_SHARP
+            and jumps[one] * jumps[clear] < 0.0
+            and min(one, clear) >= done
+        ]
+        if not others:
+            continue
+        begin, end = sorted((clear, max(others, key=lambda one: abs(jumps[one]))))
+        size = _lost(run, begin, end)
+        if size > 0.0:
+            done = end
             yield begin, end - 1, size
+
+
+def _lost(run: _Errors, begin: int, end: int) -> float:
+    """[unit/s] of a share of the speed that is lost between two samples; 0 if it is no such."""
+    before = float(np.median(run.left[begin - run.near : begin]))
+    after = float(np.median(run.left[end : end + run.near]))
+    left, speed = run.left[begin:end] - 0.5 * (before + after), run.speed[begin:end]
+    share = float(left @ speed) / max(float(speed @ speed), 1e-300)
+    size = abs(share) * float(np.sqrt(np.mean(np.square(speed))))
+    rest = float(np.sqrt(np.mean(np.square(left - share * speed))))
+    jumps = run.jumps
+    edges = max(abs(jumps[begin] - share * speed[0]), abs(jumps[end] + share * speed[-1]))
+    alike = rest < BACK * size and edges < BACK * size + NOISES * run.spread
+    return size if alike and abs(after - before) < BACK * size + run.spread else 0.0
 
 
 def _slip(lane: Lane, begin: int, end: int, noises: float, scale: float) -> Damaged:

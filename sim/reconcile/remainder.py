@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from sim.fit.seen import ROBUST
 from sim.log import Array
 from sim.reconcile.lanes import Lane
 from sim.reconcile.problem import Point, Problem
@@ -20,7 +21,6 @@ FEWEST = 20  # windows that tell what is ordinary
 LEAST = 0.5  # [1] of what independent innovations would add up to
 PART = 0.5  # of a sample, by which a run may be late or early
 DELAY, LAG = "delay", "delay.lag"
-ROBUST = 1.4826  # standard deviations in a median absolute deviation
 
 
 @dataclass(frozen=True)
