@@ -34,6 +34,7 @@ CLEARLY = 4.0  # [1] times as long as it lasts must be the time scale of the mec
 STARTING_SHARP = 0.2  # [s] the same: free play is crossed by then
 LONGEST_SHARP, FEWEST = 1.0, 3  # [s] it lasts at most, and samples at least, and those after it
 SEEN, NOISES = 4.0, 2.0  # [robust standard deviations] of its lesser edge, and of noise at one
+OTHERS = 4  # [jumps for each slip, its own two among them] with more, something else jumps
 SLOW = 1.25  # [1] times a sample must be the time scale of the mechanism then
 """What pushes brings it to half of its new speed in a sample, and a slip to all of it."""
 
@@ -126,7 +127,7 @@ def _sharp_of_all(every: Iterable[_Errors]) -> dict[_Errors, list[tuple[int, int
     """
     found = {run: list(_sharp(run)) for run in every}
     jumps = sum(np.count_nonzero(np.abs(run.jumps) > FAR * run.spread) for run in found)
-    return found if jumps <= 4 * sum(map(len, found.values())) else {}
+    return found if jumps <= OTHERS * sum(map(len, found.values())) else {}
 
 
 def _sharp(run: _Errors) -> Iterator[tuple[int, int, float]]:
