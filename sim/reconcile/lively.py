@@ -13,6 +13,7 @@ from sim.effects import EFFECTS
 from sim.reconcile.descent import Begun, adjusting, better, paid, promise
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.problem import Point, Problem
+from sim.reconcile.thresholds import SURE
 
 SHAKES = "two-body"  # kind of effects
 SLOW = "quasistatic"  # tests that say little of them
@@ -62,7 +63,7 @@ class Lively:
         begun = promise(self.problem, self.point, hypothesis, tried, kept=self.kept)
         gone = [better(self.problem, one, steps=STEPS) for one in _best_of_each(begun, effect)]
         gains = [self.point.cost - paid(one) for one in gone]
-        least = max(NEAR * max(gains, default=0.0), 0.0)
+        least = max(NEAR * max(gains, default=0.0), SURE)
         found: list[dict[str, float]] = []
         for gain, one in sorted(zip(gains, gone, strict=True), key=lambda each: -each[0]):
             values = {name: one.values[name] for name in names}
