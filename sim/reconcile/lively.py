@@ -20,7 +20,7 @@ SLOW = "quasistatic"  # tests that say little of them
 MOST = 4  # starts of each kind that go downhill on the lively runs
 STEPS = 3  # that they go
 SAME = 0.2  # [1] by which the parameters of two valleys differ at least
-VALLEYS, NEAR = 2, 0.5  # that are tried on all runs, if they gain this much of what the best gains
+VALLEYS, NEAR = 2, 0.5  # that are tried on all runs, and what they gain of the best one's gain
 HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
 
 
@@ -48,7 +48,10 @@ class Lively:
     def valleys(
         self, hypothesis: Hypothesis, more: list[dict[str, float]], *, heavy: bool
     ) -> list[dict[str, float]]:
-        """The starts that are worth a look at all runs: none if none explains anything.
+        """The starts that are worth a look at all runs.
+
+        None where none makes the lively runs likelier by as much as an effect must (``SURE``): these
+        are the runs in which a joint shows, and a look at all of them takes longest.
 
         Args:
             hypothesis: with the effect that shakes as its last one.
