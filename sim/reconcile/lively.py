@@ -50,8 +50,8 @@ class Lively:
     ) -> list[dict[str, float]]:
         """The starts that are worth a look at all runs.
 
-        None where none makes the lively runs likelier by as much as an effect must (``SURE``): these
-        are the runs in which a joint shows, and a look at all of them takes longest.
+        None where none makes the lively runs likelier by as much as an effect must (``SURE``):
+        these are the runs in which a joint shows, and a look at all of them takes longest.
 
         Args:
             hypothesis: with the effect that shakes as its last one.
