@@ -129,6 +129,8 @@ class Effect:
         stores: [V·unit] energy that it holds at a position, for what can give energy back: a
             function of ``x`` and the parameters. ``pull`` is its slope.
         pace: [s] the fastest it acts, from parameters and gains; None if it is never fast.
+        span: [unit] way along which it stays much the same, from parameters, for what depends on
+            places: its steps are long where the motion is slow. None if it has none.
         order: where it stands along the path from command to motor, for a path.
         cannot: why a mechanism cannot have it, from its scale; empty if it can.
         simpler: the effect with fewer parameters that does about the same; empty if there is none.
@@ -150,6 +152,7 @@ class Effect:
     symmetric: bool = True
     stores: Callable[..., float] | None = None
     pace: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
+    span: Callable[[Mapping[str, float]], float] | None = None
     order: int = 0
     cannot: Callable[[Scale], str] = field(default=lambda _: "")
     simpler: str = ""

@@ -80,16 +80,22 @@ class Evidence:
         A column that looks like friction, back-EMF, inertia or a constant is not credited with what
         those can explain by themselves: they are in the sum, and forgotten.
         """
+        return np.asarray(self.shares(*(column[:, None] for column in columns))[:, 0])
+
+    def shares(self, *columns: Array) -> Array:
+        """(k, m) such weights of m sums of k columns (n, m): one sum after another, by itself."""
         kept, rest = self._adjusted
-        table = np.column_stack(columns)
-        whole = np.linalg.norm(table, axis=0)
-        table = table - kept @ (kept.T @ table)
-        size = np.linalg.norm(table, axis=0)
+        table = np.stack(columns)
+        whole = np.linalg.norm(table, axis=1)
+        table -= kept @ (kept.T @ table)
+        size = np.linalg.norm(table, axis=1)
         size[size <= HARDLY * whole] = np.inf
-        square = (table / size).T @ (table / size)
-        told, ways = np.linalg.eigh(square)
-        inverse = (ways / np.where(told > HARDLY, told, np.inf)) @ ways.T
-        return np.asarray(inverse @ ((table / size).T @ rest) / size)
+        table /= size[:, None]
+        square = np.array([[np.sum(one * other, axis=0) for other in table] for one in table])
+        told, ways = np.linalg.eigh(square.T)
+        parts = ways.transpose(0, 2, 1) @ (rest @ table).T[..., None]
+        parts /= np.where(told > HARDLY, told, np.inf)[..., None]
+        return np.asarray((ways @ parts)[..., 0].T / size)
 
     def explained(self, column: Array) -> tuple[float, float]:
         """The weight of one column (n,), and the sum of squares [V²] of ``missing`` that it takes.

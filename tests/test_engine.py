@@ -12,7 +12,7 @@ import pytest
 
 from sim.effects import EFFECTS
 from sim.effects.drag import EFFECT as DRAG
-from sim.engine import NO_TRUST, NO_WIRES, State, arrays, constants, finest, move
+from sim.engine import EXACT, NO_TRUST, NO_WIRES, State, arrays, constants, finest, move
 from sim.engine import kernel as kernel_room
 from sim.engine.compose import compose, is_compiled
 from sim.engine.joined import WAYS
@@ -373,7 +373,7 @@ def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
         "rubs": np.zeros(1), "sessions": np.zeros(1), "c": constants(PLAIN), "w": NO_WIRES,
         "on": on, "p": parameters,
         "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS), "began": np.zeros(1),
-        "finest": math.inf, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_TRUST,
+        "steps": EXACT, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_TRUST,
         "out": np.zeros((TIME.size, 8)),
     }  # fmt: skip
     engine = compose(EFFECTS)

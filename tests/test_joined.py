@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 
 from sim.engine import NO_TRUST, Lead, State, follow, move
-from sim.engine.joined import HALF, ROW, WAYS, WHOLE, becomes, tabled
+from sim.engine.joined import MOVES, ROW, STANDS, WAYS, becomes, doubled, prepared, tabled
 from sim.model import Model, Part
 
 FINE = 2e-5  # [s] steps of what the others are compared with
@@ -57,36 +57,59 @@ def test_the_tables_are_the_matrix_exponential(dt, kv, bodies, swing, damping):
     damp = 2.0 * damping * math.sqrt(stiff * reduced)
     ways = np.zeros(WAYS)
 
-    tabled(ways, dt, kv, own, other, stiff, damp)
+    prepared(ways, MOVES, kv, own, other, stiff, damp)
 
     flow = np.zeros((6, 6))  # of d, v, w, y, b, r
     flow[0, 1:3] = 1.0, -1.0
     flow[1, [0, 1, 2, 4]] = -stiff / own, -(damp + kv) / own, damp / own, 1.0 / own
     flow[2, [0, 1, 2, 5]] = stiff / other, damp / other, -damp / other, 1.0 / other
     flow[3, 2] = 1.0
-    for at, step in ((HALF, 0.5 * dt), (WHOLE, dt)):
-        right = expm(flow * step)[:4][:, [0, 1, 2, 4, 5]]
-        made = ways[at : at + 4 * ROW].reshape(4, ROW)
-        assert made == pytest.approx(right, rel=1e-6, abs=1e-8 * np.abs(right).max())
+    for level in range(4):
+        right = expm(flow * dt / 2**level)[:4][:, [0, 1, 2, 4, 5]]
+        for make in (doubled, tabled):
+            made = numbers(ways, make(ways, MOVES, dt, level))
+            assert made == pytest.approx(right, rel=1e-6, abs=1e-8 * np.abs(right).max())
+
+
+def numbers(ways, at):
+    return ways[at : at + 4 * ROW].reshape(4, ROW)
 
 
 def test_a_table_is_kept_for_the_next_step_and_made_anew_for_another():
     ways = np.zeros(WAYS)
-    tabled(ways, 0.01, 2.0, 0.1, 0.2, 50.0, 0.1)
-    first = ways.copy()
+    prepared(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
+    first = numbers(ways, doubled(ways, MOVES, 0.01, 0)).copy()
+    half = numbers(ways, doubled(ways, MOVES, 0.01, 1)).copy()
+    kept = ways.copy()
 
-    tabled(ways, 0.01, 2.0, 0.1, 0.2, 50.0, 0.1)
-    assert (ways == first).all()
+    doubled(ways, MOVES, 0.01, 0)
+    tabled(ways, MOVES, 0.01, 1)
+    assert (ways == kept).all()
 
-    tabled(ways, 0.005, 2.0, 0.1, 0.2, 50.0, 0.1)
-    assert ways[WHOLE:].tolist() == pytest.approx(first[HALF:WHOLE].tolist())
+    assert numbers(ways, doubled(ways, MOVES, 0.005, 0)) == pytest.approx(half)
+
+    prepared(ways, MOVES, 2.0, 0.1, 0.3, 50.0, 0.1)
+    assert numbers(ways, doubled(ways, MOVES, 0.01, 0)) != pytest.approx(first)
+
+
+def test_a_load_that_stands_has_tables_of_its_own():
+    ways = np.zeros(WAYS)
+    prepared(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
+    first = numbers(ways, doubled(ways, MOVES, 0.01, 0)).copy()
+
+    prepared(ways, STANDS, 2.0, 0.1, 1e9, 50.0, 0.1)
+    stands = numbers(ways, doubled(ways, STANDS, 0.01, 0))
+
+    assert stands[2].tolist() == pytest.approx([0.0, 0.0, 1.0, 0.0, 0.0], abs=1e-6)
+    assert (numbers(ways, doubled(ways, MOVES, 0.01, 0)) == first).all()
 
 
 def test_a_row_is_what_a_motion_and_its_pushes_become():
     ways = np.zeros(WAYS)
-    tabled(ways, 0.01, 0.0, 0.1, 0.2, 50.0, 0.0)
+    prepared(ways, MOVES, 0.0, 0.1, 0.2, 50.0, 0.0)
+    at = doubled(ways, MOVES, 0.01, 0)
 
-    fallen = becomes(ways, WHOLE + 2 * ROW, 0.0, 0.0, 0.0, 0.0, -0.3)
+    fallen = becomes(ways, at + 2 * ROW, 0.0, 0.0, 0.0, 0.0, -0.3)
 
     assert fallen == pytest.approx(-0.01 * 0.3 / 0.2, rel=0.01)
 

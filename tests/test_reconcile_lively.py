@@ -13,12 +13,13 @@ from sim.model import Part
 from sim.reconcile.descent import better
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
-from sim.reconcile.lively import MOST, SAME, STEPS, VALLEYS, Lively, _best_of_each
+from sim.reconcile.lively import MOST, SAME, VALLEYS, Lively, _best_of_each
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
 
 BASE = Hypothesis("simple")
 SLACK = 0.02  # [rad]
+STEPS = 3  # downhill
 SOFT = BASE + "compliance"
 
 

@@ -15,7 +15,7 @@ from sim.evidence import Evidence
 
 EVERYDAY = 0.06  # [V]
 
-FEWEST, MOST = 2.0, 80.0  # [1] times that it comes back within what a log covers
+FEWEST, MOST, FINER = 2.0, 80.0, 0.25  # [1] times that it comes back within what a log covers
 ENOUGH = 1500  # samples that show a spectrum
 SHOWN = 3  # peaks of the spectrum that are worth a start
 
@@ -41,22 +41,30 @@ def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
     return gains["kV"] / (6.0 * max(values["turns"], 1e-9))
 
 
+def span(values: Mapping[str, float]) -> float:
+    """[unit] a period over 2π."""
+    return 1.0 / max(values["turns"], 1e-9)
+
+
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     """The strongest lines in the spectrum of what is missing over position."""
     length = float(np.ptp(seen.position)) if seen.position.size else 0.0
     if length <= 0.0:
         return
-    tried = 2.0 * math.pi * np.arange(FEWEST, MOST, 0.25) / length
+    tried = 2.0 * math.pi * np.arange(FEWEST, MOST, FINER) / length
     some = slice(None, None, max(seen.position.size // ENOUGH, 1))
     few = seen.every(some)
-    weights = [few.share(np.cos(t * few.position), np.sin(t * few.position)) for t in tried]
-    power = [float(np.hypot(*pair)) for pair in weights]
-    left = np.array(power)
+    turned = np.exp(1j * (tried[1] - tried[0]) * few.position)  # by which each wave is ahead
+    waves = np.repeat(turned[:, None], tried.size, axis=1)
+    waves[:, 0] = np.exp(1j * tried[0] * few.position)
+    waves = np.multiply.accumulate(waves, axis=1)
+    cosine, sine = few.shares(waves.real, waves.imag)
+    left = np.hypot(cosine, sine)
     for _ in range(SHOWN):
         best = int(np.argmax(left))
         yield {
-            "cosine": float(weights[best][0]),
-            "sine": float(weights[best][1]),
+            "cosine": float(cosine[best]),
+            "sine": float(sine[best]),
             "turns": float(tried[best]),
         }
         left[max(best - 3, 0) : best + 4] = 0.0
@@ -91,5 +99,6 @@ EFFECT = Effect(
     symmetric=False,
     stores=stored,
     pace=pace,
+    span=span,
     everyday=everyday,
 )

@@ -16,7 +16,17 @@ from types import ModuleType
 import numpy as np
 
 from sim.effects import EFFECTS
-from sim.engine.asked import COARSEST, ORDER, arrays, coarsest, constants, finest, only_delays
+from sim.engine.asked import (
+    COARSEST,
+    EXACT,
+    ORDER,
+    arrays,
+    constants,
+    finest,
+    only_delays,
+    searched,
+    steps,
+)
 from sim.engine.compose import compose, is_compiled
 from sim.engine.joined import WAYS
 from sim.engine.kernel import Kernel
@@ -35,8 +45,8 @@ from sim.log import Array
 from sim.model import Model
 
 __all__ = [
-    "COARSEST", "NO_TRUST", "NO_WIRES", "ORDER", "Lead", "State", "Track", "arrays", "compiled",
-    "constants", "finest", "follow", "move", "ready",
+    "COARSEST", "EXACT", "NO_TRUST", "NO_WIRES", "ORDER", "Lead", "State", "Track", "arrays",
+    "compiled", "constants", "finest", "follow", "move", "ready",
 ]  # fmt: skip
 
 ONE_AT_A_TIME = Lock()
@@ -123,7 +133,9 @@ def move(
     on, parameters = arrays(model)
     out = empty(time.size)
     simple = not wires.any() and model.type != "arm" and all(map(only_delays, model.parts))
-    longest = step or (math.inf if simple else finest(model))
+    longest = EXACT if simple else steps(model)
+    if step:
+        longest = np.array([step, math.inf, step])
     kernel = _plain() if plain else _compiled()
     kernel.move(
         np.array([0.0, time.size]), _doubles(time), _doubles(voltage), state.body[None],
@@ -191,7 +203,7 @@ def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
     """
     on, parameters = arrays(model)
     simple = model.type != "arm" and all(map(only_delays, model.parts))
-    longest = math.inf if simple else coarsest(model)
+    longest = EXACT if simple else searched(model)
     play, kernel = _play(model), _compiled()
     edges = np.cumsum([0.0, *(lead.time.size for lead in leads)])
     time = np.concatenate([lead.time for lead in leads], dtype=np.float64)

@@ -9,13 +9,17 @@ from sim.engine.compose import HOOKS, places
 from sim.log import Array
 from sim.model import Model, Part
 
-__all__ = ["ORDER", "arrays", "coarsest", "constants", "finest", "only_delays"]
+__all__ = [
+    "COARSEST", "EXACT", "ORDER", "arrays", "constants", "finest", "only_delays", "searched",
+    "steps",
+]  # fmt: skip
 
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
 # middle rule is then far below a thousandth for anything slower than 10 ms
 SEARCHED = 0.01  # [s] the same while a search looks for an effect
 LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] nothing on a robot needs finer ones
 SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
+EXACT: Array = np.array([math.inf, math.inf, 0.0])  # steps of a model with an exact solution
 PLACES = places(EFFECTS)
 NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutral.values()])
 ORDER = {name: place for place, name in enumerate(EFFECTS)}
@@ -62,16 +66,34 @@ def finest(model: Model) -> float:
     return max(min(COARSEST, SHARE_OF_PACE * _fastest(model)), LEAST_STEP)
 
 
-def coarsest(model: Model) -> float:
-    """[s] the same while a search looks for an effect."""
-    return max(min(SEARCHED, 2.0 * SHARE_OF_PACE * _fastest(model)), LEAST_SEARCHED)
+def steps(model: Model) -> Array:
+    """(3,) the longest step: [s], [unit] of way, and [s] that even a fast one lasts."""
+    longest = min(COARSEST, SHARE_OF_PACE * _fastest(model, places=False))
+    return np.array([max(longest, LEAST_STEP), SHARE_OF_PACE * _shortest(model), LEAST_STEP])
 
 
-def _fastest(model: Model) -> float:
-    """[s] the shortest time scale of a model."""
+def searched(model: Model) -> Array:
+    """(3,) the same while a search looks for an effect."""
+    share = 2.0 * SHARE_OF_PACE
+    longest = min(SEARCHED, share * _fastest(model, places=False))
+    return np.array([max(longest, LEAST_SEARCHED), share * _shortest(model), LEAST_SEARCHED])
+
+
+def _fastest(model: Model, *, places: bool = True) -> float:
+    """[s] the shortest time scale of a model; ``places``: of what depends on them, too."""
     paces = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
     for part in model.parts:
-        pace = EFFECTS[part.effect].pace
-        if pace is not None:
-            paces.append(pace(part.parameters, model.gains))
+        effect = EFFECTS[part.effect]
+        if effect.pace is not None and (places or effect.span is None):
+            paces.append(effect.pace(part.parameters, model.gains))
     return min(paces)
+
+
+def _shortest(model: Model) -> float:
+    """[unit] the shortest way along which something stays much the same."""
+    spans = [math.inf]
+    for part in model.parts:
+        span = EFFECTS[part.effect].span
+        if span is not None:
+            spans.append(span(part.parameters))
+    return min(spans)

@@ -47,6 +47,7 @@ SHAPES = {  # of the arrays that `runs` asks for, but for what effects remember
     "sessions": "(count,)",
     "began": "(count,)",
     "ways": f"({WAYS},)",
+    "steps": "(3,)",
     "measured": "(rows, 2)",
     "trust": "(2, 2)",
     "out": "(n, 8)",
@@ -175,8 +176,7 @@ def _entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
         shapes = {**SHAPES, "memory": f"({len(effects)},)"}
         given |= {name: f"carray({name}, {shape})" for name, shape in shapes.items()}
         given["plain"] = "plain != 0"
-        kinds = {"finest": "float64", "plain": "int64"}
-        places = (f"types.{kinds[n]}" if n in kinds else "place" for n in asked)
+        places = ("types.int64" if name == "plain" else "place" for name in asked)
         yield "place = types.CPointer(types.float64)"
         yield f"called = types.void(types.int64, types.int64, types.int64, {', '.join(places)})"
         yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"

@@ -4,50 +4,49 @@
     push = d·stiff + (v - w)·damp
 
 is linear, so while b and r [V] stay the same its exact solution is a table of numbers that depends
-on the step alone. It is made of the series of the exponential for a short moment, doubled until it
-spans the step (Moler and Van Loan 2003, method 3), and kept for the next step that is as long.
+on the step alone: four rows (d, v, w, and how far the load goes) of what d, v, w, b and r do. It is
+made of the series of the exponential for a short moment, doubled until it spans the step (Moler and
+Van Loan 2003, method 3), and kept for the next step that is as long.
 
-``ways`` holds the step [s] and the inertia [V·s²/unit] it was made for, then the tables of half the
-step and of the whole: four rows (d, v, w, and how far the load goes) of what d, v, w, b and r do.
+``ways`` holds what was made for a motor and its load, twice: for a load that moves, and for one
+that stands. Each has the terms of the series, and a table for a step, for half of it, for half of
+that and so on: where something happens in a step, its parts are tried.
 """
 
 import math
 
 from sim.log import Array  # composed: end
 
-STEP, HEAVY, HALF = 0, 1, 2  # places in ``ways``
+KNOWN, STIFF, DAMP, SMALL = range(4)  # places in ``ways``: for which kA [V·s²/unit], what joins
+# them, and a small step [s]; then come the two sets
+SETS = 4
+HEAVY, RATE = 0, 1  # places in a set: the inertia it was made for, and its fastest rate [1/s]
+LEVELS = 10  # tables: of a step, of half of it, ...
 ROW = 5  # numbers
 TABLE = 4 * ROW
-WHOLE = HALF + TABLE
-WAYS = WHOLE + TABLE  # numbers in all
-SHORT = 0.25  # [1] of the fastest rate that the moment of the series lasts
-TERMS = 8  # of it: what is left out is a part in 10¹¹
+FIRST = 2  # table in a set: the step [s] of which it is a part, then its numbers
+TERMS = 12  # of the series beyond the first: what is left out is a part in 10¹¹
+POWERS = FIRST + LEVELS * (1 + TABLE)  # the terms
+SET = POWERS + (TERMS + 1) * TABLE
+MOVES, STANDS = SETS, SETS + SET  # where the sets begin
+WAYS = SETS + 2 * SET  # numbers in all
+MOST = 60  # doublings, of a rate that has no end
+SHORT = 0.7  # [1] of the fastest rate that the moment of the series lasts
 SAME = 1e-9  # [s] steps that differ by less are one
 
 
-def tabled(
-    ways: Array, dt: float, kv: float, own: float, other: float, stiff: float, damp: float
+def prepared(
+    ways: Array, at: int, kv: float, own: float, other: float, stiff: float, damp: float
 ) -> None:
-    """Make the tables of a step, if they are not there."""
-    if abs(ways[STEP] - dt) < SAME and ways[HEAVY] == own + other:
+    """Make the terms of a set, if they are not there: row by row, each of the one before."""
+    if ways[at + HEAVY] == own + other:
         return
-    rate = max((damp + kv) / own, damp / other, math.sqrt(stiff * (own + other) / (own * other)))
-    doublings = 0
-    moment = 0.5 * dt
-    while moment * rate > SHORT:
-        moment *= 0.5
-        doublings += 1
-    series(ways, moment, kv, own, other, stiff, damp)
-    for _ in range(doublings):
-        double_table(ways, HALF, HALF)
-    double_table(ways, HALF, WHOLE)
-    ways[STEP], ways[HEAVY] = dt, own + other
-
-
-def series(
-    ways: Array, moment: float, kv: float, own: float, other: float, stiff: float, damp: float
-) -> None:
-    """The table of a moment, at the place of the half step: row by row, term by term."""
+    ways[at + HEAVY] = own + other
+    ways[at + RATE] = max(
+        (damp + kv) / own, damp / other, math.sqrt(stiff * (own + other) / (own * other))
+    )
+    for level in range(LEVELS):
+        ways[at + FIRST + level * (1 + TABLE)] = -1.0
     for row in range(4):
         d = v = w = b = r = 0.0
         if row == 0:
@@ -56,11 +55,11 @@ def series(
             v = 1.0
         elif row == 2:
             w = 1.0
-        at = HALF + row * ROW
         way = 1.0 if row == 3 else 0.0  # the load's way begins with w
-        ways[at], ways[at + 1], ways[at + 2], ways[at + 3], ways[at + 4] = d, v, w, b, r
-        for term in range(1, TERMS + 1):
-            part = moment / term
+        for term in range(TERMS + 1):
+            to = at + POWERS + term * TABLE + row * ROW
+            ways[to], ways[to + 1], ways[to + 2], ways[to + 3], ways[to + 4] = d, v, w, b, r
+            part = 1.0 / (term + 1)
             apart = v / own - w / other  # what a push between the two does
             b, r = part * v / own, part * w / other
             d, v, w = (
@@ -69,11 +68,43 @@ def series(
                 part * (way - d + damp * apart),
             )
             way = 0.0
-            ways[at] += d
-            ways[at + 1] += v
-            ways[at + 2] += w
-            ways[at + 3] += b
-            ways[at + 4] += r
+
+
+def tabled(ways: Array, at: int, dt: float, level: int) -> int:
+    """Where the table of a part of a step is; it is made if it is not there."""
+    step = at + FIRST + level * (1 + TABLE)
+    if abs(ways[step] - dt) < SAME:
+        return step + 1
+    moment, doublings = dt / (1 << level), 0
+    while moment * ways[at + RATE] > SHORT and doublings < MOST:
+        moment *= 0.5
+        doublings += 1
+    series(ways, at + POWERS, moment, step + 1)
+    for _ in range(doublings):
+        double_table(ways, step + 1, step + 1)
+    ways[step] = dt
+    return step + 1
+
+
+def doubled(ways: Array, at: int, dt: float, level: int) -> int:
+    """The same, made of the table of its half."""
+    step = at + FIRST + level * (1 + TABLE)
+    if abs(ways[step] - dt) < SAME:
+        return step + 1
+    double_table(ways, tabled(ways, at, dt, level + 1), step + 1)
+    ways[step] = dt
+    return step + 1
+
+
+def series(ways: Array, powers: int, moment: float, to: int) -> None:
+    """The table of a moment: all its terms."""
+    last = powers + TERMS * TABLE
+    for i in range(TABLE):
+        ways[to + i] = ways[last + i]
+    for term in range(TERMS):
+        here = last - (term + 1) * TABLE
+        for i in range(TABLE):
+            ways[to + i] = ways[to + i] * moment + ways[here + i]
 
 
 def double_table(ways: Array, at: int, to: int) -> None:

@@ -31,7 +31,7 @@ NUMBER = np.dtype(np.float64)
 INTEGER, REAL, PLACE = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
 BYTES = ctypes.c_char * 0
 CALLED = ctypes.CFUNCTYPE(  # as `_entry` in sim/engine/compose.py says it
-    None, *[INTEGER] * 3, *[PLACE] * 15, REAL, INTEGER, *[PLACE] * 3
+    None, *[INTEGER] * 3, *[PLACE] * 16, INTEGER, *[PLACE] * 3
 )
 NO_USE = b""  # what is kept where object files were tried, and do not work
 PATIENCE = 60  # [s] for one that takes a tenth
@@ -54,7 +54,7 @@ class Kernel:
     def move(
         self, edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array,
         rubs: Array, sessions: Array, c: Array, w: Array, on: Array, p: Array, memory: Array,
-        ways: Array, began: Array, finest: float, plain: bool, measured: Array, trust: Array,
+        ways: Array, began: Array, steps: Array, plain: bool, measured: Array, trust: Array,
         out: Array,
     ) -> None:  # fmt: skip
         """As ``runs`` in ``sim.engine.stepping``.
@@ -74,8 +74,8 @@ class Kernel:
         self._call(
             count, n, len(measured), _place(edges), _place(time), _place(asked), _place(bodies),
             _place(low), _place(high), _place(rubs), _place(sessions), _place(c), _place(w),
-            _place(on), _place(p), _place(memory), _place(ways), _place(began), finest, plain,
-            _place(measured), _place(trust), _place(out),
+            _place(on), _place(p), _place(memory), _place(ways), _place(began), _place(steps),
+            plain, _place(measured), _place(trust), _place(out),
         )  # fmt: skip
 
 
@@ -191,8 +191,8 @@ def tried(kept: Path) -> None:
         sys.exit(1)
     none, some = np.zeros((0, 2)), np.zeros(ROOM)
     runs = dict.fromkeys(("time", "asked", "low", "high", "rubs", "sessions", "began"), none[:, 0])
-    model = dict.fromkeys(("c", "w", "on", "p", "memory", "ways", "trust"), some)
+    model = dict.fromkeys(("c", "w", "on", "p", "memory", "ways", "steps", "trust"), some)
     Kernel(*found).move(
-        edges=np.zeros(1), bodies=np.zeros((0, 5)), **runs, **model, finest=1.0, plain=True,
+        edges=np.zeros(1), bodies=np.zeros((0, 5)), **runs, **model, plain=True,
         measured=none, out=none,
     )  # fmt: skip

@@ -31,6 +31,7 @@ it; the position that was expected and the velocity that the sensor would see ar
 
 
 NONE = 1e-9  # [s] a step that is none
+LONGEST, ALONG, LEAST = range(3)  # places in ``steps``: [s], [unit] of way, [s]
 
 
 def advance(
@@ -93,9 +94,20 @@ def pause(on: Numbers, p: Numbers, now: float, after: float, clock: float) -> fl
     return when if now + NONE < when < after else after
 
 
+def count_of(span: float, steps: Array, v: float, volts: float, c: Numbers) -> float:
+    """In how many steps a time [s] is gone: short ones where it is fast, and places matter."""
+    longest = steps[LONGEST]
+    if steps[ALONG] < math.inf:
+        most = max(abs(v), abs(volts) / c[KV])
+        fast = min(abs(v) + span * abs(volts) / c[KA], most)
+        if fast * longest > steps[ALONG]:
+            longest = max(steps[ALONG] / fast, steps[LEAST])
+    return float(max(math.ceil(span / longest - 1e-9), 1))
+
+
 def run(
     time: Array, asked: Array, state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers,
-    memory: Array, ways: Array, began: float, finest: float, plain: bool, measured: Array,
+    memory: Array, ways: Array, began: float, steps: Array, plain: bool, measured: Array,
     trust: Array, out: Array,
 ) -> None:  # fmt: skip
     """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
@@ -103,7 +115,8 @@ def run(
     A command holds from its sample until the next, later by what the effects delay it; before the
     first has come, what rests is held where it rests, by a stop or a brake. ``measured`` (n, 2) are
     positions and velocities that correct the motion as it goes, nan where there is none, by the
-    gains ``trust`` (2, 2); without rows it goes its way. ``ways`` is room for the tables of
+    gains ``trust`` (2, 2); without rows it goes its way. A step lasts as long as ``steps`` lets it:
+    [s], [unit] of way, and [s] that even that does not shorten. ``ways`` is room for the tables of
     ``joined.py``: of one model only, and empty at first.
     """
     lag = late(on, p)
@@ -132,9 +145,9 @@ def run(
                 state[V] = state[W] = 0.0  # whatever a measurement made of it
             else:
                 volts = asked[command] if command >= 0 else 0.0
-                count = max(math.ceil((after - now) / finest - 1e-9), 1)
+                count = count_of(after - now, steps, state[V], volts, c)
                 dt = (after - now) / count
-                for i in range(count):
+                for i in range(int(count)):
                     clock = began + now + (i + 0.5) * dt - time[0]
                     ka = advance(state, c, w, on, p, memory, ways, volts, clock, dt, plain, ka)
             now = after
@@ -145,7 +158,7 @@ def run(
 def runs(
     edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array, rubs: Array,
     sessions: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, ways: Array,
-    began: Array, finest: float, plain: bool, measured: Array, trust: Array, out: Array,
+    began: Array, steps: Array, plain: bool, measured: Array, trust: Array, out: Array,
 ) -> None:  # fmt: skip
     """Move through runs that lie one behind the other, ``run`` by ``run``.
 
@@ -162,7 +175,7 @@ def runs(
         lead = measured[first:last] if measured.shape[0] > 0 else measured
         run(
             time[first:last], asked[first:last], bodies[k], bounded(c, low[k], high[k], rubs[k]),
-            w, on, p, memory, ways, began[k], finest, plain, lead, trust, out[first:last],
+            w, on, p, memory, ways, began[k], steps, plain, lead, trust, out[first:last],
         )  # fmt: skip
 
 

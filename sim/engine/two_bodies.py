@@ -10,7 +10,20 @@ Plain functions of numbers: ``sim/engine/compose.py`` compiles them together wit
 import math
 
 from sim.engine.hooks import Numbers, pull, share, slack, softness  # composed: begin
-from sim.engine.joined import HALF, ROW, WHOLE, becomes, tabled
+from sim.engine.joined import (
+    DAMP,
+    KNOWN,
+    LEVELS,
+    MOVES,
+    ROW,
+    SMALL,
+    STANDS,
+    STIFF,
+    becomes,
+    doubled,
+    prepared,
+    tabled,
+)
 from sim.engine.one_body import (
     HIGH,
     KV,
@@ -34,6 +47,7 @@ BLOW = 4  # steps in which one is taken while teeth bounce
 MOMENT = 1e-6  # [s] a shorter part of a step is not worth a step of its own
 LOOSE_DAMPING = 0.05  # [1] of critical, of a belt, a chain or an arm that bends
 FINE, FINEST = 0.06, 2e-4  # [1] of their pace, [s]: a step in which one turns, or teeth meet
+PARTS = 1 << (LEVELS - 1)  # of a step, at most: the half of what swings has a table, too
 TINY, HUGE = 1e-9, 1e12  # [V·s/unit] a kV that is none; [1] an inertia that nothing moves
 
 
@@ -45,47 +59,52 @@ def double(
 
     As far as nothing happens in it, it is gone in one; what happens is closed in by halving.
     """
-    part = share(on, p)
-    play, soft = slack(on, p), softness(on, p)
-    own, reduced = part * ka, part * (1.0 - part) * ka
-    stiff, damp = joins(soft, reduced)
-    pace = min(1.4 * math.sqrt(reduced / stiff), own / max(c[KV], TINY))
-    fine = max(FINE * pace, FINEST)
-    take, u = dt, 0.0
-    while dt > 0.0:
-        take = min(take, dt)
-        if not take > fine:  # nor where it flies off, and nothing is a number
+    part, play = share(on, p), slack(on, p)
+    if ways[KNOWN] != ka:
+        ways[KNOWN] = ka
+        reduced = part * (1.0 - part) * ka
+        stiff, damp = joins(softness(on, p), reduced)
+        pace = min(1.4 * math.sqrt(reduced / stiff), part * ka / max(c[KV], TINY))
+        ways[STIFF], ways[DAMP], ways[SMALL] = stiff, damp, max(FINE * pace, FINEST)
+    stiff, damp = ways[STIFF], ways[DAMP]
+    u, level, gone, size = 0.0, 0, 0, PARTS
+    while gone < PARTS:
+        take = dt / (1 << level)
+        if size == 1 or not take > ways[SMALL]:  # nor where it flies off, and nothing is a number
             u = meeting(state, c, w, on, p, memory, asked, off, ka, take)
         else:
             push = joint(play, stiff, damp, state[X] - state[Y], state[V] - state[W])
             if play == 0.0 or push != 0.0:
                 one = swing(
-                    state, c, w, on, p, memory, ways, asked, off, ka, take, play, stiff, damp
+                    state, c, w, on, p, memory, ways, asked, off, ka, dt, level, play, stiff, damp
                 )
             else:
                 one = loose(state, c, w, on, p, memory, asked, off, ka, take, play, stiff, damp)
             if math.isnan(one):
-                take *= 0.5
+                size, level = size // 2, level + 1
                 continue
             u = one
-        dt -= take
-        take = dt
+        gone += size
+        while level > 0 and gone % (2 * size) == 0:  # as long a part as may begin here
+            size, level = 2 * size, level - 1
     return u
 
 
 def swing(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
-    ways: Array, asked: float, off: bool, ka: float, dt: float, play: float, stiff: float,
-    damp: float,
+    ways: Array, asked: float, off: bool, ka: float, whole: float, level: int, play: float,
+    stiff: float, damp: float,
 ) -> float:  # fmt: skip
     """The same of bodies that push each other, exactly but for what is not linear.
 
-    That is taken at the middle of the step. Where one of them turns, teeth part, or a load that
+    It goes a part of the whole step: half of it, half of that, as ``level`` says. What is not
+    linear is taken at the middle. Where one of them turns, teeth part, or a load that
     stands begins to move, there is no step, and nan is returned.
     """
     part = share(on, p)
     rest = 1.0 - part
     own, other = part * ka, rest * ka
+    dt = whole / (1 << level)
     x, v, y, z = state[X], state[V], state[Y], state[W]
     side = 0.5 * play * math.copysign(1.0, x - y)
     d = x - y - side
@@ -97,22 +116,24 @@ def swing(
     if stands and v == 0.0:
         return u if held(c, on, p, u - stiff * d, part) else math.nan
 
-    tabled(ways, dt, c[KV], own, HUGE * ka if stands else other, stiff, damp)
+    which = STANDS if stands else MOVES
+    prepared(ways, which, c[KV], own, HUGE * ka if stands else other, stiff, damp)
+    half, full = tabled(ways, which, whole, level + 1), doubled(ways, which, whole, level)
     way, toward = math.copysign(1.0, v), math.copysign(1.0, z)
     b = u - way * part * slides(c, on, p, v, way)
     r = 0.0 if stands else r - toward * rest * slides(c, on, p, z, toward)
-    d_half = becomes(ways, HALF, d, v, z, b, r)
-    v_half = becomes(ways, HALF + ROW, d, v, z, b, r)
-    z_half = becomes(ways, HALF + 2 * ROW, d, v, z, b, r)
-    y_half = y + becomes(ways, HALF + 3 * ROW, d, v, z, b, r)
+    d_half = becomes(ways, half, d, v, z, b, r)
+    v_half = becomes(ways, half + ROW, d, v, z, b, r)
+    z_half = becomes(ways, half + 2 * ROW, d, v, z, b, r)
+    y_half = y + becomes(ways, half + 3 * ROW, d, v, z, b, r)
     u = through(c, w, on, p, memory, asked, v_half, off)
     b = u - way * part * slides(c, on, p, v_half, way)
     r = -gravity(c, y_half) - pull(on, p, y_half, z_half)
     r = 0.0 if stands else r - toward * rest * slides(c, on, p, z_half, toward)
-    d_end = becomes(ways, WHOLE, d, v, z, b, r)
-    v_end = becomes(ways, WHOLE + ROW, d, v, z, b, r)
-    z_end = becomes(ways, WHOLE + 2 * ROW, d, v, z, b, r)
-    y_end = y + becomes(ways, WHOLE + 3 * ROW, d, v, z, b, r)
+    d_end = becomes(ways, full, d, v, z, b, r)
+    v_end = becomes(ways, full + ROW, d, v, z, b, r)
+    z_end = becomes(ways, full + 2 * ROW, d, v, z, b, r)
+    y_end = y + becomes(ways, full + 3 * ROW, d, v, z, b, r)
 
     slowest = min(v * way, v_half * way, v_end * way)
     if stands:

@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sim.evidence import clocks, follow_on
-from sim.fit.seen import Seen, see
-from sim.log import Log
+from sim.fit.seen import ROBUST, Seen, see
+from sim.log import Array, Log
 
 FEWEST = 4  # samples of a run that can be compared, as ``see`` has it
 AT_REST = 0.05  # [share of the top speed] that a position may creep in one sample of a rest
 SAME_PLACE = 0.01  # [share of a run's way] within which a place is the place it began at
+SANK = 5.0  # [1] times the roughness of its position, by which a run sank below where it began
 AROUND = 0.03  # [s] on both sides of what is set aside
 MOST_RUNS = 1_000_000  # of one log
 AFTER = 1e-6  # [s] by which a log begins after another: nobody knows how long the pause was
@@ -120,10 +121,11 @@ def _rested(seen: Seen, *, top: float) -> Seen:
 
 
 def _stops(seen: Seen) -> tuple[float, float]:
-    """What lies beneath a run that began at rest and was never beyond where it began.
+    """What lies beneath a run that began at rest and was never far beyond where it began.
 
     Arms and elevators begin on a stop, and stay there whatever gravity does until the voltage
-    lifts them. Where it is friction that holds instead, a stop at that place changes nothing.
+    lifts them. Where it is friction that holds instead, a stop at that place changes nothing. One
+    that first sank a little, more than its position is rough, found its stop there.
     """
     x = seen.measured[:, 0]
     x = x[~np.isnan(x)]
@@ -134,4 +136,14 @@ def _stops(seen: Seen) -> tuple[float, float]:
     high = x.max() < seen.position + near
     if low == high:
         return -np.inf, np.inf
-    return (seen.position, np.inf) if low else (-np.inf, seen.position)
+    rough = SANK * _roughness(x)
+    lowest, highest = float(x.min()), float(x.max())
+    if low:
+        return (lowest if lowest < seen.position - rough else seen.position), np.inf
+    return -np.inf, (highest if highest > seen.position + rough else seen.position)
+
+
+def _roughness(x: Array) -> float:
+    """[unit] of positions, from how far each is off the line between its neighbours."""
+    bends = np.diff(x, 2)
+    return float(np.median(np.abs(bends))) * ROBUST / 6.0**0.5 if bends.size else 0.0

@@ -6,8 +6,8 @@ the samples. So many starts are simulated on the lively runs, the best go downhi
 costs little, and the valleys that these find are tried on all runs.
 """
 
-import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
+from math import isclose, isfinite
 
 from sim.effects import EFFECTS
 from sim.reconcile.descent import Begun, adjusting, better, paid, promise
@@ -17,10 +17,11 @@ from sim.reconcile.thresholds import SURE
 
 SHAKES = "two-body"  # kind of effects
 SLOW = "quasistatic"  # tests that say little of them
-MOST = 4  # starts of each kind that go downhill on the lively runs
-STEPS = 3  # that they go
+MOST = 4  # starts of each kind that go a step downhill on the lively runs
+GO_ON = (4, 4)  # of them that go a second step, and a third
+VALLEYS = 2  # that are tried on all runs
 SAME = 0.2  # [1] by which the parameters of two valleys differ at least
-VALLEYS, NEAR = 2, 0.5  # that are tried on all runs, and what they gain of the best one's gain
+NEAR = 0.5  # [1] of the best one's gain that another valley gains, to be tried on all runs, too
 HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
 
 
@@ -41,7 +42,7 @@ class Lively:
         self.point = self.problem.at(
             point.hypothesis, point.values, point.outset.of(chosen), point.q
         )
-        if math.isfinite(self.point.cost):  # else all of them were set aside, or fly off
+        if isfinite(self.point.cost):  # else all of them were set aside, or fly off
             self.there = True
             self.kept = adjusting(self.problem, self.point)
 
@@ -64,15 +65,21 @@ class Lively:
         if heavy:
             tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in more]
         begun = promise(self.problem, self.point, hypothesis, tried, kept=self.kept)
-        gone = [better(self.problem, one, steps=STEPS) for one in _best_of_each(begun, effect)]
-        gains = [self.point.cost - paid(one) for one in gone]
-        least = max(NEAR * max(gains, default=0.0), SURE)
-        found: list[dict[str, float]] = []
-        for gain, one in sorted(zip(gains, gone, strict=True), key=lambda each: -each[0]):
-            values = {name: one.values[name] for name in names}
-            if gain > least and not any(_same(values, other) for other in found):
-                found.append(values)
-        return found[:VALLEYS]
+        gone = self._a_step(_best_of_each(begun, effect))
+        for most in GO_ON:
+            gone = self._a_step(_apart(gone, names)[:most])
+        best = _apart(gone, names)
+        if not best:
+            return []
+        least = max(NEAR * self._gain(best[0]), SURE)
+        found = [one for one in best if self._gain(one) > least][:VALLEYS]
+        return [{name: one.values[name] for name in names} for one in found]
+
+    def _a_step(self, points: Iterable[Point]) -> list[Point]:
+        return [better(self.problem, one, steps=1) for one in points]
+
+    def _gain(self, point: Point) -> float:
+        return self.point.cost - paid(point)
 
 
 def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Point]:
@@ -84,6 +91,15 @@ def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Point]:
     return [one for kind in kinds.values() for one in kind[:MOST]]
 
 
-def _same(values: Mapping[str, float], other: Mapping[str, float]) -> bool:
-    """Whether two valleys are one."""
-    return all(math.isclose(values[name], other[name], rel_tol=SAME) for name in values)
+def _apart(points: Iterable[Point], names: Sequence[str]) -> list[Point]:
+    """The likeliest first, one of each valley."""
+    found: list[Point] = []
+    for one in sorted(points, key=paid):
+        if not any(_same(one, other, names) for other in found):
+            found.append(one)
+    return found
+
+
+def _same(one: Point, other: Point, names: Iterable[str]) -> bool:
+    """Whether two points are in one valley."""
+    return all(isclose(one.values[n], other.values[n], rel_tol=SAME) for n in names)
