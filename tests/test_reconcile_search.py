@@ -212,7 +212,8 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
 
     def gone_on(_, begun, *__):
         asked.append(begun[-1].suspect.effect)
-        return [*done, *(model("any", 100.0, gap=gap) for gap in path)]
+        new = (model(f"effect {n}", 100.0, gap=gap) for n, gap in enumerate(path))
+        return [*done, *new]
 
     room = sys.modules[best_path.__module__]
     monkeypatch.setattr(room, "_gone", gone_on)
@@ -221,6 +222,25 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
 
     assert (found is not done) is taken
     assert set(asked) <= {"compliance"}
+
+
+@pytest.mark.parametrize(
+    ("pair", "taken"), [(("compliance", "spring"), True), (("spring",), False)]
+)
+def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, taken):
+    small = {f"compliance.{name}": 0.001 for name in EFFECTS["compliance"].names}
+    tried = Tried("compliance", 900.0, 1.2, admitted=False, why=WIDENS)
+    suspect = Suspect("compliance", replace(NOWHERE, values=small), 0.0)
+    blocked = Weighed(suspect, Gap(5.0, 5.0), tried)
+    base = model("", 1000.0, gap=4.0)
+    done = [base, replace(model("cogging", 900.0, gap=3.8), weighed=(blocked,))]
+    path = [base, *(model(name, 100.0, gap=1.2) for name in pair)]
+    room = sys.modules[best_path.__module__]
+    monkeypatch.setattr(room, "_gone", lambda *_: path)
+
+    found = paired(ONE_NOISE, done, None, (), lambda *_: None)
+
+    assert found == (path if taken else done)
 
 
 # -- which of two is taken ------------------------------------------------------------------------

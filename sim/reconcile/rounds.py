@@ -95,7 +95,8 @@ def paired(
     path = _gone(problem, [*done, begun], log, parts, lambda what, _: progress(what, BESIDE))
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
     narrows = closes and why_not(path[-1].gap, now.gap, SURER) != WIDENS
-    return path if narrows and len(path) > len(done) + 1 else done
+    new = {other.suspect.effect for other in path} - {other.suspect.effect for other in done}
+    return path if narrows and len(new) > 1 else done  # what was there may have become needless
 
 
 def best_path(

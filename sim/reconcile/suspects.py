@@ -2,7 +2,8 @@
 
 A start of each is drawn from what the log shows (``Effect.starts``) and simulated once; the most
 promising go downhill a little, the best of those to the end. What shakes only for a moment after
-each change of voltage, as two bodies do, is tried on the lively runs first.
+each change of voltage, as two bodies do, is tried on the lively runs first; of a point that much
+pushes, which bears with anything, only near a calmer one.
 """
 
 import math
@@ -76,12 +77,15 @@ def suspects(
     had = (*point.hypothesis.effects, *OWN.get(point.hypothesis.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
-    begun = _begun(problem, point, effects, evidence, seeds)[:TRIED]
+    calmer = _calmer(problem, point)
+    here = effects if calmer is None else [one for one in effects if one.kind != SHAKES]
+    begun = _begun(problem, point, here, evidence, seeds)[:TRIED]
     gone = [_further(problem, closer(problem, one)) for starts in begun for _, one in starts]
     best = _each_once(gone)[:KEPT]
-    calmer = _calmer(problem, point)
     if calmer is not None:
-        begun = _begun(problem, calmer, effects, evidence, seeds, heavy=True)[:TRIED_CALM]
+        begun = _begun(problem, calmer, effects, evidence, seeds, heavy=True)
+        shaken = [one for one in begun[TRIED_CALM:] if _shakes(one[0][1])]
+        begun = [*begun[:TRIED_CALM], *shaken]
         calm = [_further(problem, one) for starts in begun for _, one in starts]
         best = _each_once([*gone, *calm])[:KEPT]
         best += _each_once(calm)[:1]  # the likeliest of these has the longer way to go
@@ -94,8 +98,12 @@ def suspects(
 
 def _further(problem: Problem, start: Point) -> Point:
     """A start of a suspect after some steps downhill, by which it is compared with others."""
-    shakes = EFFECTS[start.hypothesis.effects[-1]].kind == SHAKES
-    return better(problem, start, steps=FURTHER if shakes else A_LITTLE)
+    return better(problem, start, steps=FURTHER if _shakes(start) else A_LITTLE)
+
+
+def _shakes(point: Point) -> bool:
+    """Whether the last effect of a point is a joint of two bodies."""
+    return EFFECTS[point.hypothesis.effects[-1]].kind == SHAKES
 
 
 def _calmer(problem: Problem, point: Point) -> Point | None:
