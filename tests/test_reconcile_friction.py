@@ -10,7 +10,7 @@ from sim.engine import NO_TRUST, Lead, follow
 from sim.model import Model, Part
 from sim.reconcile.descent import adjusting, ended, settle, with_prior
 from sim.reconcile.friction import chosen, varies
-from sim.reconcile.gates import errors_of, rms
+from sim.reconcile.gates import errors_of, lowest, rms
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
 from sim.reconcile.naming import standard_errors
@@ -148,3 +148,20 @@ def test_a_search_beside_an_effect_finds_both():
     frictions = (found.values["kS"] + found.outset.rubs) / GAINS["kS"]
     assert frictions == pytest.approx(SHARES, abs=0.015)
     assert varies(found.values) == pytest.approx(0.02, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("values", "at"),
+    [
+        ((3.0, 1.0, 3.0), 0.0),
+        ((4.0, 1.0, 2.0), 0.25),
+        ((1.0, 1.0, 1.0), 0.0),  # nowhere
+        ((1.7e308, 1.6e308, 1.7e308), 0.0),  # a model that runs away, but for a little
+        ((math.inf, 1.0, 2.0), 0.0),
+        ((math.inf, math.inf, math.inf), 0.0),
+    ],
+)
+def test_the_likeliest_friction_is_where_a_parabola_is_lowest(values, at):
+    less, here, more = np.array(values)[:, None]
+
+    assert lowest(less, here, more) == pytest.approx([at])

@@ -125,13 +125,18 @@ def _eased(
     costs = _costs(problem, every, moves)
     best = np.clip(np.argmin(costs, axis=0), 1, len(EASED) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        aside = 0.5 * (less - more) / (less - 2.0 * here + more)
-    aside = np.clip(np.nan_to_num(aside, posinf=0.0, neginf=0.0), -1.0, 1.0)
+    aside = lowest(less, here, more)
     between = missed((np.array(EASED)[best] + (EASED[1] - EASED[0]) * aside) * most)
     every = np.concatenate([every, between[None]])
     best = np.argmin(_costs(problem, every, moves), axis=0)
     return np.asarray(every[np.repeat(best, np.diff(problem.edges)), np.arange(len(track))])
+
+
+def lowest(less: Array, here: Array, more: Array) -> Array:
+    """Where parabolas through values at -1, 0 and 1 are lowest; 0 where they nowhere are."""
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        aside = 0.5 * (less - more) / (less - 2.0 * here + more)
+    return np.asarray(np.clip(np.nan_to_num(aside, posinf=0.0, neginf=0.0), -1.0, 1.0))
 
 
 def _costs(problem: Problem, every: Array, moves: NDArray[np.bool_]) -> Array:
