@@ -28,7 +28,7 @@ __all__ = ["Kernel", "kept_at", "kernel", "tried"]
 
 KEPT = 4  # engines of other versions that stay in the cache
 NUMBER = np.dtype(np.float64)
-INTEGER, REAL, PLACE = ctypes.c_int64, ctypes.c_double, ctypes.c_void_p
+INTEGER, PLACE = ctypes.c_int64, ctypes.c_void_p
 BYTES = ctypes.c_char * 0
 CALLED = ctypes.CFUNCTYPE(  # as `_entry` in sim/engine/compose.py says it
     None, *[INTEGER] * 3, *[PLACE] * 16, INTEGER, *[PLACE] * 3
