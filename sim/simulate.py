@@ -68,7 +68,7 @@ def simulate(
     runs: list[Run] = []
     state, start, last, cut = State(), PAUSE, 0.0, False
     for test in routine.tests:
-        time = _loops(routine.timeout, period=period, jitter=mechanism.sensor.jitter, rng=rng)
+        time = _loops(routine.lasts(test), period=period, jitter=mechanism.sensor.jitter, rng=rng)
         voltage = np.array([routine.voltage(test, t) for t in time.tolist()])
         cut = state.body[OFF_UNTIL] > 0.0 or cut
         began = runs[0].time[0] if runs else start + time[0]

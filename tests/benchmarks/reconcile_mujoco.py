@@ -65,7 +65,7 @@ def moved(
     runs: list[Run] = []
     start, last = PAUSE, 0.0
     for test in routine.tests:
-        time = _loops(routine.timeout, period=period, jitter=mechanism.sensor.jitter, rng=rng)
+        time = _loops(routine.lasts(test), period=period, jitter=mechanism.sensor.jitter, rng=rng)
         volts = np.array([routine.voltage(test, one) for one in time.tolist()])
         rubs = 1.0 + wobble * float(np.clip(rng.standard_normal(), -WIDEST, WIDEST))
         body.clock = float(start + time[0] - (runs[0].time[0] if runs else start + time[0]))

@@ -20,7 +20,7 @@ from sim.engine.asked import COARSEST
 from sim.log import Log, Run
 from sim.mechanism import Mechanism
 from sim.model import Part
-from sim.routine import Routine
+from sim.routine import COAST_AFTER, LEVEL_LASTS, LEVELS, TRIANGLE_RISES, Routine
 from sim.simulate import simulate
 
 FOUR = ("quasistatic", "dynamic")
@@ -32,6 +32,7 @@ SESSIONS = {
 """Name of a file -> kinds of tests in it."""
 
 TIMEOUT = 10.0  # [s] of a test, SysIdRoutine's own
+OVER, SHORTEST, LONGEST = 4.0, 1.0, 4.0  # [kA/kV], [s], [s] for which a step is held: 98 % of it
 SHORT, LONG = 0.5, 0.75  # [V/s] of ramps, with and without an end of the travel to reach
 STEP = (5.6, 6.4)  # [V] of the largest level
 LESS = {"validation": (0.60, 0.78), "test": (0.70, 0.92)}  # [share of it] of the others
@@ -57,6 +58,42 @@ MOMENT = (0.3, 0.7)  # [share of a run's motion] when something happens once
 WHILE = (0.3, 0.7)  # [share of a step's top speed] at which inertia changes: later nothing shows it
 ONCE, ENDS = "onset", "until"  # parameters of what happens at a moment, and of what lasts
 FIRST, PASSING = "train", 0.4  # the session in which it happens; [1] of what ends with its run
+
+
+@dataclass(frozen=True)
+class Held(Routine):
+    """A routine of which somebody lets go: of a step when it is over, of the rest after one round.
+
+    Nobody drives across the hall, or heats a motor, to see the same speed for ten seconds.
+
+    Args:
+        over: [s] until a step is.
+    """
+
+    over: float = LONGEST
+
+    def lasts(self, test: str, /) -> float:
+        """[s] until a test ends, if it comes to no end of the travel before."""
+        held = {
+            "dynamic": self.over,
+            "coast": COAST_AFTER + self.over,
+            "triangle": 4.0 * TRIANGLE_RISES,
+            "multistep": len(LEVELS) * LEVEL_LASTS,
+        }
+        return min(self.timeout, held.get(test.rpartition("-")[0], self.timeout))
+
+    @classmethod
+    def of(cls, mechanism: Mechanism, levels: "Levels", session: str) -> "Held":
+        """The routine of a session.
+
+        Args:
+            mechanism: what moves.
+            levels: its voltages.
+            session: one of ``SESSIONS``.
+        """
+        over = OVER * mechanism.gains["kA"] / mechanism.gains["kV"]
+        over = min(max(over, SHORTEST), LONGEST)
+        return cls(levels.ramp, levels.steps[session], TIMEOUT, SESSIONS[session], over)
 
 
 Moves = Callable[..., list[Run]]
@@ -147,7 +184,7 @@ def recorded(
         rng: the source of chance.
         moved: the physics.
     """
-    routine = Routine(levels.ramp, levels.steps[session], TIMEOUT, SESSIONS[session])
+    routine = Held.of(hidden.mechanism, levels, session)
     sensor = replace(hidden.mechanism.sensor, jitter=day.jitter)
     if day.noisy:
         sensor = replace(sensor, velocity_noise=day.noisy)
