@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from sim.engine import NO_TRUST, Lead, State, follow, move
+from sim.engine import NO_TRUST, Course, State, follow, move
 from sim.engine.joined import MOVES, ROW, STANDS, WAYS, becomes, doubled, prepared, tabled
 from sim.model import Model, Part
 
@@ -39,8 +39,13 @@ def loose(gains, *, moment, share):
 
 
 def searched(model, volts):
-    lead = Lead(TIME, volts, np.full((TIME.size, 2), np.nan), 0.0, 0.0, -math.inf, math.inf, 0.0, 0)
-    return follow(model, [lead], trust=NO_TRUST)
+    still = np.zeros(1)
+    course = Course(
+        edges=np.array([0.0, TIME.size]), time=TIME, voltage=volts,
+        measured=np.full((TIME.size, 2), np.nan), position=still, velocity=still,
+        low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
+    )  # fmt: skip
+    return follow(model, course, trust=NO_TRUST, beside=still, meshed=still, rubs=still)
 
 
 @given(

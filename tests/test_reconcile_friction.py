@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from reconcile_made import rubbing
 
-from sim.engine import NO_TRUST, Lead, follow
+from sim.engine import NO_TRUST, Course, follow
 from sim.model import Model, Part
 from sim.reconcile.descent import adjusting, ended, settle, with_prior
 from sim.reconcile.friction import chosen, varies
@@ -33,18 +33,26 @@ def begun(problem, *effects, **values):
     return problem.at(hypothesis, {**GAINS, **values}, outset, problem.noise.velocity**2)
 
 
+def followed(model, time, volts, *, rubs):
+    count = len(rubs)
+    nothing, still = np.full((count * time.size, 2), np.nan), np.zeros(count)
+    course = Course(
+        edges=np.arange(count + 1.0) * time.size, time=np.tile(time, count),
+        voltage=np.tile(volts, count), measured=nothing, position=still, velocity=still,
+        low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
+    )  # fmt: skip
+    return follow(model, course, trust=NO_TRUST, beside=still, meshed=still, rubs=np.array(rubs))
+
+
 @pytest.mark.parametrize("rubs", [0.1, -0.1, -0.6])
 def test_a_run_with_more_friction_moves_as_a_model_with_more(rubs):
     time = np.arange(0.0, 2.0, 0.02)
     volts = 3.0 * np.sin(4.0 * time)
-    nothing = np.full((time.size, 2), np.nan)
-    rest = (time, volts, nothing, 0.0, 0.0, -math.inf, math.inf, 0.0, 0)
     model = Model("simple", {**GAINS, "kS": max(GAINS["kS"] + rubs, 0.0)})
 
-    plain, own = Lead(*rest), Lead(*rest, rubs=rubs)
-    tracks = follow(Model("simple", GAINS), [plain, own], trust=NO_TRUST)
+    tracks = followed(Model("simple", GAINS), time, volts, rubs=[0.0, rubs])
 
-    assert tracks[time.size :] == pytest.approx(follow(model, [plain], trust=NO_TRUST), abs=1e-12)
+    assert tracks[time.size :] == pytest.approx(followed(model, time, volts, rubs=[0.0]), abs=1e-12)
     assert np.ptp(tracks[: time.size, 0]) != pytest.approx(np.ptp(tracks[time.size :, 0]), rel=1e-3)
 
 

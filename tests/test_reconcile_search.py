@@ -9,6 +9,7 @@ import pytest
 from reconcile_made import SESSIONS, bench, session, told
 
 from sim.effects import EFFECTS
+from sim.engine import Track
 from sim.evidence import gather
 from sim.fit.seen import Noise
 from sim.model import Part
@@ -283,9 +284,9 @@ def test_a_model_that_runs_away_on_the_validation_widens_the_gap(gap, before):
 
 def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
     problem = Problem.of(lanes(session(bench("drivetrain"), "log")))
-    track = np.column_stack([problem.measured, problem.measured])[:, [0, 1, 0, 1]]
-    track[-1] = np.nan
-    monkeypatch.setattr(Problem, "track", lambda *_, **__: track)
+    out = np.tile(problem.measured, 4)
+    out[-1] = np.nan
+    monkeypatch.setattr(Problem, "track", lambda *_, **__: Track.of(out))
     point = replace(NOWHERE, values={"kS": 0.1, "kV": 1.0, "kA": 0.1})
 
     assert rms(errors_of(problem, point, Outset.seen(4), eased=True)).velocity == math.inf

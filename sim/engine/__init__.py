@@ -4,10 +4,8 @@ It is composed from the effects of the catalogue when first used: about ten seco
 cache on disk within a tenth of a second after that.
 """
 
-import inspect
 import math
 import sys
-from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from functools import cache
 from threading import Lock
@@ -25,9 +23,11 @@ from sim.engine.asked import (
     finest,
     only_delays,
     searched,
+    slack_of,
     steps,
 )
 from sim.engine.compose import compose, is_compiled
+from sim.engine.course import Course
 from sim.engine.joined import WAYS
 from sim.engine.kernel import Kernel
 from sim.engine.stepping import (
@@ -45,8 +45,8 @@ from sim.log import Array
 from sim.model import Model
 
 __all__ = [
-    "COARSEST", "EXACT", "NO_TRUST", "NO_WIRES", "ORDER", "Lead", "State", "Track", "arrays",
-    "compiled", "constants", "finest", "follow", "move", "ready",
+    "COARSEST", "EXACT", "EXPECTED", "NO_TRUST", "NO_WIRES", "ORDER", "Course", "State", "Track",
+    "arrays", "compiled", "constants", "finest", "follow", "move", "ready",
 ]  # fmt: skip
 
 ONE_AT_A_TIME = Lock()
@@ -99,6 +99,19 @@ class Track:
     seen: Array
     expected: Array
 
+    @classmethod
+    def of(cls, out: Array) -> "Track":
+        """The motion that the engine wrote, (n, 8)."""
+        return cls(
+            out[:, POSITION], out[:, VELOCITY], out[:, LOAD_POSITION], out[:, APPLIED],
+            out[:, BUS], out[:, CURRENT], out[:, SEEN], out[:, EXPECTED],
+        )  # fmt: skip
+
+    @property
+    def read(self) -> Array:
+        """(n, 2) position and velocity as the sensors report them."""
+        return np.column_stack((self.position, self.seen))
+
     def until(self, end: int) -> "Track":
         """The first ``end`` samples."""
         return Track(*(getattr(self, one.name)[:end] for one in fields(self)))
@@ -144,10 +157,7 @@ def move(
         simple, _doubles(measured), _doubles(trust), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
-    return Track(
-        out[:, POSITION], out[:, VELOCITY], out[:, LOAD_POSITION], out[:, APPLIED], out[:, BUS],
-        out[:, CURRENT], out[:, SEEN], out[:, EXPECTED],
-    )  # fmt: skip
+    return Track.of(out)
 
 
 def _doubles(array: Array) -> Array:
@@ -155,38 +165,9 @@ def _doubles(array: Array) -> Array:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-@dataclass(frozen=True, eq=False)
-class Lead:
-    """A run that a model is to follow.
-
-    Args:
-        time: (n,) [s], increasing.
-        voltage: (n,) [V].
-        measured: (n, 2) position and velocity, nan where there is none.
-        position: [m or rad] it begins at.
-        velocity: [m/s or rad/s] it begins with.
-        low: [m or rad] a stop beneath it; minus infinity is none.
-        high: [m or rad] a stop above it.
-        clock: [s] since its log began.
-        session: which log; what effects remember goes on within one.
-        meshed: [1] where in its free play the motor is, from -1 to 1; nan where a weight decides.
-        rubs: [V] dry friction of this run beyond kS.
-    """
-
-    time: Array
-    voltage: Array
-    measured: Array
-    position: float
-    velocity: float
-    low: float
-    high: float
-    clock: float
-    session: int
-    meshed: float = math.nan
-    rubs: float = 0.0
-
-
-def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
+def follow(
+    model: Model, course: Course, *, trust: Array, beside: Array, meshed: Array, rubs: Array
+) -> Array:
     """Move a model along many runs, quickly: what a search does some hundred times a second.
 
     Steps are as coarse as a search can bear (``SEARCHED``): a tenth of a percent does not decide
@@ -194,58 +175,40 @@ def follow(model: Model, leads: Sequence[Lead], *, trust: Array) -> Array:
 
     Args:
         model: what moves.
-        leads: the runs.
+        course: the runs.
         trust: (2, 2) by how much measurements correct; ``NO_TRUST`` leaves it alone.
+        beside: (runs,) [m or rad] by which each begins, and has its stops, beside where it says.
+        meshed: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where a weight
+            decides.
+        rubs: (runs,) [V] dry friction of each beyond kS.
 
     Returns:
-        (n, 4) of all runs, one after another: position, velocity, the position before the
-        measurement corrected it, and the velocity that the sensor would report.
+        (n, 8) of all runs, one after another, as ``Track.of`` takes it; the last two columns, from
+        ``EXPECTED`` on, are what was expected before a measurement corrected it.
     """
     on, parameters = arrays(model)
     simple = model.type != "arm" and all(map(only_delays, model.parts))
     longest = EXACT if simple else searched(model)
-    play, kernel = _play(model), _compiled()
-    edges = np.cumsum([0.0, *(lead.time.size for lead in leads)])
-    time = np.concatenate([lead.time for lead in leads], dtype=np.float64)
-    voltage = np.concatenate([lead.voltage for lead in leads], dtype=np.float64)
-    measured = UNSEEN
-    if trust.any():
-        measured = np.concatenate([lead.measured for lead in leads], dtype=np.float64)
-    bodies = np.array([_begun(model, lead, play) for lead in leads])
-    ahead = bodies[:, 2] - bodies[:, 0]
-    low, high, rubs, sessions, clocks = np.array(
-        [[one.low, one.high, one.rubs, one.session, one.clock] for one in leads], dtype=np.float64
-    ).T.copy()
-    out = empty(time.size)
-    kernel.move(
-        edges, time, voltage, bodies, low + ahead, high + ahead, rubs, sessions, constants(model),
-        NO_WIRES, on, parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS), clocks, longest, simple,
-        measured, _doubles(trust), out,
+    begin = course.position + beside
+    load = begin - 0.5 * slack_of(model) * _leans(model, begin, meshed)
+    bodies = np.column_stack([begin, course.velocity, load, course.velocity, np.zeros(begin.size)])
+    aside = beside + (load - begin)
+    out = empty(course.time.size)
+    _compiled().move(
+        course.edges, course.time, course.voltage, bodies, course.low + aside, course.high + aside,
+        _doubles(rubs), course.sessions, constants(model), NO_WIRES, on, parameters,
+        np.zeros(len(EFFECTS)), np.zeros(WAYS), course.clocks, longest, simple,
+        course.measured if trust.any() else UNSEEN, _doubles(trust), out,
     )  # fmt: skip
-    return out[:, [POSITION, VELOCITY, EXPECTED, SEEN]]
+    return out
 
 
-def _begun(model: Model, lead: Lead, play: float) -> list[float]:
-    """(5,) the bodies of a run that begins; of free play, a weight hangs on its motor's teeth."""
-    meshed = lead.meshed
-    if math.isnan(meshed):
-        load = model.gains.get("kG", 0.0)
-        if model.type == "arm":
-            load *= math.cos(lead.position + model.gains.get("offset_rad", 0.0))
-        meshed = math.copysign(1.0, load) if load else 0.0
-    y = lead.position - 0.5 * play * meshed
-    return [lead.position, lead.velocity, y, lead.velocity, 0.0]
-
-
-def _play(model: Model) -> float:
-    """[unit] between motor and load."""
-    total = 0.0
-    for part in model.parts:
-        slack = EFFECTS[part.effect].acts.get("slack")
-        if slack is not None:
-            asked = inspect.signature(slack).parameters
-            total += float(slack(*(part.parameters[name] for name in asked)))
-    return total
+def _leans(model: Model, position: Array, meshed: Array) -> Array:
+    """(runs,) where in its free play each motor is: a weight hangs on its motor's teeth."""
+    load = np.full(position.size, model.gains.get("kG", 0.0))
+    if model.type == "arm":
+        load *= np.cos(position + model.gains.get("offset_rad", 0.0))
+    return np.where(np.isnan(meshed), np.sign(load), meshed)
 
 
 def compiled() -> bool:

@@ -1,5 +1,6 @@
 """A model as the stepping takes it: its gains and parameters in arrays, and the steps it needs."""
 
+import inspect
 import math
 
 import numpy as np
@@ -11,7 +12,7 @@ from sim.model import Model, Part
 
 __all__ = [
     "COARSEST", "EXACT", "ORDER", "arrays", "constants", "finest", "only_delays", "searched",
-    "steps",
+    "slack_of", "steps",
 ]  # fmt: skip
 
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
@@ -23,11 +24,17 @@ EXACT: Array = np.array([math.inf, math.inf, 0.0])  # steps of a model with an e
 PLACES = places(EFFECTS)
 NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutral.values()])
 ORDER = {name: place for place, name in enumerate(EFFECTS)}
+SLACKS = {
+    name: (act, tuple(inspect.signature(act).parameters))
+    for name, act in ((one.name, one.acts.get("slack")) for one in EFFECTS.values())
+    if act is not None
+}
+DELAYS = frozenset(one.name for one in EFFECTS.values() if set(one.acts) <= {"late", "sees"})
 
 
 def only_delays(part: Part) -> bool:
     """Whether an effect changes when things happen and are seen, and no force."""
-    return set(EFFECTS[part.effect].acts) <= {"late", "sees"}
+    return part.effect in DELAYS
 
 
 def constants(model: Model) -> Array:
@@ -59,6 +66,16 @@ def arrays(model: Model) -> tuple[Array, Array]:
             on[len(EFFECTS) + (*HOOKS, "remembers").index(hook)] = 1.0
         parameters[PLACES[part.effect]] = [part.parameters[n] for n in EFFECTS[part.effect].names]
     return on, parameters
+
+
+def slack_of(model: Model) -> float:
+    """[unit] of free play between motor and load."""
+    total = 0.0
+    for part in model.parts:
+        if part.effect in SLACKS:
+            slack, asked = SLACKS[part.effect]
+            total += float(slack(*(part.parameters[name] for name in asked)))
+    return total
 
 
 def finest(model: Model) -> float:

@@ -70,9 +70,9 @@ def most_alike(problem: Problem, point: Point) -> Alike:
     """
     missed = _pushes(problem, point)
     track = problem.track(point.hypothesis.model(point.values), point.outset, point.trust)
-    speed, position = track[:, 3], problem.measured[:, 0]
-    position = np.where(np.isnan(position), track[:, 0], position)
-    told = problem.telling & np.isfinite(point.ahead).any(axis=1)
+    speed, position = track.seen, problem.measured[:, 0]
+    position = np.where(np.isnan(position), track.position, position)
+    told = ~problem.untold.all(axis=1)
     told &= np.abs(speed) > SLOW * problem.top
     run = np.repeat(np.arange(len(problem.lanes)), np.diff(problem.edges))
     found = []

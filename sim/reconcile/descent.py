@@ -30,6 +30,7 @@ CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a 
 Begun = tuple[float, Point]  # what a start promises, and where it begins
 HALVED = 6  # times at most that play is halved
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
+NOTHING = 0.1  # [of -2 log L] a step that promises less is not taken
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,8 +150,10 @@ def better(problem: Problem, point: Point, *, steps: int, enough: float = ENOUGH
         square, slope = table.T @ table, table.T @ rest
         found = point
         for _ in range(TRIES):
-            by = -np.linalg.solve(square + damping * np.eye(slope.size), slope) / size
-            moved = _moved(problem, point, by)
+            way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
+            if -float(way @ (2.0 * slope + square @ way)) < NOTHING:
+                break
+            moved = _moved(problem, point, way / size)
             if moved.cost < point.cost:
                 found, damping = moved, max(damping / 10.0, 1e-9)
                 break

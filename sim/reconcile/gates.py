@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.engine import NO_TRUST
+from sim.engine import Track
 from sim.log import Array
 from sim.reconcile.descent import better
 from sim.reconcile.friction import LEAST_KS
@@ -95,9 +95,9 @@ def errors_of(problem: Problem, point: Point, outset: Outset, *, eased: bool = F
         eased: each run may have a friction of its own, as ``friction.py`` has it: what one run's
             accident does to the gap says nothing about an effect.
     """
-    track = problem.track(point.hypothesis.model(point.values), outset, NO_TRUST)
-    errors = problem.measured - track[:, [0, 3]]
-    moves = problem.moving | ((track[:, 1] != 0.0) & problem.telling)
+    track = problem.track(point.hypothesis.model(point.values), outset)
+    errors = problem.measured - track.read
+    moves = problem.moving | ((track.velocity != 0.0) & problem.telling)
     if not eased:
         return np.asarray(errors[moves])
     errors = _eased(problem, point, outset, track, moves)
@@ -106,7 +106,7 @@ def errors_of(problem: Problem, point: Point, outset: Outset, *, eased: bool = F
 
 
 def _eased(
-    problem: Problem, point: Point, outset: Outset, track: Array, moves: NDArray[np.bool_]
+    problem: Problem, point: Point, outset: Outset, track: Track, moves: NDArray[np.bool_]
 ) -> Array:
     """The errors with the likeliest friction of each run's own.
 
@@ -118,7 +118,7 @@ def _eased(
     model, runs = point.hypothesis.model(point.values), len(problem.lanes)
 
     def missed(rubs: Array) -> Array:
-        other = problem.track(model, outset.rubbing(rubs), NO_TRUST) if rubs.any() else track
+        other = problem.track(model, outset.rubbing(rubs)) if rubs.any() else track
         return _missed(problem, other)
 
     every = np.stack([missed(np.full(runs, share * most)) for share in EASED])  # (shares, n, 2)
@@ -129,7 +129,7 @@ def _eased(
     between = missed((np.array(EASED)[best] + (EASED[1] - EASED[0]) * aside) * most)
     every = np.concatenate([every, between[None]])
     best = np.argmin(_costs(problem, every, moves), axis=0)
-    return np.asarray(every[np.repeat(best, np.diff(problem.edges)), np.arange(len(track))])
+    return np.asarray(every[np.repeat(best, np.diff(problem.edges)), np.arange(len(moves))])
 
 
 def lowest(less: Array, here: Array, more: Array) -> Array:
@@ -148,9 +148,9 @@ def _costs(problem: Problem, every: Array, moves: NDArray[np.bool_]) -> Array:
     return np.asarray(np.nan_to_num(costs, nan=np.inf))
 
 
-def _missed(problem: Problem, track: Array) -> Array:
+def _missed(problem: Problem, track: Track) -> Array:
     """(n, 2) measured less simulated, without end where a simulation ran away."""
-    seen = track[:, [0, 3]]
+    seen = track.read
     away = ~np.isfinite(seen) & ~np.isnan(problem.measured)
     return np.where(away, np.inf, problem.measured - seen)
 

@@ -13,7 +13,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.engine import NO_TRUST
 from sim.fit.seen import ROBUST
 from sim.log import Array
 from sim.reconcile.damage import Damaged
@@ -88,7 +87,7 @@ def glitches(problem: Problem, point: Point) -> Iterator[tuple[int, Damaged]]:
 
 def _errors(problem: Problem, point: Point) -> Iterator[tuple[int, _Errors]]:
     """Which run -> what is left of it."""
-    speeds = problem.track(point.hypothesis.model(point.values), point.outset, NO_TRUST)[:, 3]
+    speeds = problem.track(point.hypothesis.model(point.values), point.outset).seen
     near = max(round(BESIDE / problem.period), 3)
     for number, (first, last) in enumerate(pairwise(problem.edges.tolist())):
         lane, told = problem.lanes[number], problem.telling[first:last].copy()

@@ -19,6 +19,7 @@ from sim.effects import EFFECTS
 from sim.log import Array
 from sim.model import Part
 from sim.reconcile.descent import Kept
+from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
 
 PARTS = 24  # moments of a run that are tried
@@ -166,6 +167,7 @@ class _Scan:
         most = min(one.most for one in effect.parameters if one.searched)
         self.ka = min(point.values["kA"], most / MOST)  # which may be any number in the wild
         self.lasts = [float(lane.seen.time[-1] - lane.seen.time[0]) for lane in problem.lanes]
+        self._some: dict[tuple[int, ...], tuple[Problem, Outset]] = {}
         rest = problem.white(point, point.ahead)
         self.rest = rest - kept.ways @ kept.told(rest)
 
@@ -251,16 +253,14 @@ class _Scan:
 
     def _sums(self, kind: Mapping[str, float], share: float, runs: Sequence[int]) -> list[_Sums]:
         """What it changes from that share of each of these runs on, to its end."""
-        lanes = (
-            replace(self.problem.lanes[run], clock=CLOCK - share * self.lasts[run], memory=run)
-            for run in runs
-        )
-        some, outset = Problem(tuple(lanes), self.problem.noise), self.point.outset.of(runs)
+        some, outset = self._alone(tuple(runs))
+        clocks = CLOCK - share * np.array([self.lasts[run] for run in runs])
         size = PROBE * self.ka
         given = {**self._sized(size), **kind, ONSET: CLOCK, UNTIL: LATER}
         model = self.point.hypothesis.model(self.point.values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
-            ahead = some.ahead(model + Part(self.effect.name, given), outset, self.point.trust)
+            model += Part(self.effect.name, given)
+            ahead = some.ahead(model, outset, self.point.trust, clocks)
             return [
                 self._summed(run, (ahead[slice(*rows)] - self._plain[run]) / size)
                 for run, rows in zip(runs, pairwise(some.edges.tolist()), strict=True)
@@ -270,6 +270,14 @@ class _Scan:
         one, rows = self.problem.white(self.point, change), slice(*self._edges[run : run + 2])
         return _Sums(float(one @ self.rest[rows]), float(one @ one), self.kept[rows].T @ one)
 
+    def _alone(self, runs: tuple[int, ...]) -> tuple[Problem, Outset]:
+        """These runs, none finding warm what another heated, and how they begin."""
+        if runs not in self._some:
+            lanes = (replace(self.problem.lanes[run], memory=run) for run in runs)
+            some = Problem(tuple(lanes), self.problem.noise)
+            self._some[runs] = some, self.point.outset.of(runs)
+        return self._some[runs]
+
     @property
     def _edges(self) -> list[int]:
         """(runs + 1,) where each run begins among white innovations."""
@@ -278,9 +286,8 @@ class _Scan:
 
     @cached_property
     def _plain(self) -> list[Array]:
-        """A run -> (n, 2) innovations without it, no run finding warm what another heated."""
-        lanes = (replace(one, memory=run) for run, one in enumerate(self.problem.lanes))
-        alone = Problem(tuple(lanes), self.problem.noise)
+        """A run -> (n, 2) innovations without it."""
+        alone, outset = self._alone(tuple(range(len(self.problem.lanes))))
         model = self.point.hypothesis.model(self.point.values)
-        ahead = alone.ahead(model, self.point.outset, self.point.trust)
+        ahead = alone.ahead(model, outset, self.point.trust)
         return [ahead[slice(*rows)] for rows in pairwise(self.problem.edges.tolist())]

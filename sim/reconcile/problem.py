@@ -8,14 +8,14 @@ it rubs more or less than the others: kS of a run is kS + δ (``friction.py``).
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.engine import NO_TRUST, Lead, follow
+from sim.engine import EXPECTED, NO_TRUST, Course, Track, follow
 from sim.fit.innovations import trust_for
 from sim.fit.seen import Noise, noise
 from sim.log import Array
@@ -87,6 +87,23 @@ class Problem:
         return np.concatenate(([0], np.cumsum([lane.seen.time.size for lane in self.lanes])))
 
     @cached_property
+    def course(self) -> Course:
+        """The runs as the engine follows them."""
+        seen = [lane.seen for lane in self.lanes]
+        return Course(
+            self.edges.astype(np.float64),
+            np.concatenate([one.time for one in seen], dtype=np.float64),
+            np.concatenate([one.voltage for one in seen], dtype=np.float64),
+            np.ascontiguousarray(self.measured, dtype=np.float64),
+            np.array([one.position for one in seen], dtype=np.float64),
+            np.array([one.velocity for one in seen], dtype=np.float64),
+            np.array([lane.low for lane in self.lanes], dtype=np.float64),
+            np.array([lane.high for lane in self.lanes], dtype=np.float64),
+            np.array([lane.clock for lane in self.lanes], dtype=np.float64),
+            np.array([lane.memory for lane in self.lanes], dtype=np.float64),
+        )
+
+    @cached_property
     def measured(self) -> Array:
         """(n, 2) positions and velocities of all runs."""
         return np.concatenate([lane.seen.measured for lane in self.lanes])
@@ -97,6 +114,18 @@ class Problem:
         telling = np.concatenate([lane.seen.telling for lane in self.lanes])
         telling[self.edges[:-1]] = False
         return telling & ~np.isnan(self.measured).all(axis=1)
+
+    @cached_property
+    def untold(self) -> NDArray[np.bool_]:
+        """(n, 2) what is not compared."""
+        return np.isnan(self.measured) | ~self.telling[:, None]
+
+    @cached_property
+    def told(self) -> tuple[int, int, int]:
+        """How many positions are compared, how many velocities, and how often both."""
+        x, v = ~self.untold.T
+        positions, velocities, both = (int(np.count_nonzero(one)) for one in (x, v, x & v))
+        return max(positions, 1), max(velocities, 1), max(both, 1)
 
     @cached_property
     def moving(self) -> NDArray[np.bool_]:
@@ -127,32 +156,37 @@ class Problem:
 
     # -- simulate --------------------------------------------------------------------------------
 
-    def track(self, model: Model, outset: Outset, trust: Array) -> Array:
-        """(n, 4) position, velocity, expected position, and velocity as the sensor sees it.
+    def track(self, model: Model, outset: Outset, trust: Array = NO_TRUST) -> Track:
+        """All runs, one after another.
 
         Args:
             model: what moves.
             outset: how each run begins.
-            trust: (2, 2); ``NO_TRUST`` is an open loop.
+            trust: (2, 2) by how much a measurement corrects; not at all, if it is not given.
         """
-        leads = [self._lead(number, outset) for number in range(len(self.lanes))]
-        return follow(model, leads, trust=trust)
+        return Track.of(self._followed(model, outset, trust, self.course))
 
-    def _lead(self, number: int, outset: Outset) -> Lead:
-        lane, start = self.lanes[number], float(outset.beside[number])
-        seen = lane.seen
-        return Lead(
-            time=seen.time, voltage=seen.voltage, measured=seen.measured,
-            position=seen.position + start, velocity=seen.velocity,
-            low=lane.low + start, high=lane.high + start, clock=lane.clock, session=lane.memory,
-            meshed=float(outset.meshed[number]), rubs=float(outset.rubs[number]),
-        )  # fmt: skip
+    def ahead(
+        self, model: Model, outset: Outset, trust: Array, clocks: Array | None = None
+    ) -> Array:
+        """(n, 2) innovations: measured less expected; 0 where nothing is compared.
 
-    def ahead(self, model: Model, outset: Outset, trust: Array) -> Array:
-        """(n, 2) innovations: measured less expected."""
-        ahead = self.measured - self.track(model, outset, trust)[:, 2:]
-        ahead[~self.telling] = np.nan
+        Args:
+            model: what moves.
+            outset: how each run begins.
+            trust: (2, 2) by how much a measurement corrects.
+            clocks: (runs,) [s] when each run begins, if not when it did.
+        """
+        course = self.course if clocks is None else replace(self.course, clocks=clocks)
+        ahead = self.measured - self._followed(model, outset, trust, course)[:, EXPECTED:]
+        np.copyto(ahead, 0.0, where=self.untold)
         return np.asarray(ahead)
+
+    def _followed(self, model: Model, outset: Outset, trust: Array, course: Course) -> Array:
+        return follow(
+            model, course, trust=trust,
+            beside=outset.beside, meshed=outset.meshed, rubs=outset.rubs,
+        )  # fmt: skip
 
     def at(
         self, hypothesis: Hypothesis, values: Mapping[str, float], outset: Outset, q: float
@@ -165,12 +199,12 @@ class Problem:
         )
         if not (values["kV"] > 0.0 and values["kA"] > 0.0):
             return nowhere
+        if not self.count:
+            return nowhere
         model = hypothesis.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
             trust = trust_for(model, noise=self.noise, q=q, period=self.period)
             ahead = self.ahead(model, outset, trust)
-            if not np.isfinite(ahead[self.telling]).any() or np.isinf(ahead).any():
-                return nowhere
             spread = self.spread(ahead)
             own = float(np.sum((outset.beside / self.loose) ** 2))
             cost = self._cost(spread) + own + friction_price(values, outset)
@@ -182,24 +216,23 @@ class Problem:
 
     def spread(self, ahead: Array) -> Array:
         """(2, 2) covariance of innovations, never quite nothing."""
-        there = ~np.isnan(ahead)
-        first, second = there[:, 0], there[:, 1]
-        x, v = np.where(first, ahead[:, 0], 0.0), np.where(second, ahead[:, 1], 0.0)
-        xx = float(x @ x) / max(int(np.count_nonzero(first)), 1)
-        vv = float(v @ v) / max(int(np.count_nonzero(second)), 1)
+        x, v = ahead.T.copy()
+        positions, velocities, both = self.told
+        xx, vv = float(x @ x) / positions, float(v @ v) / velocities
         most = 0.99 * math.sqrt(xx * vv)
-        xv = float(x @ v) / max(int(np.count_nonzero(first & second)), 1)
-        xv = min(max(xv, -most), most)
-        spread: Array = np.array([[xx, xv], [xv, vv]])
-        return np.asarray(spread + np.diag(np.square(self.noise.grain)))
+        xv = min(max(float(x @ v) / both, -most), most)
+        fine, finer = self.noise.grain
+        return np.array([[xx + fine**2, xv], [xv, vv + finer**2]])
 
     def _cost(self, spread: Array) -> float:
-        size = float(np.linalg.det(spread))
+        (xx, xv), (_, vv) = spread.tolist()
+        size = xx * vv - xv * xv
         return self.count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
 
     def white(self, point: Point, table: Array) -> Array:
         """(2 n,) made independent and of size one by the spread at a point."""
-        return np.asarray((np.nan_to_num(table) @ point.whitening.T).ravel())
+        white = np.asarray((table @ point.whitening.T).ravel())
+        return white if math.isfinite(float(np.sum(white))) else np.nan_to_num(white)
 
     def columns(self, point: Point) -> Array:
         """(2 n, searched + 2 runs) change of white innovations with each value, start and friction.

@@ -87,7 +87,7 @@ def _in_time(problem: Problem, point: Point) -> Array:
     late = PART * problem.period
     values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
     more = problem.ahead(delayed.model(values), point.outset, point.trust)
-    white = np.nan_to_num(point.ahead) @ point.whitening.T
+    white = point.ahead @ point.whitening.T
     change = np.nan_to_num(more - point.ahead) @ point.whitening.T
     for first, last in pairwise(problem.edges.tolist()):
         column, rest = change[first:last].ravel(), white[first:last].ravel()

@@ -7,7 +7,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.engine import NO_TRUST
 from sim.gap import Place
 from sim.log import Log
 from sim.reconcile.aside import Aside
@@ -122,7 +121,7 @@ class Shown:
         model = point.hypothesis.model(point.values)
         outset = self._outset(point)
         gap = rms(errors_of(self.problem, point, outset)).velocity / unit(self.log.units).si
-        track = self.problem.track(model, outset, NO_TRUST)[:, [0, 3]]
+        track = self.problem.track(model, outset).read
         runs = tuple(track[first:last] for first, last in pairwise(self.problem.edges.tolist()))
         return Chapter(one.suspect.effect, model, one.tried, gap, runs)
 
