@@ -16,9 +16,9 @@ from sim.reconcile.descent import settle
 from sim.reconcile.gates import Gap
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
+from sim.reconcile.left import Left
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
-from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round
 from sim.reconcile.suspects import judged
 from sim.reconcile.thresholds import ALIKE
@@ -117,7 +117,7 @@ def test_it_is_told_where_and_by_how_much(alike, units, said):
     done = [Round(judged(problem, point), gap, gap)]
 
     verdict, remainder, remains = verdict_of(
-        [], done, problem, moment=Moment(3.0, 0, 0.0, 0.1), alike=alike, per=unit(units)
+        [], done, problem, left=Left(alike=alike), per=unit(units)
     )
 
     assert (verdict, remainder) == ("unexplained", True)

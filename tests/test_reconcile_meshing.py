@@ -13,11 +13,11 @@ from sim.reconcile import reconcile
 from sim.reconcile.gates import Gap
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
+from sim.reconcile.left import Left
 from sim.reconcile.meshing import ASIDE, BETWEEN, meshed, price
 from sim.reconcile.naming import beside
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
-from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round
 from sim.reconcile.story import Finding
 from sim.reconcile.suspects import judged
@@ -33,7 +33,6 @@ BEGAN = {
     "dynamic-reverse": (0.5, -0.5),
 }
 """Test -> where in the play its run began, in the log and in its validation."""
-CALM = Moment(0.0, 0, 0.0, 0.0)
 PLAYS = Hypothesis("simple") + "backlash"
 VALUES = {**GAINS, "backlash.slack": SLACK, "backlash.share": SHARE}
 
@@ -123,10 +122,10 @@ def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
     point = at(problem)
     one = Round(judged(problem, point, "backlash"), Gap(0.0, 0.0), Gap(0.0, 0.0))
 
-    (said,) = beside(problem, [one], [named("backlash")], CALM)
+    (said,) = beside(problem, [one], [named("backlash")], Left())
     assert "no run that was fitted turns" in said
 
     turned = session(0, step=4.0, seed=1)
     back = replace(turned.runs[0], velocity=turned.runs[0].velocity * np.sign(np.arange(600) - 300))
     there = Problem.of(lanes(replace(turned, runs=(back, *turned.runs[1:]))))
-    assert beside(there, [one], [named("backlash")], CALM) == ()
+    assert beside(there, [one], [named("backlash")], Left()) == ()

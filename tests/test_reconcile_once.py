@@ -16,6 +16,7 @@ from sim.reconcile.descent import adjusting, promise, settle
 from sim.reconcile.gates import Gap, folds
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import ended_after, in_a_row, lanes
+from sim.reconcile.left import Left
 from sim.reconcile.naming import belied
 from sim.reconcile.once import closer, moments, otherwise
 from sim.reconcile.outset import Outset
@@ -295,7 +296,7 @@ def test_a_moment_stays_on_the_clock():
 def test_what_is_had_back_at_another_pace_was_no_inertia(joined, size, lane, after, is_belied):
     problem, point = joined
     start = float(problem.lanes[lane].seen.time[0]) + after
-    worst = Moment(size, lane, start, start + 0.1)
+    left = Left(moment=Moment(size, lane, start, start + 0.1))
 
-    assert belied("inertia-change", problem, point, worst) is is_belied
-    assert not belied("drag", problem, point, worst)
+    assert belied("inertia-change", problem, point, left) is is_belied
+    assert not belied("drag", problem, point, left)

@@ -25,10 +25,10 @@ def gains(scale):
     return {"kS": 0.3, "kV": 2.0, "kA": 2.0 * scale}
 
 
-def recorded(test, scale, rng, *, lost=()):
+def recorded(test, scale, rng, *, lost=(), lasts=1.0):
     """A run whose motor did not get a share of the voltage that was logged, at some times."""
     quick = test.startswith("dynamic")
-    time = np.arange(0.0, 1.0 if quick else 7.0, PERIOD)
+    time = np.arange(0.0, lasts if quick else 7.0, PERIOD)
     sign = -1.0 if test.endswith("reverse") else 1.0
     volts = sign * (np.where(time < 2 * PERIOD, 0.0, STEP) if quick else RAMP * time)
     real = volts.copy()
@@ -42,14 +42,14 @@ def recorded(test, scale, rng, *, lost=()):
     return Run(test, time, volts, *seen)
 
 
-def slips(scale, *, test="quasistatic-forward", lost=(), reads=()):
+def slips(scale, *, test="quasistatic-forward", lost=(), reads=(), lasts=1.0):
     """The slips found in four runs, of which one lost voltage, or was read at another pace."""
     rng = np.random.default_rng(5)
     runs, clock = [], 0.0
     for kind in ("quasistatic", "dynamic"):
         for way in ("forward", "reverse"):
             name = f"{kind}-{way}"
-            run = recorded(name, scale, rng, lost=lost if name == test else ())
+            run = recorded(name, scale, rng, lost=lost if name == test else (), lasts=lasts)
             paces = np.ones(run.time.size)
             for start, end, pace in reads if name == test else ():
                 paces[(run.time > start) & (run.time <= end)] = pace
@@ -80,6 +80,24 @@ def test_a_slip_is_found(scale, test, start, end, pace):
     run = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
     assert run[number] == test
     assert slip.end - slip.start == pytest.approx(end - start, abs=2.0 * PERIOD)
+
+
+@pytest.mark.parametrize("scale", [LIGHT, 0.1, HEAVY])
+@pytest.mark.parametrize(("start", "end"), [(0.21, 0.33), (0.17, 0.31)])
+@pytest.mark.parametrize("pace", [0.8, 1.3])
+def test_a_slip_is_found_in_a_step_that_is_soon_over(scale, start, end, pace):
+    found = slips(scale, test="dynamic-reverse", reads=[(start, end, pace)], lasts=0.48)
+
+    assert [number for number, _ in found] == [3]
+    assert found[0][1].end - found[0][1].start == pytest.approx(end - start, abs=2.0 * PERIOD)
+
+
+@pytest.mark.parametrize("scale", [LIGHT, 0.1, HEAVY])
+@pytest.mark.parametrize(("start", "end"), [(0.0, 0.1), (0.04, 0.19)])
+def test_how_a_step_begins_is_no_slip(scale, start, end):
+    lost = [(start, end, 0.6)]
+
+    assert slips(scale, test="dynamic-reverse", lost=lost, lasts=0.48) == []
 
 
 @pytest.mark.parametrize("scale", [LIGHT, 2.0 * LIGHT, HEAVY])

@@ -15,10 +15,12 @@ from sim.reconcile.alike import Alike
 from sim.reconcile.gates import Gap
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
+from sim.reconcile.left import Left
 from sim.reconcile.naming import beside, findings_of
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
 from sim.reconcile.remainder import Moment
+from sim.reconcile.rhythm import Rhythm
 from sim.reconcile.round import Round, Weighed
 from sim.reconcile.story import Tried
 from sim.reconcile.suspects import judged
@@ -27,7 +29,7 @@ from sim.reconcile.weighing import WIDENS, worth_a_name
 from sim.units import unit
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
-CALM, METERS = Moment(3.0, 0, 0.0, 0.1), unit("meters")
+METERS = unit("meters")
 LASTS = 1e6  # [s]
 
 
@@ -65,9 +67,7 @@ def rounds(problem, *gaps, values=GAINS, hypothesis=None):
     ],
 )
 def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, verdict, remains):
-    said = verdict_of(
-        findings, rounds(problem, *gaps), problem, moment=CALM, alike=Alike(), per=METERS
-    )
+    said = verdict_of(findings, rounds(problem, *gaps), problem, left=Left(), per=METERS)
 
     assert said[:2] == (verdict, remains)
     assert bool(said[2]) is remains
@@ -84,7 +84,7 @@ def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, 
     other = Weighed(replace(done[0].suspect, effect="compliance", point=point), done[0].gap, tried)
     done = [replace(done[0], weighed=(other,))]
 
-    said = verdict_of([], done, problem, moment=CALM, alike=Alike(), per=METERS)
+    said = verdict_of([], done, problem, left=Left(), per=METERS)
 
     assert said[0] == verdict
     assert ("compliance" in said[2]) is (verdict == "unexplained")
@@ -121,7 +121,7 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
     done = added(problem, *steps, values=values)
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
-    found = findings_of(problem, done, [], chapters, moment=CALM, alike=Alike(), per=METERS)
+    found = findings_of(problem, done, [], chapters, left=Left(), per=METERS)
 
     assert {one.effect: one.size for one in found} == sizes
 
@@ -129,10 +129,11 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
 @pytest.mark.parametrize(
     "rest",
     [
-        {"moment": Moment(20.0, 0, 0.5, 0.6), "alike": Alike()},
-        {"moment": CALM, "alike": Alike(9.0, "position", 1, 0.4, 0.5)},
+        Left(moment=Moment(20.0, 0, 0.5, 0.6)),
+        Left(alike=Alike(9.0, "position", 1, 0.4, 0.5)),
+        Left(rhythm=Rhythm(300.0, 1.7)),
     ],
-    ids=["a moment", "a place"],
+    ids=["a moment", "a place", "a rhythm"],
 )
 @pytest.mark.parametrize(("after", "size"), [(0.7, "minor"), (0.5, "major")])
 def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, rest, after, size):
@@ -142,7 +143,7 @@ def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, res
 
     def sizes(done):
         chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
-        found = findings_of(problem, done, [], chapters, per=METERS, **rest)
+        found = findings_of(problem, done, [], chapters, left=rest, per=METERS)
         return [one.size for one in found]
 
     assert sizes(alone) == [size]
@@ -163,8 +164,8 @@ def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, n
     done = added(problem, (effect, 1.9, 2.0), values={**GAINS, f"{effect}.{name}": size})
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
-    found = findings_of(problem, done, [], chapters, moment=CALM, alike=Alike(), per=METERS)
-    told = beside(problem, done, found, CALM)
+    found = findings_of(problem, done, [], chapters, left=Left(), per=METERS)
+    told = beside(problem, done, found, Left())
 
     assert [one.effect for one in found] == [effect] * named
     assert any(f"a little {effect}" in sentence for sentence in told) is not named
@@ -181,7 +182,7 @@ def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, 
     done[1:] = [replace(one, bare=one.before) for one in done[1:]]
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
-    found = findings_of(problem, done, [], chapters, moment=CALM, alike=Alike(), per=METERS)
+    found = findings_of(problem, done, [], chapters, left=Left(), per=METERS)
 
     assert ("drag" in [one.effect for one in found]) is named
     assert any(one.size == "major" for one in found) is (beside < 1.5)
@@ -215,7 +216,7 @@ def test_what_is_in_the_model_and_not_named_is_told(problem, after, told):
     values = {**GAINS, **{f"{part.effect}.{name}": value for name, value in joins.items()}}
     done = rounds(problem, 5.0, values=values, hypothesis=Hypothesis("simple") + part.effect)
     start = float(problem.lanes[0].seen.time[0]) + 0.5 + after
-    strange = Moment(20.0, 0, start, start + 0.1)
+    strange = Left(moment=Moment(20.0, 0, start, start + 0.1))
 
     (said,) = beside(problem, done, [], strange)
 

@@ -17,7 +17,6 @@ from dataclasses import replace
 from sim.errors import NotIdentifiable
 from sim.fit.start import first_guess, sensible
 from sim.log import Log
-from sim.reconcile.alike import most_alike
 from sim.reconcile.aside import Aside, judge_damage
 from sim.reconcile.damage import Damaged
 from sim.reconcile.descent import better, ended, scanned, settle
@@ -25,10 +24,10 @@ from sim.reconcile.gates import errors_of, folds, missed, rms
 from sim.reconcile.glitch import glitches
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, ended_after, in_a_row, lanes
+from sim.reconcile.left import Left
 from sim.reconcile.naming import beside, findings_of
 from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Point, Problem
-from sim.reconcile.remainder import worst
 from sim.reconcile.rounds import rounds
 from sim.reconcile.showing import Shown
 from sim.reconcile.story import Story
@@ -88,19 +87,19 @@ def reconcile(
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     last = done[-1].suspect.point
-    moment, alike, per = worst(problem, last), most_alike(problem, last), unit(log.units)
+    left = Left.by(problem, last)
     findings = findings_of(
-        problem, done, _once(slipped, aside.found), chapters, moment=moment, alike=alike, per=per
+        problem, done, _once(slipped, aside.found), chapters, left=left, per=unit(log.units)
     )
     verdict, remainder, remains = verdict_of(
-        findings, done, problem, moment=moment, alike=alike, per=per
+        findings, done, problem, left=left, per=unit(log.units)
     )
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.how,
-        notes=(*beside(problem, done, findings, moment), *seen),
+        notes=(*beside(problem, done, findings, left), *seen),
         compared=shown.compared,
     )  # fmt: skip
 

@@ -68,7 +68,7 @@ def most_alike(problem: Problem, point: Point) -> Alike:
         problem: the measurements.
         point: what is believed.
     """
-    missed = _pushes(problem, point)
+    missed = pushes(problem, point)
     track = problem.track(point.hypothesis.model(point.values), point.outset, point.trust)
     speed, position = track.seen, problem.measured[:, 0]
     position = np.where(np.isnan(position), track.position, position)
@@ -87,7 +87,7 @@ def most_alike(problem: Problem, point: Point) -> Alike:
     return max(found, key=lambda one: one.size)
 
 
-def _pushes(problem: Problem, point: Point) -> Array:
+def pushes(problem: Problem, point: Point) -> Array:
     """(n,) how much of a push within its period each white innovation has."""
     period = problem.period
     push = problem.white(point, np.array([[0.5 * period**2, period]]))

@@ -6,6 +6,7 @@ one that slips reads a share of the speed for a while; either goes and comes wit
 the time scale is too short to tell that from a push, nothing is said.
 """
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -21,6 +22,7 @@ from sim.reconcile.problem import Point, Problem
 
 FAR = 10.0  # [robust standard deviations] that a slip's velocity is off at least
 BESIDE = 0.16  # [s] before and after it that must agree
+SHORT, LONG = 2, 4  # [1] times that, which a run lasts at least, and to tell what is ordinary in it
 BACK = 0.2  # [1] of its size that may be left after it, or be otherwise than a slip has it
 
 # What is over before a mechanism could have answered:
@@ -31,6 +33,7 @@ CLEARLY = 4.0  # [1] times as long as it lasts must be the time scale of the mec
 
 # What is a share of the speed, and comes and goes within a sample:
 STARTING_SHARP = 0.2  # [s] the same: free play is crossed by then
+EDGE_EARLY = 0.6  # [1] of it, before which no edge is; one of them is after it
 LONGEST_SHARP, FEWEST = 1.0, 3  # [s] it lasts at most, and samples at least, and those after it
 SEEN, NOISES = 4.0, 2.0  # [robust standard deviations] of its lesser edge, and of noise at one
 OTHERS = 4  # [jumps for each slip, its own two among them] with more, something else jumps
@@ -64,7 +67,13 @@ class _Errors:
     def jumps(self) -> Array:
         """(n,) from the sample before, where a slip may begin or end."""
         jumps = np.diff(self.left, prepend=self.left[:1])
-        return np.where(self.told & (self.since > STARTING_SHARP), jumps, 0.0)
+        return np.where(self.told & (self.since > EDGE_EARLY * STARTING_SHARP), jumps, 0.0)
+
+    @property
+    def clear(self) -> list[int]:
+        """Where a jump is far from ordinary, and not of the motion's start."""
+        late = self.since > STARTING_SHARP
+        return np.flatnonzero((np.abs(self.jumps) > FAR * self.spread) & late).tolist()
 
 
 def glitches(problem: Problem, point: Point) -> Iterator[tuple[int, Damaged]]:
@@ -93,9 +102,11 @@ def _errors(problem: Problem, point: Point) -> Iterator[tuple[int, _Errors]]:
         lane, told = problem.lanes[number], problem.telling[first:last].copy()
         left = np.nan_to_num(problem.measured[first:last, 1] - speeds[first:last])
         moves = np.flatnonzero(lane.seen.moving)
-        if left.size < 4 * near or not told.any() or not moves.size:
+        if left.size < SHORT * near or not told.any() or not moves.size:
             continue
         apart = np.abs(left - _median(left, near))[told]
+        if left.size < LONG * near:  # the slip itself is a good part of it
+            apart = np.abs(np.diff(left, prepend=left[:1]))[told] / math.sqrt(2.0)
         spread = max(ROBUST * float(np.median(apart)), problem.noise.velocity)
         told[:near] = told[-FEWEST:] = False
         since = lane.seen.time - float(lane.seen.time[moves[0]])
@@ -125,7 +136,7 @@ def _sharp_of_all(every: Iterable[_Errors]) -> dict[_Errors, list[tuple[int, int
     An encoder slips once: where more jumps are left that are none, something else makes them.
     """
     found = {run: list(_sharp(run)) for run in every}
-    jumps = sum(np.count_nonzero(np.abs(run.jumps) > FAR * run.spread) for run in found)
+    jumps = sum(len(run.clear) for run in found)
     return found if jumps <= OTHERS * sum(map(len, found.values())) else {}
 
 
@@ -133,7 +144,7 @@ def _sharp(run: _Errors) -> Iterator[tuple[int, int, float]]:
     time, jumps = run.lane.seen.time, run.jumps
     edges = np.flatnonzero(np.abs(jumps) > SEEN * run.spread).tolist()
     done = 0
-    for clear in np.flatnonzero(np.abs(jumps) > FAR * run.spread).tolist():
+    for clear in run.clear:
         others = [
             one
             for one in edges

@@ -9,12 +9,11 @@ import numpy as np
 
 from sim.effect import ONSET
 from sim.effects import EFFECTS
-from sim.reconcile.alike import Alike
 from sim.reconcile.damage import Damaged
 from sim.reconcile.descent import with_prior
 from sim.reconcile.gates import missed
+from sim.reconcile.left import Left
 from sim.reconcile.problem import Point, Problem
-from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round
 from sim.reconcile.second_thoughts import apart
 from sim.reconcile.story import (
@@ -24,12 +23,10 @@ from sim.reconcile.story import (
 )
 from sim.reconcile.thresholds import (
     AFTER,
-    ALIKE,
     FAR_MAJOR,
     KNOCK,
     LOST,
     MAJOR,
-    SHAKEN,
     STRAYS,
     TOLD_FIRST,
 )
@@ -49,7 +46,7 @@ BELIED = (
 
 def findings_of(
     problem: Problem, done: Sequence[Round], damages: Sequence[Damaged],
-    chapters: Sequence[Chapter], *, moment: Moment, alike: Alike, per: Unit,
+    chapters: Sequence[Chapter], *, left: Left, per: Unit,
 ) -> tuple[Finding, ...]:  # fmt: skip
     """What was missing or wrong: faults first, then effects, the major ones first.
 
@@ -60,14 +57,13 @@ def findings_of(
         done: the base and the rounds.
         damages: of the record.
         chapters: of the shown log, one for each round.
-        moment: that the last model explains least.
-        alike: what runs miss of it alike.
+        left: what the last model leaves.
         per: the owner's unit.
     """
     faults = [_fault(one, chapters[0].gap) for one in damages]
     last = done[-1].suspect.point
     end = done[-1].gap.velocity / problem.noise.velocity
-    far = end > STRAYS or alike.size > ALIKE or moment.size > SHAKEN
+    far = end > STRAYS or left.something
     effects = _sized(problem, done, chapters, far=far, per=per)
     if not missed(end, problem) <= LOST:  # no number at all is lost, too
         effects = []
@@ -78,7 +74,7 @@ def findings_of(
         if one.size == "major"
         or (worth_a_name(one.effect, last.values, one.score) if alone else not _everyday(one, last))
     ]
-    effects = [one for one in effects if not belied(one.effect, problem, last, moment)]
+    effects = [one for one in effects if not belied(one.effect, problem, last, left)]
     effects.sort(key=lambda one: (_everyday(one, last), -one.score))
     return tuple(sorted((*faults, *(_no_alarm(one, last) for one in effects)), key=_rank))
 
@@ -134,13 +130,14 @@ def _everyday(one: Finding, last: Point) -> bool:
     return everyday(one.effect, last.values)
 
 
-def belied(effect: str, problem: Problem, last: Point, moment: Moment) -> bool:
+def belied(effect: str, problem: Problem, last: Point, left: Left) -> bool:
     """Whether what came of it is what the model explains least.
 
     A sensor that slips or a robot that is bumped loses speed as one does that takes up a load, but
     has it back at another pace. The knock itself is known to a sample, and never explained quite.
     """
-    if not EFFECTS[effect].happens or moment.size <= SHAKEN:
+    moment = left.moment
+    if not (EFFECTS[effect].happens and left.shaken):
         return False
     lane = problem.lanes[moment.lane]
     onset = last.values[f"{effect}.{ONSET}"] - lane.clock + float(lane.seen.time[0])
@@ -148,13 +145,13 @@ def belied(effect: str, problem: Problem, last: Point, moment: Moment) -> bool:
 
 
 def beside(
-    problem: Problem, done: Sequence[Round], findings: Sequence[Finding], moment: Moment
+    problem: Problem, done: Sequence[Round], findings: Sequence[Finding], left: Left
 ) -> tuple[str, ...]:
     """What a person should know of the last model: what was not named, and what no run told."""
     last = done[-1].suspect.point
     hypothesis = last.hypothesis
     named = {one.effect for one in findings}
-    unsure = [name for name in hypothesis.effects if belied(name, problem, last, moment)]
+    unsure = [name for name in hypothesis.effects if belied(name, problem, last, left)]
     rest = [name for name in hypothesis.effects if name not in {*named, *unsure}]
     said = []
     if rest:

@@ -40,6 +40,10 @@ class Moment:
     end: float
 
 
+CALM = Moment(0.0, 0, 0.0, 0.0)
+"""None at all."""
+
+
 def worst(problem: Problem, point: Point) -> Moment:
     """The most unlikely window of innovations.
 
@@ -58,7 +62,7 @@ def worst(problem: Problem, point: Point) -> Moment:
             time = problem.lanes[lane].seen.time
             end = min(place + count, time.size - 1)
             moments.append(Moment(float(size[place]), lane, float(time[place]), float(time[end])))
-    return max(moments, key=lambda one: one.size, default=Moment(0.0, 0, 0.0, 0.0))
+    return max(moments, key=lambda one: one.size, default=CALM)
 
 
 def _sizes(problem: Problem, white: Array, count: int) -> dict[int, Array]:

@@ -4,18 +4,18 @@ from collections.abc import Sequence
 
 from sim.reconcile.alike import POSITION, Alike
 from sim.reconcile.gates import missed
+from sim.reconcile.left import Left
 from sim.reconcile.problem import Problem
-from sim.reconcile.remainder import Moment
 from sim.reconcile.round import Round
 from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
-from sim.reconcile.thresholds import ALIKE, LOST, MOSTLY, SHAKEN, STRAYS
+from sim.reconcile.thresholds import LOST, MOSTLY, STRAYS
 from sim.reconcile.weighing import blocked
 from sim.units import Unit
 
 
 def verdict_of(
     findings: Sequence[Finding], done: Sequence[Round], problem: Problem, *,
-    moment: Moment, alike: Alike, per: Unit,
+    left: Left, per: Unit,
 ) -> tuple[str, bool, str]:  # fmt: skip
     """The verdict, whether something remains, and a sentence about it.
 
@@ -23,8 +23,7 @@ def verdict_of(
         findings: what was named.
         done: the base and the rounds.
         problem: the measurements.
-        moment: that the last model explains least.
-        alike: what runs miss of it alike.
+        left: what the last model leaves.
         per: the owner's unit.
     """
     remains = ""
@@ -39,14 +38,22 @@ def verdict_of(
             "and the same moment."
         )
         return UNEXPLAINED, True, remains
-    if moment.size > SHAKEN:
+    if left.shaken:
+        moment = left.moment
         lane = problem.lanes[moment.lane]
         remains = (
             f"In {lane.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
             f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
         )
-    elif alike.size > ALIKE:
-        remains = _habit(alike, per)
+    elif left.repeats:
+        remains = _habit(left.alike, per)
+    elif left.swings:
+        remains = (
+            f"Something pushes to and fro every {1.0 / left.rhythm.rate:.2f} s, whatever the "
+            "mechanism does meanwhile, and no effect of the catalogue explains it. Look for what "
+            "has a time of its own: a robot that rocks on its blocks, a compressor, another "
+            "mechanism."
+        )
     elif strays > STRAYS:
         remains = (
             f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
