@@ -208,6 +208,29 @@ def test_what_is_far_more_than_on_any_robot_is_believed_sooner(effect, values, s
     assert worth_a_name(effect, of_model, score) is worth
 
 
+@pytest.mark.parametrize(
+    ("score", "others", "named"),
+    [
+        (52.0, {"heating": 9.0}, True),
+        (52.0, {"heating": 9.0, "inertia-change": 44.0}, True),  # which happens once
+        (52.0, {"heating": 30.0}, False),  # as like as not
+        (90.0, {"delay": 60.0}, True),  # far more than on any robot
+        (21.0, {}, False),
+    ],
+)
+def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score, others, named):
+    values = {**GAINS, "battery-sag.share": 0.64}
+    base, one = added(problem, ("battery-sag", 1.9, 2.0), values=values)
+    scores = {"battery-sag": score, **others}
+    tried = tuple(Tried(name, each, 1.0, admitted=False, why="") for name, each in scores.items())
+    done = [replace(base, tried=tried), replace(one, lost=score)]
+    chapters = [SimpleNamespace(gap=each.gap.velocity) for each in done]
+
+    found = findings_of(problem, done, [], chapters, left=Left(), per=METERS)
+
+    assert [each.effect for each in found] == ["battery-sag"] * named
+
+
 @pytest.mark.parametrize(("after", "told"), [(0.2, True), (0.9, False)])
 def test_what_is_in_the_model_and_not_named_is_told(problem, after, told):
     onset = float(problem.lanes[0].clock) + 0.5

@@ -30,7 +30,7 @@ from sim.reconcile.thresholds import (
     STRAYS,
     TOLD_FIRST,
 )
-from sim.reconcile.weighing import everyday, worth_a_name
+from sim.reconcile.weighing import everyday, stands_alone, worth_a_name
 from sim.units import Unit
 
 TURNLESS = (
@@ -71,8 +71,7 @@ def findings_of(
     effects = [
         one
         for one in effects
-        if one.size == "major"
-        or (worth_a_name(one.effect, last.values, one.score) if alone else not _everyday(one, last))
+        if one.size == "major" or (_headline(one, done) if alone else not _everyday(one, last))
     ]
     effects = [one for one in effects if not belied(one.effect, problem, last, left)]
     effects.sort(key=lambda one: (_everyday(one, last), -one.score))
@@ -108,6 +107,14 @@ def _sized(
         if most is not None:
             found[most] = replace(found[most], size="major")
     return found
+
+
+def _headline(one: Finding, done: Sequence[Round]) -> bool:
+    """Whether a minor effect is worth a name where nothing else is missing."""
+    last = done[-1].suspect.point
+    places = (n for n in range(1, len(done)) if done[n].suspect.effect == one.effect)
+    lone = any(stands_alone(one.effect, done[n - 1].tried) for n in places)
+    return worth_a_name(one.effect, last.values, one.score, lone=lone)
 
 
 def _step(one: Round) -> float:

@@ -16,6 +16,7 @@ from sim.reconcile.thresholds import (
     CLOSE,
     FAR,
     HALF,
+    LONE,
     MUCH_NARROWER,
     NARROWER,
     NOT_WIDER,
@@ -132,7 +133,9 @@ def everyday(effect: str, values: Mapping[str, float]) -> bool:
     return known.everyday({name: values[f"{effect}.{name}"] for name in known.names})
 
 
-def worth_a_name(effect: str, values: Mapping[str, float], score: float) -> bool:
+def worth_a_name(
+    effect: str, values: Mapping[str, float], score: float, *, lone: bool = False
+) -> bool:
     """Whether an effect is there beyond doubt, and no robot has a little of it.
 
     Free play of a motor is lost in what a simulation misses after ten seconds, and yet is there.
@@ -141,6 +144,7 @@ def worth_a_name(effect: str, values: Mapping[str, float], score: float) -> bool
         effect: its name.
         values: of the model.
         score: [of -2 log L] by which it makes the model likelier.
+        lone: no other effect that lasts explained half as much in its place.
     """
     if everyday(effect, values):
         return False
@@ -150,7 +154,22 @@ def worth_a_name(effect: str, values: Mapping[str, float], score: float) -> bool
         for one in known.parameters
     }
     far = known.everyday(known.neutral) and not known.everyday(part)
-    return score >= (SURER if far else WORTH_A_NAME)
+    return score >= (LONE if lone else SURER if far else WORTH_A_NAME)
+
+
+def stands_alone(effect: str, tried: Sequence[Tried]) -> bool:
+    """Whether no other effect that lasts explained half as much.
+
+    Args:
+        effect: that was added.
+        tried: the suspects of its round.
+    """
+    scores = {one.effect: one.score for one in tried}
+    most = max(
+        (score for name, score in scores.items() if name != effect and not EFFECTS[name].happens),
+        default=-math.inf,
+    )
+    return effect in scores and most < HALF * scores[effect]
 
 
 def gained(now: Suspect, other: Suspect) -> float:
