@@ -64,6 +64,40 @@ def test_a_start_that_is_far_too_large_is_halved():
     assert best.values["compliance.softness"] == pytest.approx(truth, rel=1.0)
 
 
+@pytest.mark.parametrize("part", [-0.2, 0.1, 8.0])
+def test_a_start_that_goes_the_wrong_way_or_not_far_enough_is_turned(part):
+    built = bench("drivetrain", "asymmetric-back-emf")
+    truth = built.hidden[0].parameters["lean"]
+    problem = Problem.of(lanes(session(built, "log")))
+    base, name = Hypothesis("simple"), "asymmetric-back-emf"
+    values = {name: built.gains[name] for name in base.names}
+    point = problem.at(base, values, Outset.seen(len(problem.lanes)), problem.noise.velocity**2)
+
+    begun = promise(
+        problem,
+        point,
+        base + name,
+        [{f"{name}.lean": part * truth}],
+        kept=adjusting(problem, point),
+    )
+
+    _, best = max(begun, key=lambda one: one[0])
+    assert best.values[f"{name}.lean"] == pytest.approx(truth, rel=0.5)
+
+
+def test_what_cannot_be_negative_is_not_turned():
+    built = bench("drivetrain", "drag")
+    problem = Problem.of(lanes(session(built, "log")))
+    base = Hypothesis("simple")
+    values = {name: built.gains[name] for name in base.names}
+    point = problem.at(base, values, Outset.seen(len(problem.lanes)), problem.noise.velocity**2)
+    more = [{"drag.drag": size * built.hidden[0].parameters["drag"]} for size in (0.05, 4.0)]
+
+    begun = promise(problem, point, base + "drag", more, kept=adjusting(problem, point))
+
+    assert all(one.values["drag.drag"] >= 0.0 for _, one in begun)
+
+
 def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
     built = bench("drivetrain")
     log = session(built, "log")

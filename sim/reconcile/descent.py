@@ -21,7 +21,8 @@ FIRST_DAMPING, TRIES = 1e-3, 5
 SOFTER = 4.0  # [1] steps of q
 LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which q is none
 SCANNED = (-12, -9, -6, -4, -2)  # powers of it: what pushes is first thought too large
-SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size that are worth another look
+SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size that are another size
+LARGEST_PART = 30.0  # [1] the same, of what may go either way
 SURELY_MORE = 10.0  # [of -2 log L]
 HALVINGS = 3  # of the best start: what an effect offers may be too large for what is subtle
 ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
@@ -170,9 +171,10 @@ def promise(
 ) -> list[Begun]:  # fmt: skip
     """What each start of a suspect may gain once the gains have adjusted to it, and its point.
 
-    A start that goes too far is tried again at the part of it that would gain most, if what it does
-    were proportional to its size; the best of all is halved while that promises more, for what does
-    not act in proportion (free play, a limit) and is smaller than every start.
+    A start that goes too far, not far enough or the wrong way, as it may beside another effect that
+    no start knows of, is tried again at the size that would gain most, if what it does were
+    proportional to it; the best of all is halved while that promises more, for what does not act in
+    proportion (free play, a limit) and is smaller than every start.
 
     Args:
         problem: the measurements.
@@ -202,9 +204,10 @@ def promise(
         along, size = kept.along(change, now)
         part = -along / size if size > 0.0 else 0.0
         found.append((gained, other))
-        near = as_given or not SMALL_PART < part < LARGE_PART
-        if not near and part**2 * size > gained + SURELY_MORE:
-            found.append(begun(_smaller(hypothesis, one, part)))
+        if as_given or not _another_size(hypothesis, part):
+            continue
+        if part**2 * size > gained + SURELY_MORE:
+            found.append(begun(_sized(hypothesis, one, part)))
     if found and not as_given:
         found += _halved(hypothesis, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
     return [one for one in found if math.isfinite(one[0])]
@@ -216,21 +219,39 @@ def _halved(
 ) -> Iterator[Begun]:  # fmt: skip
     """Half of the best start, and half of that, as long as it promises more."""
     for _ in range(HALVINGS):
-        half = begun(_smaller(hypothesis, {name: best[1].values[name] for name in names}, 0.5))
+        half = begun(_sized(hypothesis, {name: best[1].values[name] for name in names}, 0.5))
         if not half[0] > best[0]:
             return
         yield half
         best = half
 
 
-def _smaller(hypothesis: Hypothesis, one: Mapping[str, float], part: float) -> dict[str, float]:
-    """A start at a part of its size: of the parameters that are nothing where it is not there."""
-    sizes = {
+def _another_size(hypothesis: Hypothesis, part: float) -> bool:
+    """Whether a part of a start's size is another one; the other way only what goes either way."""
+    if SMALL_PART < part < LARGE_PART:
+        return True
+    sizes = _sizes(hypothesis)
+    signed = bool(sizes) and all(hypothesis.parameters[name].least < 0.0 for name in sizes)
+    return signed and SMALL_PART < abs(part) < LARGEST_PART
+
+
+def _sizes(hypothesis: Hypothesis) -> list[str]:
+    """The parameters of the last effect that are nothing where it is not there."""
+    own = f"{hypothesis.effects[-1]}."
+    return [
         name
         for name, known in hypothesis.parameters.items()
-        if known.neutral == 0.0 and known.searched
+        if name.startswith(own) and known.neutral == 0.0 and known.searched
+    ]
+
+
+def _sized(hypothesis: Hypothesis, one: Mapping[str, float], part: float) -> dict[str, float]:
+    """A start at a part of its size."""
+    sizes = _sizes(hypothesis)
+    return {
+        name: hypothesis.within(name, value * part) if name in sizes else value
+        for name, value in one.items()
     }
-    return {name: value * part if name in sizes else value for name, value in one.items()}
 
 
 def adjusting(problem: Problem, point: Point) -> Kept:

@@ -231,7 +231,8 @@ class Problem:
 
     def white(self, point: Point, table: Array) -> Array:
         """(2 n,) made independent and of size one by the spread at a point."""
-        white = np.asarray((table @ point.whitening.T).ravel())
+        with np.errstate(over="ignore", invalid="ignore"):
+            white = np.asarray((table @ point.whitening.T).ravel())
         return white if math.isfinite(float(np.sum(white))) else np.nan_to_num(white)
 
     def columns(self, point: Point) -> Array:
@@ -268,7 +269,8 @@ class Problem:
         if hypothesis.within(name, value + step) != value + step:
             step = -step
         model = hypothesis.model({**point.values, name: value + step})
-        return np.asarray((self.ahead(model, point.outset, point.trust) - point.ahead) / step)
+        with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
+            return np.asarray((self.ahead(model, point.outset, point.trust) - point.ahead) / step)
 
     def _by_run(self, change: Array) -> Array:
         """(2 n, runs): all runs are moved at once, and each is the business of its own column.
