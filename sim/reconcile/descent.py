@@ -22,7 +22,7 @@ SOFTER = 4.0  # [1] steps of q
 LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which q is none
 SCANNED = (-12, -9, -6, -4, -2)  # powers of it: what pushes is first thought too large
 SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size that are another size
-LARGEST_PART = 30.0  # [1] the same, of what may go either way
+LARGEST_PART = 30.0  # [1] the same, the other way
 SURELY_MORE = 10.0  # [of -2 log L]
 HALVINGS = 3  # of the best start: what an effect offers may be too large for what is subtle
 ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
@@ -171,9 +171,9 @@ def promise(
 ) -> list[Begun]:  # fmt: skip
     """What each start of a suspect may gain once the gains have adjusted to it, and its point.
 
-    A start that goes too far, not far enough or the wrong way, as it may beside another effect that
-    no start knows of, is tried again at the size that would gain most, if what it does were
-    proportional to it; the best of all is halved while that promises more, for what does not act in
+    A start that goes too far, or the wrong way, as it may beside another effect that no start knows
+    of, is tried again at the size that would gain most, if what it does were proportional to it;
+    the best of all is halved while that promises more, for what does not act in
     proportion (free play, a limit) and is smaller than every start.
 
     Args:
@@ -227,12 +227,12 @@ def _halved(
 
 
 def _another_size(hypothesis: Hypothesis, part: float) -> bool:
-    """Whether a part of a start's size is another one; the other way only what goes either way."""
-    if SMALL_PART < part < LARGE_PART:
-        return True
+    """Whether a part of a start's size is worth a look: a smaller one, or one the other way."""
+    if part > 0.0:
+        return SMALL_PART < part < LARGE_PART
     sizes = _sizes(hypothesis)
     signed = bool(sizes) and all(hypothesis.parameters[name].least < 0.0 for name in sizes)
-    return signed and SMALL_PART < abs(part) < LARGEST_PART
+    return signed and SMALL_PART < -part < LARGEST_PART
 
 
 def _sizes(hypothesis: Hypothesis) -> list[str]:

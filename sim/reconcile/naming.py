@@ -50,7 +50,9 @@ def findings_of(
 ) -> tuple[Finding, ...]:  # fmt: skip
     """What was missing or wrong: faults first, then effects, the major ones first.
 
-    A fault that is cut out for safety's sake, but may be physics, comes after the major effects.
+    What any robot has a little of stays in the model and is no finding, however much of a small gap
+    it takes. A fault that is cut out for safety's sake, but may be physics, comes after the major
+    effects.
 
     Args:
         problem: the measurements.
@@ -67,15 +69,12 @@ def findings_of(
     effects = _sized(problem, done, chapters, far=far, per=per)
     if not missed(end, problem) <= LOST:  # no number at all is lost, too
         effects = []
+    effects = [one for one in effects if not everyday(one.effect, last.values)]
     alone = all(one.size != "major" for one in effects)
-    effects = [
-        one
-        for one in effects
-        if one.size == "major" or (_headline(one, done) if alone else not _everyday(one, last))
-    ]
+    effects = [one for one in effects if one.size == "major" or not alone or _headline(one, done)]
     effects = [one for one in effects if not belied(one.effect, problem, last, left)]
-    effects.sort(key=lambda one: (_everyday(one, last), -one.score))
-    return tuple(sorted((*faults, *(_no_alarm(one, last) for one in effects)), key=_rank))
+    effects.sort(key=lambda one: -one.score)
+    return tuple(sorted((*faults, *effects), key=_rank))
 
 
 def _sized(
@@ -125,16 +124,6 @@ def _step(one: Round) -> float:
 def _rank(one: Finding) -> int:
     """Its place: sure faults, major effects, faults that are none perhaps, minor effects."""
     return 2 * (one.size != "major") + (one.kind == "effect")
-
-
-def _no_alarm(one: Finding, last: Point) -> Finding:
-    """The same; what any robot has a little of is minor, however much of a small gap it takes."""
-    return replace(one, size="minor") if _everyday(one, last) else one
-
-
-def _everyday(one: Finding, last: Point) -> bool:
-    """Whether a finding is what any robot has a little of; it stays in the model."""
-    return everyday(one.effect, last.values)
 
 
 def belied(effect: str, problem: Problem, last: Point, left: Left) -> bool:
