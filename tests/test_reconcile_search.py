@@ -18,7 +18,7 @@ from sim.reconcile.gates import Gap, errors_of, rms
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, lanes
 from sim.reconcile.outset import Outset
-from sim.reconcile.problem import Point, Problem
+from sim.reconcile.problem import FARTHEST, Point, Problem
 from sim.reconcile.round import Round, Weighed
 from sim.reconcile.rounds import best_path, paired, rounds, turnings
 from sim.reconcile.story import Tried
@@ -62,6 +62,18 @@ def test_a_start_that_is_far_too_large_is_halved():
     assert gained < 0.0  # so far off that nothing else would ever have been tried
     assert most > 0.0
     assert best.values["compliance.softness"] == pytest.approx(truth, rel=1.0)
+
+
+@pytest.mark.parametrize("far", [1e200, math.inf, -math.inf, math.nan])
+def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
+    problem = Problem.of(lanes(session(bench("drivetrain"), "log")))
+    table = np.zeros_like(problem.measured)
+    table[3] = far
+
+    white = problem.white(NOWHERE, table)
+
+    assert np.isfinite(np.sum(np.square(white)))
+    assert np.max(np.abs(white)) >= FARTHEST
 
 
 @pytest.mark.parametrize("part", [-0.2, -2.0, 8.0])

@@ -173,8 +173,8 @@ def promise(
 
     A start that goes too far, or the wrong way, as it may beside another effect that no start knows
     of, is tried again at the size that would gain most, if what it does were proportional to it;
-    the best of all is halved while that promises more, for what does not act in
-    proportion (free play, a limit) and is smaller than every start.
+    the best of all is halved while that promises more, for what does not act in proportion (free
+    play, a limit) and is smaller than every start.
 
     Args:
         problem: the measurements.

@@ -30,6 +30,7 @@ TOP = 0.98  # quantile that stands for the largest, so that one bad sample does 
 NUDGE = 1e-3  # [of a value's size] for a derivative
 COARSE_NUDGE = 0.02  # [of it] where what it does comes in steps, as the samples do
 STEPWISE = ("band",)  # parameters of that kind
+FARTHEST = 1e100  # [1] that an innovation is off: the square of it is a number
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,10 +231,16 @@ class Problem:
         return self.count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
 
     def white(self, point: Point, table: Array) -> Array:
-        """(2 n,) made independent and of size one by the spread at a point."""
+        """(2 n,) made independent and of size one by the spread at a point.
+
+        What flies off is large, and its squares can still be summed.
+        """
         with np.errstate(over="ignore", invalid="ignore"):
             white = np.asarray((table @ point.whitening.T).ravel())
-        return white if math.isfinite(float(np.sum(white))) else np.nan_to_num(white)
+            if math.isfinite(float(white @ white)):
+                return white
+        near = np.clip(np.nan_to_num(table, nan=FARTHEST), -FARTHEST, FARTHEST)
+        return np.asarray((near @ point.whitening.T).ravel())
 
     def columns(self, point: Point) -> Array:
         """(2 n, searched + 2 runs) change of white innovations with each value, start and friction.
