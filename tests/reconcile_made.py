@@ -12,6 +12,10 @@ from sim.log import Log, Run
 from sim.mechanisms import MECHANISMS
 from sim.model import Model, Part
 from sim.reconcile import reconcile
+from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.lanes import lanes
+from sim.reconcile.outset import Outset
+from sim.reconcile.problem import Problem
 from sim.routine import Routine
 from sim.simulate import simulate
 
@@ -67,6 +71,13 @@ def rubbing(gains, shares, *parts, noise, step, seed):
         runs.append(recorded(test, model, step=step, noise=noise, rng=rng, **begun))
         clock = float(runs[-1].time[-1]) + 2.0
     return Log(tuple(runs), units="meters", type="simple")
+
+
+def based(log, gains):
+    """The problem of a log, and the point of gains without effects."""
+    problem = Problem.of(lanes(log))
+    begun = Outset.seen(len(problem.lanes))
+    return problem, problem.at(Hypothesis("simple"), gains, begun, problem.noise.velocity**2)
 
 
 def bench(name, effect="", *, size=1.0, simple=False):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reconcile_made import recorded
+from reconcile_made import based, recorded
 
 from sim.engine import State
 from sim.log import Log
@@ -14,11 +14,7 @@ from sim.model import Model, Part
 from sim.reconcile.alike import Alike, most_alike
 from sim.reconcile.descent import settle
 from sim.reconcile.gates import Gap
-from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import lanes
 from sim.reconcile.left import Left
-from sim.reconcile.outset import Outset
-from sim.reconcile.problem import Problem
 from sim.reconcile.round import Round
 from sim.reconcile.suspects import judged
 from sim.reconcile.thresholds import ALIKE
@@ -47,9 +43,7 @@ def session(*parts, seed, tests=TESTS):
 
 def found(log):
     """What runs miss alike of a model without effects, as it follows best."""
-    problem = Problem.of(lanes(log))
-    begun = Outset.seen(len(problem.lanes))
-    point = problem.at(Hypothesis("simple"), GAINS, begun, problem.noise.velocity**2)
+    problem, point = based(log, GAINS)
     return problem, most_alike(problem, settle(problem, point))
 
 
@@ -111,8 +105,7 @@ def test_a_run_alone_has_no_habit(count):
     ],
 )
 def test_it_is_told_where_and_by_how_much(alike, units, said):
-    problem = Problem.of(lanes(session(seed=6)))
-    point = problem.at(Hypothesis("simple"), GAINS, Outset.seen(8), problem.noise.velocity**2)
+    problem, point = based(session(seed=6), GAINS)
     gap = Gap(problem.noise.velocity, problem.noise.position)
     done = [Round(judged(problem, point), gap, gap)]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reconcile_made import recorded
+from reconcile_made import based, recorded
 
 from sim.engine import State
 from sim.log import Log, Run
@@ -49,9 +49,7 @@ def session(*parts, seed, swings=0.0, size=SWING):
 
 def found(log):
     """The clearest rhythm in what the best model without effects leaves."""
-    problem = Problem.of(lanes(log))
-    begun = Outset.seen(len(problem.lanes))
-    point = problem.at(Hypothesis("simple"), GAINS, begun, problem.noise.velocity**2)
+    problem, point = based(log, GAINS)
     point = ended(problem, point)
     return problem, point, clearest(problem, point)
 
@@ -102,8 +100,7 @@ def test_runs_that_are_too_short_have_none():
 
 def remains_of(left):
     """The verdict on a model that leaves that, and follows else."""
-    problem = Problem.of(lanes(session(seed=6)))
-    point = problem.at(Hypothesis("simple"), GAINS, Outset.seen(8), problem.noise.velocity**2)
+    problem, point = based(session(seed=6), GAINS)
     gap = Gap(problem.noise.velocity, problem.noise.position)
     done = [Round(judged(problem, point), gap, gap)]
     return verdict_of([], done, problem, left=left, per=unit("meters"))
