@@ -15,7 +15,7 @@ from sim.reconcile import reconcile
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
 from sim.reconcile.outset import Outset
-from sim.reconcile.problem import Problem
+from sim.reconcile.problem import Point, Problem
 from sim.routine import Routine
 from sim.simulate import simulate
 
@@ -31,6 +31,18 @@ SLOWEST = 3.5  # [V] of a step, for which the catalogue's examples are made
 
 
 PERIOD = 0.01  # [s], of what `recorded` records
+
+NOWHERE = Point(
+    Hypothesis("simple"),
+    {},
+    Outset.seen(0),
+    0.0,
+    np.zeros((2, 2)),
+    np.empty((0, 2)),
+    np.eye(2),
+    0.0,
+)
+"""A point where only its name is asked for."""
 
 
 def recorded(kind, model, *, step, state, noise, rng, began=0.0, still=0):

@@ -10,6 +10,7 @@ from sim.engine import State
 from sim.log import Log
 from sim.model import Model, Part
 from sim.reconcile import reconcile
+from sim.reconcile.descent import better, ended
 from sim.reconcile.gates import Gap
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
@@ -20,7 +21,7 @@ from sim.reconcile.outset import Outset
 from sim.reconcile.problem import Problem
 from sim.reconcile.round import Round
 from sim.reconcile.story import Finding
-from sim.reconcile.suspects import judged
+from sim.reconcile.suspects import FURTHER, further, judged
 
 GAINS = {"kS": 0.2, "kV": 2.4, "kA": 0.3}
 SLACK, SHARE = 0.05, 0.2
@@ -46,11 +47,16 @@ def named(effect):
 
 def session(which, *, step, seed):
     """Four tests whose runs begin where ``BEGAN`` says."""
+    return begun_at([places[which] for places in BEGAN.values()], step=step, seed=seed)
+
+
+def begun_at(places, *, step, seed):
+    """Four tests whose runs begin at places of their play."""
     rng = np.random.default_rng(seed)
     model = Model("simple", GAINS, (PLAY,))
     runs, clock = [], 0.0
-    for test, places in BEGAN.items():
-        load = -0.5 * SLACK * places[which]
+    for test, place in zip(BEGAN, places, strict=True):
+        load = -0.5 * SLACK * place
         begun = {"state": State(np.array([0.0, 0.0, load, 0.0, 0.0])), "began": clock, "still": 3}
         runs.append(recorded(test, model, step=step, noise=NOISE, rng=rng, **begun))
         clock = float(runs[-1].time[-1]) + 2.0
@@ -84,6 +90,21 @@ def test_a_second_look_is_nearer():
     seen = meshed(off, at(off, outset=began))
 
     assert seen.outset.meshed == pytest.approx([one for _, one in BEGAN.values()], abs=0.05)
+
+
+def test_a_start_that_was_told_amiss_is_gone_untold_too():
+    problem = Problem.of(lanes(begun_at([0.0] * len(BEGAN), step=6.0, seed=3)))
+    stiff = at(problem, Hypothesis("simple"))
+    base = ended(problem, stiff)
+    told = Outset.seen(len(BEGAN)).meshing(np.array([1.0, -1.0, 1.0, -1.0]))
+    values = {**base.values, "backlash.slack": SLACK, "backlash.share": SHARE}
+    start = problem.at(PLAYS, values, told, base.q)
+    assert better(problem, start, steps=FURTHER).cost > base.cost  # it leads nowhere
+
+    found = further(problem, base, start)
+
+    assert found.cost < base.cost - 5000.0
+    assert not found.outset.is_meshed
 
 
 def test_what_is_told_has_its_price(problem):

@@ -1,4 +1,4 @@
-"""Where a search begins, and which path it goes: what is small or masked is found as well."""
+"""Where a search begins, and what it leads to: what is small is found as well."""
 
 import math
 import sys
@@ -6,25 +6,24 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reconcile_made import SESSIONS, bench, session, told
+from reconcile_made import NOWHERE, SESSIONS, bench, session, told
 
 from sim.effects import EFFECTS
 from sim.engine import Track
 from sim.evidence import gather
-from sim.fit.seen import Noise
 from sim.model import Part
 from sim.reconcile.descent import adjusting, promise
 from sim.reconcile.gates import Gap, errors_of, rms
 from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import SetAside, lanes
 from sim.reconcile.outset import Outset
-from sim.reconcile.problem import FARTHEST, Point, Problem
-from sim.reconcile.round import Round, Weighed
-from sim.reconcile.rounds import best_path, paired, rounds, turnings
+from sim.reconcile.problem import FARTHEST, Problem
+from sim.reconcile.round import Weighed
+from sim.reconcile.rounds import rounds
 from sim.reconcile.story import Tried
-from sim.reconcile.suspects import Suspect, suspects
+from sim.reconcile.suspects import suspects
 from sim.reconcile.thresholds import MAJOR
-from sim.reconcile.weighing import HARDLY, WIDENS, simplest, why_not
+from sim.reconcile.weighing import WIDENS, why_not
 
 BAND = 0.25  # [V] of an elevator whose ramps begin at 1.5 V upward, and at once downward
 RIPPLE, RIPPLES = 0.04, 12.0  # [V] less than what is everyday, and how often along the way
@@ -169,159 +168,6 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     assert len(done) == 1 + min(asked, len(sizes) - 1)
 
 
-# -- which path is gone ---------------------------------------------------------------------------
-
-
-def model(effect, score, *, gap, others=()):
-    """A round, as far as choosing a path asks: what it added, how likely, how far off."""
-    suspect = Suspect(effect, NOWHERE, score)
-    weighed = tuple(
-        Weighed(
-            Suspect(name, NOWHERE, 0.0),
-            Gap(gap, gap),
-            Tried(name, more, 0.9, admitted=good, why=""),
-        )
-        for name, more, good in others
-    )
-    return Round(suspect, Gap(gap, gap), Gap(gap, gap), weighed=weighed)
-
-
-NOTHING = np.empty((0, 2))
-NOWHERE = Point(
-    Hypothesis("simple"), {}, Outset.seen(0), 0.0, np.zeros((2, 2)), NOTHING, np.eye(2), 0.0
-)
-ONE_NOISE = Problem((), Noise(1.0, 1.0, (0.0, 0.0)))
-FIRST = [("drag", 400.0, True), ("delay", 300.0, True), ("spring", 200.0, False)]
-THEN = [("cogging", 90.0, True), ("stribeck", 80.0, True), ("delay", 10.0, True)]
-
-
-def gone(*, end):
-    return [
-        model("", 1000.0, gap=9.0, others=FIRST),
-        model("drag", 600.0, gap=5.0, others=THEN),
-        model("cogging", 510.0, gap=end),
-    ]
-
-
-def test_other_paths_turn_off_early_where_an_admitted_effect_came_near():
-    found = [(place, one.suspect.effect) for place, one in turnings(gone(end=4.0))]
-
-    # spring was not admitted, and a delay of 10 is no ninth of what cogging explained
-    assert found == [(0, "delay"), (1, "stribeck")]
-
-
-@pytest.mark.parametrize(
-    ("end", "other", "taken"),
-    [
-        (4.0, (300.0, 1.2), True),  # likelier and nearer
-        (4.0, (300.0, 4.5), False),  # likelier, and farther off on runs it was not fitted to
-        (4.0, (505.0, 3.9), False),  # hardly likelier
-        (1.2, (300.0, 1.0), False),  # the first path does not stray: no other is gone
-    ],
-)
-def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
-    monkeypatch, end, other, taken
-):
-    done = gone(end=end)
-    score, gap = other
-    path = [done[0], model("delay", score, gap=gap)]
-    monkeypatch.setattr(sys.modules[best_path.__module__], "_gone", lambda *_: path)
-
-    found = best_path(ONE_NOISE, done, None, (), lambda *_: None)
-
-    assert (found is path) is taken
-
-
-BLOCKED = ("compliance", 900.0, WIDENS)
-
-
-@pytest.mark.parametrize(
-    ("other", "path", "taken"),
-    [
-        (BLOCKED, (5.0, 1.2), True),  # the second closes what the first opened
-        (BLOCKED, (5.0, 4.5), False),  # together they widen it, too
-        (BLOCKED, (5.0, 3.8), False),  # and a pair has to close much of it
-        (BLOCKED, (1.2,), False),  # no second was found
-        (("compliance", 90.0, WIDENS), (5.0, 1.2), False),  # hardly likelier
-        (("compliance", 900.0, HARDLY), (5.0, 1.2), False),
-        (("inertia-change", 900.0, WIDENS), (5.0, 1.2), False),  # masks nothing
-        (("delay", 900.0, WIDENS), (5.0, 1.2), False),  # any robot has as much
-    ],
-)
-def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other, path, taken):
-    effect, score, why = other
-    small = {f"{effect}.{name}": 0.001 for name in EFFECTS[effect].names}
-    point = replace(NOWHERE, values=small)
-    tried = Tried(effect, score, 1.2, admitted=False, why=why)
-    another = Weighed(Suspect(effect, point, 0.0), Gap(5.0, 5.0), tried)
-    done = [replace(model("", 1000.0, gap=4.0), weighed=(another,))]
-    asked = []
-
-    def gone_on(_, begun, *__):
-        asked.append(begun[-1].suspect.effect)
-        new = (model(f"effect {n}", 100.0, gap=gap) for n, gap in enumerate(path))
-        return [*done, *new]
-
-    room = sys.modules[best_path.__module__]
-    monkeypatch.setattr(room, "_gone", gone_on)
-
-    found = paired(ONE_NOISE, done, None, (), lambda *_: None)
-
-    assert (found is not done) is taken
-    assert set(asked) <= {"compliance"}
-
-
-@pytest.mark.parametrize(
-    ("pair", "taken"), [(("compliance", "spring"), True), (("spring",), False)]
-)
-def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, taken):
-    small = {f"compliance.{name}": 0.001 for name in EFFECTS["compliance"].names}
-    tried = Tried("compliance", 900.0, 1.2, admitted=False, why=WIDENS)
-    suspect = Suspect("compliance", replace(NOWHERE, values=small), 0.0)
-    blocked = Weighed(suspect, Gap(5.0, 5.0), tried)
-    base = model("", 1000.0, gap=4.0)
-    done = [base, replace(model("cogging", 900.0, gap=3.8), weighed=(blocked,))]
-    path = [base, *(model(name, 100.0, gap=1.2) for name in pair)]
-    room = sys.modules[best_path.__module__]
-    monkeypatch.setattr(room, "_gone", lambda *_: path)
-
-    found = paired(ONE_NOISE, done, None, (), lambda *_: None)
-
-    assert found == (path if taken else done)
-
-
-# -- which of two is taken ------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("one", "other", "taken"),
-    [
-        (("drag", 45.0, 0.74), ("heating", 43.0, 0.58), "heating"),  # the validation prefers it
-        (("drag", 45.0, 0.74), ("heating", 43.0, 0.735), "drag"),  # hardly: the likelier
-        (("drag", 45.0, 0.74), ("heating", 30.0, 0.58), "drag"),  # surely likelier
-        (("stribeck", 308.0, 0.74), ("deadband", 237.0, 0.35), "deadband"),  # closes far more
-        (("stribeck", 308.0, 0.74), ("deadband", 237.0, 0.5), "stribeck"),
-        (("stribeck", 308.0, 0.74), ("deadband", 140.0, 0.35), "stribeck"),  # not half as likely
-        (("spring", 45.0, 0.58), ("drag", 43.0, 0.74), "drag"),  # fewer parameters go first
-        # what may be one run's accident has to be far likelier than what lasts
-        (("inertia-change", 280.0, 0.9), ("heating", 160.0, 0.9), "heating"),
-        (("inertia-change", 300.0, 0.9), ("heating", 160.0, 0.9), "inertia-change"),
-    ],
-)
-def test_of_two_about_as_likely_the_validation_decides(one, other, taken):
-    weighed = [
-        Weighed(at(name), Gap(1.0, 1.0), Tried(name, score, gap, admitted=True, why=""))
-        for name, score, gap in (one, other)
-    ]
-
-    assert simplest(weighed).suspect.effect == taken
-
-
-def at(effect):
-    hypothesis = Hypothesis("simple") + effect
-    return Suspect(effect, replace(NOWHERE, hypothesis=hypothesis), 0.0)
-
-
 @pytest.mark.parametrize("gap", [math.nan, math.inf])
 @pytest.mark.parametrize("before", [1.0, math.inf])
 def test_a_model_that_runs_away_on_the_validation_widens_the_gap(gap, before):
@@ -339,6 +185,30 @@ def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
 
 
 # -- what is no alarm -----------------------------------------------------------------------------
+
+
+def bumped(where, *, wide):
+    """A drivetrain on a floor with a bump: half a volt, there and nowhere else."""
+    log = session(bench("drivetrain"), "log")
+    runs = [
+        replace(run, voltage=run.voltage + 0.5 * np.exp(-(((run.position - where) / wide) ** 2)))
+        for run in log.runs
+    ]
+    return replace(log, runs=tuple(runs))
+
+
+@pytest.mark.parametrize("wide", [0.2, 0.6])
+def test_what_does_not_come_back_is_not_begun_as_a_wave(wide):
+    log = bumped(0.4, wide=wide)
+    evidence = gather(log, dict(bench("drivetrain").gains), type="simple")
+    way = float(np.ptp(evidence.position))
+
+    waves = [
+        start["turns"] * way / (2.0 * math.pi) for start in EFFECTS["cogging"].starts(evidence)
+    ]
+
+    assert waves
+    assert min(waves) >= 4.0
 
 
 def test_a_ripple_that_any_robot_has_is_no_finding_however_much_of_the_gap_it_takes():

@@ -90,6 +90,33 @@ def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, 
     assert ("compliance" in said[2]) is (verdict == "unexplained")
 
 
+def named(effect, *, kind="effect"):
+    return replace(DRAG, effect=effect, kind=kind)
+
+
+@pytest.mark.parametrize(
+    ("names", "doubted"),
+    [
+        (["spring", "gravity-cosine"], True),
+        (["gravity-cosine", "constant-load"], True),  # a spring's simpler sister, in turn
+        (["spring", "cogging"], False),  # a wave that comes back is no bent spring
+        (["gravity-cosine", "drag"], False),
+        (["spring"], False),
+    ],
+)
+def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
+    problem, names, doubted
+):
+    findings = [named(name) for name in names]
+
+    verdict, remainder, remains = verdict_of(
+        findings, rounds(problem, 40.0, 1.1), problem, left=Left(), per=METERS
+    )
+
+    assert (verdict, remainder) == ("explained", doubted)
+    assert all(name in remains for name in names) is doubted
+
+
 def added(problem, *steps, values):
     """The base and each effect with the gap it left, and the gap without it in the end [noises]."""
     hypothesis = Hypothesis("simple", tuple(name for name, *_ in steps))

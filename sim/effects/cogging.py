@@ -15,7 +15,7 @@ from sim.evidence import Evidence
 
 EVERYDAY = 0.06  # [V]
 
-FEWEST, MOST, FINER = 2.0, 80.0, 0.25  # [1] times that it comes back within what a log covers
+FEWEST, MOST, FINER = 4.0, 80.0, 0.25  # [1] times that it comes back within what a log covers
 ENOUGH = 1500  # samples that show a spectrum
 SHOWN = 3  # peaks of the spectrum that are worth a start
 
@@ -47,7 +47,11 @@ def span(values: Mapping[str, float]) -> float:
 
 
 def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
-    """The strongest lines in the spectrum of what is missing over position."""
+    """The strongest lines in the spectrum of what is missing over position.
+
+    What comes back less than four times is not seen to come back: a bump, or a brake along a part
+    of the way, has one wave or two.
+    """
     length = float(np.ptp(seen.position)) if seen.position.size else 0.0
     if length <= 0.0:
         return

@@ -31,7 +31,7 @@ def meshed(problem: Problem, point: Point, *, aside: bool = False) -> Point:
     if not point.hypothesis.plays or not math.isfinite(point.cost):
         return point
     before = point.outset.meshed
-    if np.isnan(before).all():
+    if not point.outset.is_meshed:
         places = PLACES[:: len(PLACES) - 1] if aside else PLACES
         others = [np.full(before.size, place) for place in places]
     else:
@@ -55,10 +55,8 @@ def meshed(problem: Problem, point: Point, *, aside: bool = False) -> Point:
 def closer(problem: Problem, point: Point) -> Point:
     """Half the play, and each run begun in it anew: as much of it may be crossed as before."""
     slacks = {name: 0.5 * point.values[name] for name in point.hypothesis.slacks}
-    outset = point.outset.meshing(np.full(len(problem.lanes), np.nan))
-    return meshed(
-        problem, problem.at(point.hypothesis, {**point.values, **slacks}, outset, point.q)
-    )
+    values = {**point.values, **slacks}
+    return meshed(problem, problem.at(point.hypothesis, values, point.outset.unmeshed, point.q))
 
 
 def _costs(problem: Problem, point: Point, ahead: Array, meshed: Array) -> Array:

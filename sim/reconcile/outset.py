@@ -49,3 +49,13 @@ class Outset:
     def meshing(self, meshed: Array) -> "Outset":
         """The same, with ``meshed`` (runs,)."""
         return replace(self, meshed=meshed)
+
+    @property
+    def unmeshed(self) -> "Outset":
+        """The same; where in free play a run begins is left to the load's weight."""
+        return self.meshing(np.full_like(self.meshed, np.nan))
+
+    @property
+    def is_meshed(self) -> bool:
+        """Whether it is told of any run where in free play that begins."""
+        return not bool(np.isnan(self.meshed).all())

@@ -194,7 +194,7 @@ class Problem:
     ) -> Point:
         """The point of these values; its cost is infinite where they are no physics."""
         if not hypothesis.plays:
-            outset = outset.meshing(np.full(len(self.lanes), np.nan))
+            outset = outset.unmeshed
         nowhere = Point(
             hypothesis, values, outset, q, NO_TRUST, np.empty((0, 2)), np.eye(2), math.inf
         )

@@ -106,7 +106,7 @@ def best_path(
     best = done
     if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
         return best
-    for place, other in turnings(done)[:PATHS]:
+    for place, other in turnings(done, lost=_leads_nowhere(problem, done))[:PATHS]:
         now = done[place]
         begun = Round(other.suspect, other.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
         path = [*done[: place + 1], begun]
@@ -117,10 +117,15 @@ def best_path(
     return best
 
 
-def turnings(done: Sequence[Round]) -> list[tuple[int, Weighed]]:
+def turnings(done: Sequence[Round], *, lost: bool) -> list[tuple[int, Weighed]]:
     """Rounds in which another effect came near, and that effect: the first ones first.
 
-    What is taken first masks what comes after it; later choices have their second thoughts.
+    What is taken first masks what comes after it; later choices have their second thoughts. Where
+    a path is lost, what was likeliest has led astray: the next one goes by the gap.
+
+    Args:
+        done: the path.
+        lost: whether it leads nowhere.
     """
     gone = {frozenset(one.suspect.effect for one in done[: n + 1]) for n in range(len(done))}
     found = []
@@ -129,7 +134,8 @@ def turnings(done: Sequence[Round]) -> list[tuple[int, Weighed]]:
         admitted = [other for other in one.weighed if other.tried.admitted]
         top = max((other.tried.score for other in admitted), default=0.0)
         near = [other for other in admitted if other.tried.score >= NEAR * top]
-        for other in sorted(near, key=lambda other: -other.tried.score):
+        near.sort(key=lambda other: other.tried.gap if lost else -other.tried.score)
+        for other in near:
             names = frozenset({*had, other.suspect.effect})
             if names not in gone:
                 gone.add(names)

@@ -80,13 +80,13 @@ def suspects(
     calmer = _calmer(problem, point)
     here = effects if calmer is None else [one for one in effects if one.kind != SHAKES]
     begun = _begun(problem, point, here, evidence, seeds)[:TRIED]
-    gone = [_further(problem, closer(problem, one)) for starts in begun for _, one in starts]
+    gone = [further(problem, point, closer(problem, one)) for starts in begun for _, one in starts]
     best = _each_once(gone)[:KEPT]
     if calmer is not None:
         begun = _begun(problem, calmer, effects, evidence, seeds, heavy=True)
         shaken = [one for one in begun[TRIED_CALM:] if _shakes(one[0][1])]
         begun = [*begun[:TRIED_CALM], *shaken]
-        calm = [_further(problem, one) for starts in begun for _, one in starts]
+        calm = [further(problem, point, one) for starts in begun for _, one in starts]
         best = _each_once([*gone, *calm])[:KEPT]
         best += _each_once(calm)[:1]  # the likeliest of these has the longer way to go
     ended = [settle(problem, one) for one in dict.fromkeys(best)]
@@ -96,9 +96,24 @@ def suspects(
     return sorted(found, key=lambda one: one.score)
 
 
-def _further(problem: Problem, start: Point) -> Point:
-    """A start of a suspect after some steps downhill, by which it is compared with others."""
-    return better(problem, start, steps=FURTHER if _shakes(start) else A_LITTLE)
+def further(problem: Problem, point: Point, start: Point) -> Point:
+    """A start of a suspect after some steps downhill, by which it is compared with others.
+
+    Where in free play a run began is told before the gains have adjusted to it: if that leads to
+    less than the point without the suspect, the start may do better untold.
+
+    Args:
+        problem: the measurements.
+        point: the best without the suspect.
+        start: with it.
+    """
+    if not _shakes(start):
+        return better(problem, start, steps=A_LITTLE)
+    gone = better(problem, start, steps=FURTHER)
+    if gone.cost < point.cost or not start.outset.is_meshed:
+        return gone
+    untold = problem.at(start.hypothesis, start.values, start.outset.unmeshed, start.q)
+    return min(gone, better(problem, untold, steps=FURTHER), key=paid)
 
 
 def _shakes(point: Point) -> bool:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from sim.effects import EFFECTS
 from sim.reconcile.alike import POSITION, Alike
 from sim.reconcile.gates import missed
 from sim.reconcile.left import Left
@@ -26,7 +27,6 @@ def verdict_of(
         left: what the last model leaves.
         per: the owner's unit.
     """
-    remains = ""
     strays, before = (
         gap.velocity / problem.noise.velocity for gap in (done[-1].gap, done[0].before)
     )
@@ -38,32 +38,7 @@ def verdict_of(
             "and the same moment."
         )
         return UNEXPLAINED, True, remains
-    if left.shaken:
-        moment = left.moment
-        lane = problem.lanes[moment.lane]
-        remains = (
-            f"In {lane.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
-            f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
-        )
-    elif left.repeats:
-        remains = _habit(left.alike, per)
-    elif left.swings:
-        remains = (
-            f"Something pushes to and fro every {1.0 / left.rhythm.rate:.2f} s, whatever the "
-            "mechanism does meanwhile, and no effect of the catalogue explains it. Look for what "
-            "has a time of its own: a robot that rocks on its blocks, a compressor, another "
-            "mechanism."
-        )
-    elif strays > STRAYS:
-        remains = (
-            f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
-            "effect of the catalogue makes that less."
-        )
-    elif likely := blocked(done[-1].weighed):
-        remains = (
-            f"With {likely[0].suspect.effect} the log would be far likelier, and yet runs that "
-            "were not fitted are missed by more: something else is missing, or more than that."
-        )
+    remains = _is_left(problem, left, per) or _remains(findings, done, strays=strays)
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
     mostly = effects and strays > max(STRAYS, MOSTLY * before)
@@ -74,6 +49,64 @@ def verdict_of(
     if any(one.ambiguous_with for one in majors):
         return AMBIGUOUS, bool(remains), remains
     return EXPLAINED, bool(remains), remains
+
+
+def _remains(findings: Sequence[Finding], done: Sequence[Round], *, strays: float) -> str:
+    """A sentence about how far the last model still is, or why it may be another; or nothing."""
+    if strays > STRAYS:
+        return (
+            f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
+            "effect of the catalogue makes that less."
+        )
+    if likely := blocked(done[-1].weighed):
+        return (
+            f"With {likely[0].suspect.effect} the log would be far likelier, and yet runs that "
+            "were not fitted are missed by more: something else is missing, or more than that."
+        )
+    if series := _series(findings):
+        return (
+            f"The log wants {series}, and the one does much of what the other does: together they "
+            "follow any force that changes along the way, so it may be one of another kind. Hold "
+            "the mechanism still at ten places, and write down the voltage at each."
+        )
+    return ""
+
+
+def _is_left(problem: Problem, left: Left, per: Unit) -> str:
+    """A sentence about what the last model leaves that is no noise; empty if it is."""
+    if left.shaken:
+        moment = left.moment
+        lane = problem.lanes[moment.lane]
+        return (
+            f"In {lane.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
+            f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
+        )
+    if left.repeats:
+        return _habit(left.alike, per)
+    if left.swings:
+        return (
+            f"Something pushes to and fro every {1.0 / left.rhythm.rate:.2f} s, whatever the "
+            "mechanism does meanwhile, and no effect of the catalogue explains it. Look for what "
+            "has a time of its own: a robot that rocks on its blocks, a compressor, another "
+            "mechanism."
+        )
+    return ""
+
+
+def _series(findings: Sequence[Finding]) -> str:
+    """Two effects of which one does about what the other does, with fewer parameters; or nothing.
+
+    On some 2900 logs, none of which has two such effects, they were named together 51 times: on 50
+    with a bump, a band or a grip that no effect is, and on one where two others were missed.
+    """
+    named = {one.effect for one in findings if one.kind == "effect"}
+    for one in sorted(named):
+        simpler = EFFECTS[one].simpler
+        while simpler:
+            if simpler in named:
+                return f"{one} beside {simpler}"
+            simpler = EFFECTS[simpler].simpler
+    return ""
 
 
 def _habit(alike: Alike, per: Unit) -> str:

@@ -1,0 +1,195 @@
+"""Which path a search goes: what it turns to where the first one leads astray."""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reconcile_made import NOWHERE, recorded
+
+from sim.effects import EFFECTS
+from sim.engine import State
+from sim.fit.seen import Noise
+from sim.log import Log
+from sim.model import Model
+from sim.reconcile.gates import Gap
+from sim.reconcile.hypothesis import Hypothesis
+from sim.reconcile.lanes import lanes
+from sim.reconcile.problem import Problem
+from sim.reconcile.round import Round, Weighed
+from sim.reconcile.rounds import best_path, paired, turnings
+from sim.reconcile.story import Tried
+from sim.reconcile.suspects import Suspect
+from sim.reconcile.weighing import HARDLY, WIDENS, simplest
+
+
+def model(effect, score, *, gap, others=()):
+    """A round, as far as choosing a path asks: what it added, how likely, how far off."""
+    suspect = Suspect(effect, NOWHERE, score)
+    weighed = tuple(
+        Weighed(
+            Suspect(name, NOWHERE, 0.0),
+            Gap(gap, gap),
+            Tried(name, more, 0.9, admitted=good, why=""),
+        )
+        for name, more, good in others
+    )
+    return Round(suspect, Gap(gap, gap), Gap(gap, gap), weighed=weighed)
+
+
+QUICK = recorded(
+    "dynamic-forward", Model("simple", {"kS": 0.2, "kV": 0.05, "kA": 0.005}),
+    step=6.0, state=State.at(0.0), noise=(1.0, 1.0), rng=np.random.default_rng(5),
+)  # fmt: skip
+ONE_NOISE = Problem(
+    lanes(Log((QUICK,), units="meters", type="simple")), Noise(1.0, 1.0, (0.0, 0.0))
+)  # at a hundred times as much it runs: what is missed by some noises is not lost
+FIRST = [("drag", 400.0, True), ("delay", 300.0, True), ("spring", 200.0, False)]
+THEN = [("cogging", 90.0, True), ("stribeck", 80.0, True), ("delay", 10.0, True)]
+
+
+def gone(*, end):
+    return [
+        model("", 1000.0, gap=9.0, others=FIRST),
+        model("drag", 600.0, gap=5.0, others=THEN),
+        model("cogging", 510.0, gap=end),
+    ]
+
+
+def test_other_paths_turn_off_early_where_an_admitted_effect_came_near():
+    turned = turnings(gone(end=4.0), lost=False)
+
+    # spring was not admitted, and a delay of 10 is no ninth of what cogging explained
+    assert [(place, one.suspect.effect) for place, one in turned] == [(0, "delay"), (1, "stribeck")]
+
+
+@pytest.mark.parametrize(
+    ("lost", "order"), [(False, ["compliance", "limit"]), (True, ["limit", "compliance"])]
+)
+def test_a_path_that_is_lost_gives_way_to_what_comes_nearest_not_to_the_likeliest(lost, order):
+    others = {"backlash": (790.0, 0.91), "compliance": (780.0, 0.90), "limit": (730.0, 0.61)}
+    weighed = tuple(
+        Weighed(
+            Suspect(name, NOWHERE, 0.0),
+            Gap(gap, gap),
+            Tried(name, score, gap, admitted=True, why=""),
+        )
+        for name, (score, gap) in others.items()
+    )
+    base = replace(model("", 1000.0, gap=9.0), weighed=weighed)
+
+    turned = turnings([base, model("backlash", 210.0, gap=8.2)], lost=lost)
+
+    assert [one.suspect.effect for _, one in turned] == order
+
+
+@pytest.mark.parametrize(
+    ("end", "other", "taken"),
+    [
+        (4.0, (300.0, 1.2), True),  # likelier and nearer
+        (4.0, (300.0, 4.5), False),  # likelier, and farther off on runs it was not fitted to
+        (4.0, (505.0, 3.9), False),  # hardly likelier
+        (1.2, (300.0, 1.0), False),  # the first path does not stray: no other is gone
+    ],
+)
+def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
+    monkeypatch, end, other, taken
+):
+    done = gone(end=end)
+    score, gap = other
+    path = [done[0], model("delay", score, gap=gap)]
+    monkeypatch.setattr(sys.modules[best_path.__module__], "_gone", lambda *_: path)
+
+    found = best_path(ONE_NOISE, done, None, (), lambda *_: None)
+
+    assert (found is path) is taken
+
+
+BLOCKED = ("compliance", 900.0, WIDENS)
+
+
+@pytest.mark.parametrize(
+    ("other", "path", "taken"),
+    [
+        (BLOCKED, (5.0, 1.2), True),  # the second closes what the first opened
+        (BLOCKED, (5.0, 4.5), False),  # together they widen it, too
+        (BLOCKED, (5.0, 3.8), False),  # and a pair has to close much of it
+        (BLOCKED, (1.2,), False),  # no second was found
+        (("compliance", 90.0, WIDENS), (5.0, 1.2), False),  # hardly likelier
+        (("compliance", 900.0, HARDLY), (5.0, 1.2), False),
+        (("inertia-change", 900.0, WIDENS), (5.0, 1.2), False),  # masks nothing
+        (("delay", 900.0, WIDENS), (5.0, 1.2), False),  # any robot has as much
+    ],
+)
+def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other, path, taken):
+    effect, score, why = other
+    small = {f"{effect}.{name}": 0.001 for name in EFFECTS[effect].names}
+    point = replace(NOWHERE, values=small)
+    tried = Tried(effect, score, 1.2, admitted=False, why=why)
+    another = Weighed(Suspect(effect, point, 0.0), Gap(5.0, 5.0), tried)
+    done = [replace(model("", 1000.0, gap=4.0), weighed=(another,))]
+    asked = []
+
+    def gone_on(_, begun, *__):
+        asked.append(begun[-1].suspect.effect)
+        new = (model(f"effect {n}", 100.0, gap=gap) for n, gap in enumerate(path))
+        return [*done, *new]
+
+    room = sys.modules[best_path.__module__]
+    monkeypatch.setattr(room, "_gone", gone_on)
+
+    found = paired(ONE_NOISE, done, None, (), lambda *_: None)
+
+    assert (found is not done) is taken
+    assert set(asked) <= {"compliance"}
+
+
+@pytest.mark.parametrize(
+    ("pair", "taken"), [(("compliance", "spring"), True), (("spring",), False)]
+)
+def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, taken):
+    small = {f"compliance.{name}": 0.001 for name in EFFECTS["compliance"].names}
+    tried = Tried("compliance", 900.0, 1.2, admitted=False, why=WIDENS)
+    suspect = Suspect("compliance", replace(NOWHERE, values=small), 0.0)
+    blocked = Weighed(suspect, Gap(5.0, 5.0), tried)
+    base = model("", 1000.0, gap=4.0)
+    done = [base, replace(model("cogging", 900.0, gap=3.8), weighed=(blocked,))]
+    path = [base, *(model(name, 100.0, gap=1.2) for name in pair)]
+    room = sys.modules[best_path.__module__]
+    monkeypatch.setattr(room, "_gone", lambda *_: path)
+
+    found = paired(ONE_NOISE, done, None, (), lambda *_: None)
+
+    assert found == (path if taken else done)
+
+
+# -- which of two is taken ------------------------------------------------------------------------
+
+
+def at(effect):
+    hypothesis = Hypothesis("simple") + effect
+    return Suspect(effect, replace(NOWHERE, hypothesis=hypothesis), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "taken"),
+    [
+        (("drag", 45.0, 0.74), ("heating", 43.0, 0.58), "heating"),  # the validation prefers it
+        (("drag", 45.0, 0.74), ("heating", 43.0, 0.735), "drag"),  # hardly: the likelier
+        (("drag", 45.0, 0.74), ("heating", 30.0, 0.58), "drag"),  # surely likelier
+        (("stribeck", 308.0, 0.74), ("deadband", 237.0, 0.35), "deadband"),  # closes far more
+        (("stribeck", 308.0, 0.74), ("deadband", 237.0, 0.5), "stribeck"),
+        (("stribeck", 308.0, 0.74), ("deadband", 140.0, 0.35), "stribeck"),  # not half as likely
+        (("spring", 45.0, 0.58), ("drag", 43.0, 0.74), "drag"),  # fewer parameters go first
+        # what may be one run's accident has to be far likelier than what lasts
+        (("inertia-change", 280.0, 0.9), ("heating", 160.0, 0.9), "heating"),
+        (("inertia-change", 300.0, 0.9), ("heating", 160.0, 0.9), "inertia-change"),
+    ],
+)
+def test_of_two_about_as_likely_the_validation_decides(one, other, taken):
+    weighed = [
+        Weighed(at(name), Gap(1.0, 1.0), Tried(name, score, gap, admitted=True, why=""))
+        for name, score, gap in (one, other)
+    ]
+
+    assert simplest(weighed).suspect.effect == taken
