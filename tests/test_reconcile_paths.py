@@ -17,7 +17,8 @@ from sim.reconcile.hypothesis import Hypothesis
 from sim.reconcile.lanes import lanes
 from sim.reconcile.problem import Problem
 from sim.reconcile.round import Round, Weighed
-from sim.reconcile.rounds import best_path, paired, turnings
+from sim.reconcile.rounds import best_path, offered, paired, turnings
+from sim.reconcile.second_thoughts import reconsidered
 from sim.reconcile.story import Tried
 from sim.reconcile.suspects import Suspect
 from sim.reconcile.weighing import HARDLY, WIDENS, simplest
@@ -193,3 +194,70 @@ def test_of_two_about_as_likely_the_validation_decides(one, other, taken):
     ]
 
     assert simplest(weighed).suspect.effect == taken
+
+
+# -- what goes first ------------------------------------------------------------------------------
+
+
+def weighed(effect, score, *, why="", **values):
+    hypothesis = Hypothesis("simple") + effect
+    named = {f"{effect}.{name}": value for name, value in values.items()}
+    point = replace(NOWHERE, hypothesis=hypothesis, values=named)
+    tried = Tried(effect, score, 0.95, admitted=not why, why=why)
+    return Weighed(Suspect(effect, point, 0.0), Gap(1.0, 1.0), tried)
+
+
+LIMIT = weighed("current-limit", 491.0, limit=4.3)
+SAG = weighed("battery-sag", 283.0, share=0.6)
+
+
+@pytest.mark.parametrize(
+    ("other", "admitted", "quiet"),
+    [
+        (weighed("delay", 357.0, lag=0.003), ["delay"], []),
+        (weighed("delay", 357.0, lag=0.003, why=HARDLY), [], ["delay"]),
+        (weighed("delay", 200.0, lag=0.003), ["current-limit", "battery-sag", "delay"], []),
+        (weighed("delay", 357.0, lag=0.03), ["current-limit", "battery-sag", "delay"], []),
+        (weighed("delay", 357.0, lag=0.003, why=WIDENS), ["current-limit", "battery-sag"], []),
+    ],
+)
+def test_what_any_robot_has_a_little_of_goes_first_where_it_is_nearly_the_likeliest(
+    other, admitted, quiet
+):
+    found = offered([LIMIT, SAG, other], most=2)
+
+    assert [[one.suspect.effect for one in some] for some in found] == [admitted, quiet]
+
+
+@pytest.mark.parametrize(
+    ("other", "gains", "taken"),
+    [
+        ("inertia-change", 50.0, "battery-sag"),  # what may be one run's accident
+        ("inertia-change", 200.0, "inertia-change"),
+        ("drag", 50.0, "drag"),
+    ],
+)
+def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likelier(
+    monkeypatch, other, gains, taken
+):
+    one_gap = Gap(1.0, 1.0)
+    alike = (("battery-sag", 425.0), (other, 366.0))
+    tried = tuple(Tried(name, score, 0.9, admitted=True, why="") for name, score in alike)
+    base = replace(model("", 1000.0, gap=2.0), tried=tried)
+    point = replace(
+        NOWHERE,
+        hypothesis=Hypothesis("simple") + "battery-sag" + "stribeck",
+        values={"kS": 0.1, "kV": 1.0, "kA": 0.1, "battery-sag.share": 0.5, "stribeck.extra": 0.2,
+                "stribeck.slow": 0.1},
+    )  # fmt: skip
+    last = Round(Suspect("stribeck", point, 500.0), one_gap, one_gap)
+    done = [base, model("battery-sag", 600.0, gap=1.1), last]
+    path = sys.modules["sim.reconcile.second_thoughts"]
+    monkeypatch.setattr(path, "gather", lambda *_, **__: None)
+    monkeypatch.setattr(path, "without", lambda *_: Suspect("", point, 900.0))
+    monkeypatch.setattr(path, "suspects", lambda *_, **__: [Suspect(other, point, 500.0 - gains)])
+    monkeypatch.setattr(path, "outside", lambda *_: one_gap)
+
+    found = reconsidered(ONE_NOISE, done, None, ())
+
+    assert [one.suspect.effect for one in found] == ["", taken, "stribeck"]

@@ -142,7 +142,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     problem = Problem.of(lanes(log))
     moves = np.sqrt(np.nanmean(problem.measured[problem.moving, 1] ** 2))
     sizes = [Gap(share * float(moves), 1.0) for share in gaps]
-    values = {"kS": 0.1, "kV": 2.0, "kA": 2.0 * inertia}
+    values = {"kS": 0.1, "kV": 2.0, "kA": 2.0 * inertia, "drag.drag": 0.1}
     begun = Outset.seen(len(problem.lanes))
     base = problem.at(Hypothesis("simple"), values, begun, problem.noise.velocity**2)
     calls = []

@@ -31,6 +31,7 @@ from sim.reconcile.weighing import (
     HARDLY,
     WIDENS,
     blocked,
+    everyday,
     gained,
     rivals,
     simplest,
@@ -40,6 +41,7 @@ from sim.reconcile.weighing import (
 )
 
 PART = 0.5  # [1] of the score of a quiet effect, which an admitted one must have to go before it
+USUAL = 0.5  # [1] of the likeliest one's score, with which an everyday effect goes before it
 SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
 BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
 Progress = Callable[[str, float], None]
@@ -155,9 +157,7 @@ def _added(
         tried = tuple(one.tried for one in weighed)
         seeds = {**now.seeds, **_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, weighed=tuple(weighed))
-        admitted = [one for one in weighed if one.tried.admitted]
-        quiet = [one for one in weighed if one.tried.why == HARDLY and one.tried.score >= SURER]
-        quiet = quiet[: MOST_QUIET - now.quiet]
+        admitted, quiet = offered(weighed, most=MOST_QUIET - now.quiet)
         if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
             one = quiet[0]
             if worth_a_name(one.suspect.effect, one.suspect.point.values, one.tried.score):
@@ -182,6 +182,27 @@ def _added(
             )
         )
     return done
+
+
+def offered(weighed: Sequence[Weighed], *, most: int) -> tuple[list[Weighed], list[Weighed]]:
+    """What may be added: what is admitted, and what is likely and hardly narrows the gap.
+
+    What any robot has a little of goes first, and alone, if it is nearly the likeliest: beside it
+    the others are seen as they are. A limit of the current resembles a late command and a weak
+    battery together more than each of them does alone.
+
+    Args:
+        weighed: the suspects of a round.
+        most: how many may be added without a name.
+    """
+    admitted = [one for one in weighed if one.tried.admitted]
+    quiet = [one for one in weighed if one.tried.why == HARDLY and one.tried.score >= SURER][:most]
+    every = sorted([*admitted, *quiet], key=lambda one: -one.tried.score)
+    usual = [one for one in every if everyday(one.suspect.effect, one.suspect.point.values)]
+    if usual and usual[0].tried.score >= USUAL * every[0].tried.score:
+        admitted = [one for one in admitted if one is usual[0]]
+        quiet = [one for one in quiet if one is usual[0]]
+    return admitted, quiet
 
 
 def _leads_nowhere(problem: Problem, done: Sequence[Round]) -> bool:

@@ -15,7 +15,7 @@ from sim.reconcile.gates import Fold, Gap, outside
 from sim.reconcile.problem import Problem
 from sim.reconcile.round import Round
 from sim.reconcile.suspects import Suspect, judged, simpler_than, suspects
-from sim.reconcile.thresholds import CLOSE, SIMPLER, SURER
+from sim.reconcile.thresholds import CLOSE, ONCE, SIMPLER, SURER
 from sim.reconcile.weighing import WIDENS, gained, sure, why_not
 
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
@@ -44,13 +44,19 @@ def reconsidered(
         model = reduced.point.hypothesis.model(reduced.point.values)
         evidence = gather(log, dict(model.gains), type=reduced.point.hypothesis.type)
         found = suspects(problem, reduced.point, evidence, only=others, seeds=last.seeds)
-        if not found or gained(last.suspect, found[0]) < CLOSE:
+        if not found or gained(last.suspect, found[0]) < _clear(effect, found[0].effect):
             continue
         gap = outside(problem, found[0].point, parts)
         if why_not(gap, last.gap, SURER) == WIDENS:
             continue
         return _replaced(done, place, found[0], gap)
     return done
+
+
+def _clear(effect: str, other: str) -> float:
+    """[of -2 log L] by which another effect must be likelier to take the place of one."""
+    passing = EFFECTS[other].happens and not EFFECTS[effect].happens
+    return ONCE if passing else CLOSE
 
 
 def simplified(problem: Problem, done: list[Round], log: Log, parts: Sequence[Fold]) -> list[Round]:
