@@ -24,6 +24,15 @@ from sim.reconcile.suspects import Suspect
 from sim.reconcile.weighing import HARDLY, WIDENS, simplest
 
 
+def weighed(effect, score, *, gap=0.95, why="", **values):
+    """A suspect, as far as choosing among them asks: how likely, how near, how large."""
+    hypothesis = Hypothesis("simple") + effect
+    named = {f"{effect}.{name}": value for name, value in values.items()}
+    point = replace(NOWHERE, hypothesis=hypothesis, values=named)
+    tried = Tried(effect, score, gap, admitted=not why, why=why)
+    return Weighed(Suspect(effect, point, 0.0), Gap(gap, gap), tried)
+
+
 def model(effect, score, *, gap, others=()):
     """A round, as far as choosing a path asks: what it added, how likely, how far off."""
     suspect = Suspect(effect, NOWHERE, score)
@@ -69,15 +78,8 @@ def test_other_paths_turn_off_early_where_an_admitted_effect_came_near():
 )
 def test_a_path_that_is_lost_gives_way_to_what_comes_nearest_not_to_the_likeliest(lost, order):
     others = {"backlash": (790.0, 0.91), "compliance": (780.0, 0.90), "limit": (730.0, 0.61)}
-    weighed = tuple(
-        Weighed(
-            Suspect(name, NOWHERE, 0.0),
-            Gap(gap, gap),
-            Tried(name, score, gap, admitted=True, why=""),
-        )
-        for name, (score, gap) in others.items()
-    )
-    base = replace(model("", 1000.0, gap=9.0), weighed=weighed)
+    tried = tuple(weighed(name, score, gap=gap) for name, (score, gap) in others.items())
+    base = replace(model("", 1000.0, gap=9.0), weighed=tried)
 
     turned = turnings([base, model("backlash", 210.0, gap=8.2)], lost=lost)
 
@@ -167,11 +169,6 @@ def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, 
 # -- which of two is taken ------------------------------------------------------------------------
 
 
-def at(effect):
-    hypothesis = Hypothesis("simple") + effect
-    return Suspect(effect, replace(NOWHERE, hypothesis=hypothesis), 0.0)
-
-
 @pytest.mark.parametrize(
     ("one", "other", "taken"),
     [
@@ -188,23 +185,12 @@ def at(effect):
     ],
 )
 def test_of_two_about_as_likely_the_validation_decides(one, other, taken):
-    weighed = [
-        Weighed(at(name), Gap(1.0, 1.0), Tried(name, score, gap, admitted=True, why=""))
-        for name, score, gap in (one, other)
-    ]
+    tried = [weighed(name, score, gap=gap) for name, score, gap in (one, other)]
 
-    assert simplest(weighed).suspect.effect == taken
+    assert simplest(tried).suspect.effect == taken
 
 
 # -- what goes first ------------------------------------------------------------------------------
-
-
-def weighed(effect, score, *, why="", **values):
-    hypothesis = Hypothesis("simple") + effect
-    named = {f"{effect}.{name}": value for name, value in values.items()}
-    point = replace(NOWHERE, hypothesis=hypothesis, values=named)
-    tried = Tried(effect, score, 0.95, admitted=not why, why=why)
-    return Weighed(Suspect(effect, point, 0.0), Gap(1.0, 1.0), tried)
 
 
 LIMIT = weighed("current-limit", 491.0, limit=4.3)

@@ -90,10 +90,6 @@ def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, 
     assert ("compliance" in said[2]) is (verdict == "unexplained")
 
 
-def named(effect, *, kind="effect"):
-    return replace(DRAG, effect=effect, kind=kind)
-
-
 @pytest.mark.parametrize(
     ("names", "doubted"),
     [
@@ -107,7 +103,7 @@ def named(effect, *, kind="effect"):
 def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
     problem, names, doubted
 ):
-    findings = [named(name) for name in names]
+    findings = [replace(DRAG, effect=name) for name in names]
 
     verdict, remainder, remains = verdict_of(
         findings, rounds(problem, 40.0, 1.1), problem, left=Left(), per=METERS

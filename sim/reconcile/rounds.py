@@ -21,11 +21,13 @@ from sim.reconcile.thresholds import (
     MOST,
     MOST_QUIET,
     NEAR,
+    PART,
     PATHS,
     STRAYS,
     SURE,
     SURER,
     UNDRIVEN,
+    USUAL,
 )
 from sim.reconcile.weighing import (
     HARDLY,
@@ -40,8 +42,6 @@ from sim.reconcile.weighing import (
     worth_a_name,
 )
 
-PART = 0.5  # [1] of the score of a quiet effect, which an admitted one must have to go before it
-USUAL = 0.5  # [1] of the likeliest one's score, with which an everyday effect goes before it
 SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
 BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
 Progress = Callable[[str, float], None]

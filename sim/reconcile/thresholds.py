@@ -81,6 +81,15 @@ what a spring or a cosine makes of drift and of what else is missing."""
 MOST = 4
 """Effects that are added at most: with more, anything can be explained."""
 
+PART = 0.5
+"""[1] of the score of an effect that stays quiet, which an admitted one needs to go before it."""
+
+USUAL = 0.5
+"""[1] of the likeliest one's score, with which an effect of everyday size goes before it.
+
+A limit of the current comes to 491 where a late command does to 357 and a weak battery to 283: with
+the command taken first the battery is 265 ahead of the limit."""
+
 MOST_QUIET = 2
 """Effects that are kept in the model without being named: a delay of 2 ms makes a log much likelier
 and shrinks no gap, but what else is there shows better beside it. What comes to less than ``SURER``
