@@ -10,6 +10,8 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
     def prepare(student, *, say) -> None       optional: makes what the learner works on
     BESIDE : tuple[str, ...]                   optional: files to fill in that belong to the one
                                                graded; ``read`` finds them beside its path
+    LOGS : tuple[str, ...]                     optional: endings of logs of a learner's own robot,
+                                               which an answer may name and ``read`` finds there
     def consequence(subject)                   optional: what a wrong answer would do on the robot,
                                                a Consequence; None where there is nothing to see
 
@@ -114,6 +116,11 @@ class Exercise:
     def beside(self) -> tuple[str, ...]:
         """The files to fill in that belong to the one graded, and stand beside it."""
         return tuple(getattr(self.module, "BESIDE", ()))
+
+    @property
+    def logs(self) -> tuple[str, ...]:
+        """Endings of the logs of a learner's own robot that may belong to the answer."""
+        return tuple(getattr(self.module, "LOGS", ()))
 
     @property
     def title(self) -> str:

@@ -18,11 +18,13 @@ class Issued:
         name: of the class.
         student: whose numbers these are.
         sealed: file, seen from the course folder -> the class's seal of it.
+        seal: the class's seal of the two names.
     """
 
     name: str
     student: str
     sealed: dict[str, str]
+    seal: str
 
     def is_for(self, student: str) -> bool:
         """Whether these are this student's own numbers."""
@@ -37,16 +39,46 @@ def issued(course: Path) -> Issued | None:
     """
     path = course / PLACE
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-        return Issued(str(raw["class"]), student_name(str(raw["student"])), dict(raw["sealed"]))
+        return parse_issued(path.read_bytes())
     except (FileNotFoundError, NotADirectoryError):
         return None
-    except (OSError, ValueError, TypeError, LookupError, Refusal):
+    except (OSError, ValueError):
         raise BadRequest(
             "what your class issued cannot be read",
             where=str(path),
             advice="Unpack your class's zip file once more.",
         ) from None
+
+
+def parse_issued(content: bytes) -> Issued:
+    """Read the content of a ``class.toml``.
+
+    Raises:
+        ValueError: it is not one.
+    """
+    try:
+        raw = tomllib.loads(content.decode("utf-8"))
+        name, student = str(raw["class"]), student_name(str(raw["student"]))
+        return Issued(name, student, dict(raw.get("sealed", {})), str(raw.get("seal", "")))
+    except (TypeError, LookupError, RecursionError, Refusal) as error:
+        raise ValueError(str(error)) from None
+
+
+def learner(course: Path, *, known: str, student: str | None) -> str:
+    """Who is learning in a course folder.
+
+    Args:
+        course: the course folder.
+        known: who it was before, as progress keeps it.
+        student: who a command says it is; None in a class's package is whom it was issued to.
+
+    Raises:
+        BadRequest: the name is none, or the class's file cannot be read.
+    """
+    if student is not None:
+        return student_name(student)
+    of_class = issued(course)
+    return of_class.student if of_class else known
 
 
 def only_there(exercise: str, found: Issued) -> BadRequest:

@@ -10,11 +10,10 @@ from grader.check import Result, Status
 from grader.consequence import Consequence
 from grader.course import find_course, load, save
 from grader.exercise import Exercise, Grade, find
-from grader.issued import issued, only_there
+from grader.issued import issued, learner, only_there
 from grader.report import MARKS, SPOKEN, received, to_lines, told_of
 from grader.submission import read_answers
 from grader.terminal import Line, complain, line
-from grader.variant import student_name
 from sim.errors import BadRequest, Refusal
 
 STYLE = {  # of the line that leads a check; colors that are legible on light and on dark pages
@@ -72,7 +71,7 @@ def submit(
     if said:
         complain(said)
     try:
-        who = progress.student if student is None else student_name(student)
+        who = learner(folder, known=progress.student, student=student)
         one = find(str(exercise), folder)
         if answers:
             write(one, answers)

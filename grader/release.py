@@ -14,7 +14,7 @@ from pathlib import Path
 import tomlkit
 
 from grader.classroom.bundle import Bundle
-from grader.classroom.secret import seal
+from grader.classroom.secret import identity_seal, seal
 from grader.exercise import exercises
 from grader.issued import PLACE, Issued
 from grader.variant import folder_name, of_class
@@ -96,8 +96,14 @@ def own(package: Package) -> tuple[str, bytes]:
         name: seal(package.secret, student=package.student, content=content)
         for name, content in made.items()
     }
-    told = {"class": package.name, "student": package.student, "sealed": sealed}
-    files = {**made, PLACE.as_posix(): tomlkit.dumps(told).encode()}
+    mark = identity_seal(package.secret, student=package.student, name=package.name)
+    identity = {"class": package.name, "student": package.student, "seal": mark}
+    beside = {Path(name).with_name(PLACE.name).as_posix() for name in made}
+    files = {
+        **made,
+        PLACE.as_posix(): tomlkit.dumps({**identity, "sealed": sealed}).encode(),
+        **dict.fromkeys(sorted(beside), tomlkit.dumps(identity).encode()),
+    }
     return package.student, _zipped({f"course/{name}": text for name, text in files.items()})
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from sim.errors import UnreadableFile
 
 LARGEST = 1_000_000  # [bytes] robot code and answers are far smaller; a log or a picture is not
-MANY = 40  # files in one folder to look through; more than that take long, and are a whole project
+SHOWN = 3  # names of files in a message
 
 
 def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
@@ -35,13 +35,17 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
     own = [given / name for name in names if (given / name).is_file()]
     endings = {Path(name).suffix for name in names}
     like = sorted(file for file in given.iterdir() if file.suffix in endings and _filled(file))
-    if not own and not 0 < len(like) <= MANY:
-        raise UnreadableFile(
-            f"{len(like) or 'no'} {' or '.join(sorted(endings))} file in this folder",
-            where=str(given),
-            advice="Name the file itself.",
-        )
-    return tuple(own or like)
+    if own or len(like) == 1:
+        return tuple(own or like)
+    if not like:
+        what = f"no {' or '.join(sorted(endings))} file in this folder"
+        raise UnreadableFile(what, where=str(given), advice="Name the file itself.")
+    named = ", ".join(file.name for file in like[:SHOWN]) + (", …" if len(like) > SHOWN else "")
+    raise UnreadableFile(  # one answer each: the best of many would be a prize for guessing
+        f"{len(like)} files here could be the answer ({named})",
+        where=str(given),
+        advice=f"Name the one that counts, or call it {names[0]}.",
+    )
 
 
 def whole_answer(given: Path | None, *, names: Sequence[str], beside: Sequence[str]) -> Path | None:

@@ -137,7 +137,7 @@ def test_canvas_gets_its_own_columns_back(tmp_path):
     assert rows[0] == ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Robotics 1"]
     assert (rows[1][0].strip(), rows[1][5]) == ("Points Possible", "4")
     assert rows[2] == ["Lee, Ann", "17", "", "ann", "A", "3"]
-    assert rows[3] == ["ben", "", "", "ben", "", "0"]
+    assert rows[3] == ["ben", "", "", "", "", "0"]
 
 
 def test_gradescope_reads_it(results, tmp_path):

@@ -96,8 +96,11 @@ def test_every_student_gets_their_points_and_one_that_breaks_stops_nobody(course
 def test_the_same_class_is_graded_the_same_by_one_and_by_four_workers(tmp_path):
     many = {f"student{number:02d}": (RIGHT, HALF, "size = 1\n")[number % 3] for number in range(20)}
     there = hand_in(tmp_path / "in", **many)
+    roster = tmp_path / "roster.csv"
+    roster.write_text("Student,ID\n" + "".join(f"{name},7\n" for name in many), "utf-8")
     exports = [word for name in ("canvas", "github", "gradescope", "junit") for word in
                ("--export", name)]  # fmt: skip
+    exports += ["--roster", str(roster)]
     found = []
     for name, processes in (("one", "1"), ("four", "4"), ("again", "1")):
         out = tmp_path / name
@@ -181,7 +184,7 @@ def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
     (deep / "data" / "answers.toml").write_text("size = 0\n", encoding="utf-8")
     with zipfile.ZipFile(place / "ben.zip", "w") as archive:
         archive.writestr("course\\exercises\\exercise1\\answers.toml", HALF)
-        archive.writestr("../../exercise1/answers.toml", "size = 0\n")
+        archive.writestr("../../exercise1/answers.toml", "size = 0\n")  # leads out of it
     (place / "cat").mkdir()
     (place / "cat" / "answers.toml").write_text(RIGHT, encoding="utf-8")  # only one has this name
     (place / "dan.zip").write_bytes(b"PK\x03\x04 not quite")
@@ -190,7 +193,7 @@ def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
     found = {one.student: one for one in find_all(place, exercises(course))}
 
     assert found["ann"].files == {"exercise1": {"answers.toml": RIGHT.encode()}}
-    assert found["ben"].files == {"exercise1": {"answers.toml": b"size = 0\n"}}
+    assert found["ben"].files == {"exercise1": {"answers.toml": HALF.encode()}}
     assert found["cat"].files == {"exercise1": {"answers.toml": RIGHT.encode()}}
     assert "cannot be read" in found["dan"].problem
     assert set(found) == {"ann", "ben", "cat", "dan"}
@@ -249,11 +252,11 @@ def test_a_roster_lists_who_is_absent_and_who_is_a_stranger(tmp_path, capsys):
     roster = tmp_path / "roster.csv"
     roster.write_text("team;Student\n1;Ann\n1;Zoë\n", encoding="utf-8-sig")
 
-    assert run(["class", str(there), "--roster", str(roster)]) == 0
+    assert run(["class", str(there), "--roster", str(roster)]) == 1
     rows = (tmp_path / "in-graded" / "gradebook.csv").read_text("utf-8-sig").splitlines()
     points = dict(row.split(",")[:2] for row in rows[1:])
-    assert points == {"Ann": "3", "stranger": "3", "Zoë": "0"}
-    assert "not on the roster, graded all the same: stranger" in capsys.readouterr().err
+    assert points == {"Ann": "3", "stranger": "0", "Zoë": "0"}
+    assert "stranger belongs to nobody on the roster" in capsys.readouterr().err
 
 
 def test_canvas_own_export_is_a_roster(tmp_path):

@@ -3,7 +3,7 @@
 import tempfile
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import nullcontext
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,6 +30,8 @@ class Job:
         student: who.
         digest: of everything the results depend on.
         files: exercise -> file name -> content.
+        problems: exercise -> why it cannot be graded.
+        numbers_of: whose numbers it is graded on; the student's own but for who studied as nobody.
         names: the exercises to grade.
         course: the course folder, or all of it that grading needs, for another machine.
         secret: of the class; None where everybody's numbers are those of self-study.
@@ -39,6 +41,8 @@ class Job:
     student: str
     digest: str
     files: Mapping[str, Files]
+    problems: Mapping[str, str]
+    numbers_of: str
     names: tuple[str, ...]
     course: "Path | Bundle"
     secret: bytes | None
@@ -77,13 +81,16 @@ def grade_one(job: Job) -> Graded:
 
 def _grade(exercise: Exercise, job: Job, folder: Path) -> Record:
     files, student = job.files.get(exercise.name, {}), job.student
+    if exercise.name in job.problems:
+        return nothing(exercise, student, status="ungradable", reason=job.problems[exercise.name])
     if not files:
         return nothing(exercise, student, status=MISSING, reason=NOTHING)
     try:
         folder.mkdir()
         for name, content in files.items():
             (folder / name).write_bytes(content)
-        return record(exercise.grade(folder, student=student, run=job.run))
+        grade = exercise.grade(folder, student=job.numbers_of, run=job.run)
+        return record(replace(grade, student=student))
     except Exception as error:  # noqa: BLE001 - one student's file must not stop the class
         broken = f"our mistake ({type(error).__name__}: {error}); please report it, with the file"
         return nothing(exercise, student, status="ungradable", reason=broken)

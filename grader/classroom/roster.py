@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from grader.classroom.submission_names import Identities
 from sim.dataset.roster import distinct
 from sim.errors import BadRequest
 from sim.roster import read_roster
@@ -22,6 +23,11 @@ class Members:
 
     header: tuple[str, ...]
     rows: Mapping[str, Mapping[str, str]]
+
+    @property
+    def identities(self) -> Identities:
+        """The students, and the names each of them may be called by."""
+        return Identities(self.rows)
 
 
 def members(path: Path) -> Members:

@@ -49,8 +49,10 @@ class Class:
         return tuple(
             Job(
                 one.student,
-                digest(one.student, one.files, names=names, made_by=made_by, secret=self.secret),
+                digest(one, names=names, made_by=made_by, secret=self.secret),
                 one.files,
+                one.problems,
+                one.numbers_of,
                 names,
                 course,
                 self.secret,

@@ -47,3 +47,14 @@ def seal(secret: bytes, *, student: str, content: bytes) -> str:
     """A text that only the holder of the secret can find for this student's file."""
     message = student.casefold().encode() + b"\0" + hashlib.sha256(content).digest()
     return hmac.digest(secret, b"seal\0" + message, hashlib.sha256).hex()
+
+
+def identity_seal(secret: bytes, *, student: str, name: str) -> str:
+    """A text that only the class itself can find for whom it issued a package to.
+
+    Args:
+        secret: of the class.
+        student: to whom.
+        name: of the class.
+    """
+    return seal(secret, student=student, content=b"identity\0" + name.encode())

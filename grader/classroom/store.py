@@ -4,34 +4,30 @@ import hashlib
 import hmac
 import json
 import os
-from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 
 from grader.classroom.grading import Graded
-from grader.classroom.handed_in import Files
+from grader.classroom.handed_in import HandedIn
 from grader.variant import folder_name
 from sim.errors import BadRequest
 
 RESULTS = "results"
 
 
-def digest(
-    student: str, files: Mapping[str, Files], *, names: tuple[str, ...], made_by: str,
-    secret: bytes | None,
-) -> str:  # fmt: skip
+def digest(one: HandedIn, *, names: tuple[str, ...], made_by: str, secret: bytes | None) -> str:
     """A text that changes with whatever a student's results depend on.
 
     Args:
-        student: who.
-        files: exercise -> file name -> content.
+        one: what the student handed in.
         names: the exercises that are graded.
         made_by: the fingerprint of the course.
         secret: of the class.
     """
     found = hmac.new(secret or b"alone", digestmod=hashlib.sha256)
-    found.update(json.dumps([student, names, made_by]).encode())
-    for exercise, those in sorted(files.items()):
+    about = [one.student, one.numbers_of, sorted(one.problems.items()), names, made_by]
+    found.update(json.dumps(about).encode())
+    for exercise, those in sorted(one.files.items()):
         for name, content in sorted(those.items()):
             found.update(json.dumps([exercise, name, len(content)]).encode())
             found.update(content)

@@ -127,10 +127,12 @@ def exercise(
 def start(student: str | None, *, no_lab: bool) -> int:
     """Show where you stand, make your data, open the first lesson."""
     from grader.course import save  # noqa: PLC0415 - --help has to start at once
+    from grader.issued import issued  # noqa: PLC0415 - the same
     from grader.start import start as begin  # noqa: PLC0415 - the same
 
     folder, progress, who = here(student)
-    if who != progress.student:
+    of_class = issued(folder)
+    if who != progress.student and (of_class is None or of_class.is_for(who)):
         progress = replace(progress, student=who)
         _tell(save(progress, folder))
     return begin(folder, progress, student=who, lab=not no_lab)
@@ -143,12 +145,12 @@ def here(student: str | None) -> "tuple[Path, Progress, str]":
         BadRequest: there is no course here, or the name is none.
     """
     from grader.course import find_course, load  # noqa: PLC0415 - --help has to start at once
-    from grader.variant import student_name  # noqa: PLC0415 - the same
+    from grader.issued import learner  # noqa: PLC0415 - the same
 
     folder = find_course(Path.cwd())
     progress, said = load(folder)
     _tell(said)
-    return folder, progress, progress.student if student is None else student_name(student)
+    return folder, progress, learner(folder, known=progress.student, student=student)
 
 
 def grade_file(

@@ -7,7 +7,6 @@ import click
 
 from grader.terminal import complain, line, show, wrapped
 from sim.command import DONE, INTERRUPTED, NOT_RIGHT
-from sim.errors import BadRequest
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from grader.exercise import Exercise
 
 PATH = click.Path(path_type=Path)
+SHOWN = 5  # names in one line
 
 
 @click.command("class")
@@ -60,43 +60,41 @@ def class_(  # noqa: PLR0917 - click passes options by name
     """Grade what a class handed in: FOLDER holds a folder or zip file for each student.
 
     In each of them, an answer lies in a folder named as its exercise (exercise4/answers.toml).
+    Downloads of Canvas, Moodle, Google Classroom and GitHub Classroom can be graded as they are.
     Writes an overview (index.html), a page for each student, gradebook.csv and what --export asks.
     What is graded is kept: the same command goes on where it was stopped.
 
     Exit codes: 0 all graded, 1 some could not be, 2 could not do it.
     """
-    from grader.classroom.exports import exports  # noqa: PLC0415 - --help must not wait for it
-    from grader.classroom.handed_in import find_all, find_one  # noqa: PLC0415 - the same
+    from grader.classroom.exports import chosen  # noqa: PLC0415 - --help must not wait for it
+    from grader.classroom.identity import check_identities  # noqa: PLC0415 - the same
     from grader.classroom.results import Results  # noqa: PLC0415 - the same
     from grader.classroom.roster import members  # noqa: PLC0415 - the same
     from grader.classroom.run import Class  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.course import find_course  # noqa: PLC0415 - the same
 
-    formats = exports()
-    unknown = [one for one in wanted if one not in formats]
-    if unknown:
-        raise BadRequest(
-            f"there is no format {unknown[0]!r}", advice=f"Choose of: {', '.join(formats)}."
-        )
+    known = members(roster) if roster else None
+    formats = chosen(wanted, roster=known)
     course = find_course(Path.cwd())
     asked = _asked(only, course)
-    known = members(roster) if roster else None
-    found = find_one(folder, asked, student=student) if student else None
-    there = (found,) if found else find_all(folder, asked)
     kept = find_secret(secret, make=False)
+    value = kept.value if kept else None
+    there = _found(folder, course, asked, known, student=student)
+    there = check_identities(there, secret=value)
+    _tell_problems(there)
     out = output or folder.with_name(f"{folder.resolve().name.removesuffix('.zip')}-graded")
     if run is None:
         run = _shut_in(asked, cluster=cluster)
-    work = Class(there, asked, course, kept.value if kept else None, run)
+    work = Class(there, asked, course, value, run)
     graded = _run(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
         return INTERRUPTED
     title = name or folder.resolve().stem
-    everybody = _with_absent(graded, there, known, asked)
+    everybody = _with_absent(graded, known, asked)
     rows, header = (known.rows, known.header) if known else ({}, ())
     results = Results(title, everybody, tuple(one.name for one in asked), rows, header)
-    return _written(results, out, [formats[one] for one in dict.fromkeys(("gradebook", *wanted))])
+    return _written(results, out, formats)
 
 
 COMMAND = class_
@@ -109,6 +107,51 @@ def _asked(only: tuple[str, ...], course: Path) -> "tuple[Exercise, ...]":
         return exercises(course)
     names = {find(one, course).name for one in only}
     return tuple(one for one in exercises(course) if one.name in names)
+
+
+def _found(
+    folder: Path,
+    course: Path,
+    asked: "Sequence[Exercise]",
+    known: "Members | None",
+    *,
+    student: str | None,
+) -> "tuple[HandedIn, ...]":
+    """What was handed in: by one student, or by everybody in the folder."""
+    from grader.classroom.handed_in import find_all, find_one, stray_files  # noqa: PLC0415 - --help
+    from grader.exercise import exercises  # noqa: PLC0415 - must not wait for any of these
+
+    everything = exercises(course)
+    if student:
+        return (find_one(folder, everything, asked=asked, student=student),)
+    roster = known.identities if known else None
+    there = find_all(folder, everything, asked=asked, roster=roster)
+    if stray := stray_files(folder):
+        complain(f"left out, for their names are no student's: {', '.join(stray)}")
+    return there
+
+
+def _tell_problems(there: "Sequence[HandedIn]") -> None:
+    """Say before the grading who is graded otherwise than their folder's name says."""
+    for one in there:
+        if one.problem:
+            complain(f"{one.student}: {one.problem}")
+    nameless = [one.student for one in there if one.worked_as]
+    if nameless:
+        complain(f"worked without a name, and are graded on those numbers: {_some(nameless)}")
+    matched = [
+        f"{one.place.name} as {one.student}"
+        for one in there
+        if not one.problem and one.student.casefold() not in one.place.name.casefold()
+    ]
+    if matched:
+        complain(f"found on the roster: {_some(matched)}")
+
+
+def _some(names: "Sequence[str]") -> str:
+    """The first few of many, and how many more there are."""
+    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+    return "; ".join(names[:SHOWN]) + more
 
 
 def _shut_in(asked: "Sequence[Exercise]", *, cluster: str | None) -> bool:
@@ -154,27 +197,15 @@ def _run(
 
 
 def _with_absent(
-    graded: "tuple[Graded, ...]",
-    there: "Sequence[HandedIn]",
-    known: "Members | None",
-    asked: "Sequence[Exercise]",
+    graded: "tuple[Graded, ...]", known: "Members | None", asked: "Sequence[Exercise]"
 ) -> "tuple[Graded, ...]":
-    """Everybody of the roster, named as there; who is not on it is said."""
-    from dataclasses import replace  # noqa: PLC0415 - --help must not wait for it
-
-    from grader.classroom.grading import ungraded  # noqa: PLC0415 - the same
+    """Everybody, and whoever is on the roster and handed nothing in."""
+    from grader.classroom.grading import ungraded  # noqa: PLC0415 - --help must not wait for it
     from grader.variant import same  # noqa: PLC0415 - the same
 
-    if known is None:
-        return graded
-    rows = {same(name): name for name in known.rows}
-    strangers = [one.student for one in there if same(one.student) not in rows]
-    if strangers:
-        complain(f"not on the roster, graded all the same: {', '.join(strangers)}")
-    found = [replace(one, student=rows.get(same(one.student), one.student)) for one in graded]
-    present = {same(one.student) for one in found}
-    absent = [name for plain, name in rows.items() if plain not in present]
-    found += [ungraded(name, asked, handed_in=(), reason="") for name in absent]
+    present = {same(one.student) for one in graded}
+    absent = [name for name in (known.rows if known else ()) if same(name) not in present]
+    found = [*graded, *(ungraded(name, asked, handed_in=(), reason="") for name in absent)]
     return tuple(sorted(found, key=lambda one: one.student.casefold()))
 
 

@@ -1,16 +1,19 @@
 """Formats of gradebooks and of other people's systems, found by looking into this folder.
 
 Each module offers ``SUMMARY``, one line for people, and ``write(results, folder)``, which writes
-its files into the folder and returns their paths.
+its files into the folder and returns their paths. One that needs to know more of the students than
+their names offers ``ROSTER``, columns of a roster of which one has to be there.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 
 from grader.classroom.results import Results
+from grader.classroom.roster import Members
+from sim.errors import BadRequest
 
 
 @dataclass(frozen=True)
@@ -21,15 +24,47 @@ class Export:
         name: as typed after ``--export``.
         summary: one line for people.
         write: results and a folder -> the files written there.
+        roster: columns of a roster of which it needs one; empty where names are enough.
     """
 
     name: str
     summary: str
     write: Callable[[Results, Path], tuple[Path, ...]]
+    roster: tuple[str, ...] = ()
 
 
 def exports() -> dict[str, Export]:
     """Name -> format, of all there are."""
     found = sorted(one.name for one in iter_modules(__path__))
     modules = {name: import_module(f"{__name__}.{name}") for name in found}
-    return {name: Export(name, one.SUMMARY, one.write) for name, one in modules.items()}
+    return {
+        name: Export(name, one.SUMMARY, one.write, getattr(one, "ROSTER", ()))
+        for name, one in modules.items()
+    }
+
+
+def chosen(wanted: Sequence[str], *, roster: Members | None) -> tuple[Export, ...]:
+    """The formats to write: a gradebook, and those that are wanted besides.
+
+    Args:
+        wanted: names of formats.
+        roster: who is in the class.
+
+    Raises:
+        BadRequest: there is no such format, or the roster lacks what it needs.
+    """
+    formats = exports()
+    unknown = [one for one in wanted if one not in formats]
+    if unknown:
+        raise BadRequest(
+            f"there is no format {unknown[0]!r}", advice=f"Choose of: {', '.join(formats)}."
+        )
+    found = tuple(formats[one] for one in dict.fromkeys(("gradebook", *wanted)))
+    header = {name.strip().casefold() for name in roster.header} if roster else set()
+    for one in found:
+        if one.roster and header.isdisjoint(name.casefold() for name in one.roster):
+            raise BadRequest(
+                f"--export {one.name} needs a roster with a column {' or '.join(one.roster)}",
+                advice=f"Give the gradebook that {one.name.title()} exports as --roster.",
+            )
+    return found

@@ -13,6 +13,7 @@ from grader.classroom.results import Results, scores
 from grader.classroom.written import written
 
 SUMMARY = "canvas.csv: to be imported into Canvas; give its own export as --roster"
+ROSTER = ("ID", "SIS User ID", "SIS Login ID")  # Canvas finds nobody by the name alone
 IDENTITY = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 
 
@@ -28,8 +29,9 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
     table.writerow([*IDENTITY, results.name])
     table.writerow(["    Points Possible", *[""] * (len(IDENTITY) - 1), f"{most:g}"])
     for one in results.students:
-        row = results.roster.get(one.student, {})
-        alone = {"Student": one.student, "SIS Login ID": one.student}
-        who = [(row or alone).get(name, "") for name in IDENTITY]
+        cells = results.roster.get(one.student, {})
+        row = {name.strip().casefold(): cell for name, cell in cells.items()}
+        row.setdefault("student", one.student)
+        who = [row.get(name.casefold(), "") for name in IDENTITY]
         table.writerow([*map(safe, who), f"{sum(scores(one).values()):g}"])
     return (written(folder / "canvas.csv", stream.getvalue()),)

@@ -1,0 +1,93 @@
+"""Whose numbers a student worked on: read from what the course wrote into what was handed in."""
+
+import hmac
+import tomllib
+from collections.abc import Sequence
+from dataclasses import replace
+
+from grader.classroom.handed_in import PROGRESS, HandedIn
+from grader.classroom.secret import identity_seal
+from grader.course import NOBODY
+from grader.issued import PLACE, Issued, parse_issued
+from grader.variant import folder_name, same, student_name
+from sim.errors import BadRequest, Refusal
+
+
+def check_identities(
+    handed_in: Sequence[HandedIn], *, secret: bytes | None
+) -> tuple[HandedIn, ...]:
+    """Find who handed in another student's package, and who worked without a name.
+
+    Args:
+        handed_in: by everybody.
+        secret: of the class; None where everybody's numbers are those of self-study.
+
+    Returns:
+        The same, with a problem where the numbers are not the student's own.
+
+    Raises:
+        BadRequest: a class issued packages with its secret, and no secret was named.
+    """
+    return tuple(one if one.problem else _checked(one, secret) for one in handed_in)
+
+
+def _checked(one: HandedIn, secret: bytes | None) -> HandedIn:
+    content = one.identities.get(PLACE.as_posix())
+    if content is None:
+        return one if secret is not None else _without_class(one)
+    try:
+        found = parse_issued(content)
+    except ValueError:
+        return replace(one, problem=f"its {PLACE.name} cannot be read: was it changed?")
+    if secret is None:
+        raise BadRequest(
+            f"{one.student} worked on numbers that {found.name} issued with a secret",
+            where=str(one.place),
+            advice="Name the file that grade release made: --secret class.secret",
+        )
+    return replace(one, problem=_foreign(one, found, secret))
+
+
+def _foreign(one: HandedIn, found: Issued, secret: bytes) -> str:
+    """Why a class's package is not this student's; empty if it is."""
+    mark = identity_seal(secret, student=found.student, name=found.name)
+    if not hmac.compare_digest(mark.encode(), found.seal.encode()):
+        return (
+            f"its package was issued to {found.student} ({found.name}) with another secret, or "
+            f"its {PLACE.name} was changed"
+        )
+    if not found.is_for(one.student):
+        return (
+            f"its package was issued to {found.student}, and {one.student} handed it in. Ask both; "
+            "then rename it as the one whose work it is"
+        )
+    return ""
+
+
+def _without_class(one: HandedIn) -> HandedIn:
+    """The same, on the numbers of whoever the course was started as."""
+    started_as = _started_as(one)
+    if folder_name(one.student) in one.data_folders:
+        return one
+    if not started_as and folder_name(NOBODY) in one.data_folders:
+        started_as = NOBODY
+    if not started_as or same(started_as) == same(one.student):
+        return one
+    if started_as == NOBODY:  # these numbers are nobody's: whoever never gave a name has them
+        return replace(one, worked_as=NOBODY)
+    return replace(
+        one,
+        problem=(
+            f"its course was started as {started_as}, and {one.student} handed it in. Ask both; "
+            "then rename it as the one whose work it is"
+        ),
+    )
+
+
+def _started_as(one: HandedIn) -> str:
+    """Who the course says is learning; empty where it says nothing that can be read."""
+    try:
+        raw = tomllib.loads(one.identities[PROGRESS].decode("utf-8"))
+        return student_name(str(raw["student"]))
+    except (LookupError, ValueError, TypeError, RecursionError, Refusal):
+        return ""

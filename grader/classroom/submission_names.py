@@ -1,0 +1,148 @@
+"""Who handed something in: how learning platforms name files, and who on the roster is meant.
+
+    Canvas             doejane_LATE_101_5555_exercises-1.zip
+    Moodle             Jane Doe_4711_assignsubmission_file_exercises.zip, or a folder without file
+    Google Classroom   Jane Doe - exercises.zip
+    GitHub Classroom   week-3-janedoe, a folder for each repository
+
+Canvas writes the family name first and leaves out everything but letters and digits; what a teacher
+renames may have either name first. A name is therefore compared by its words in any order.
+"""
+
+import difflib
+import re
+import unicodedata
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import PurePath
+
+from grader.variant import same
+from sim.errors import Refusal
+
+CANVAS = re.compile(r"(?P<name>[^_]+)(?:_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)")
+MOODLE = re.compile(r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_[a-z]+_?(?P<file>.*)")
+GOOGLE = re.compile(r"(?P<name>.+?) - (?P<file>.+\.\w+)")
+PLATFORMS = (MOODLE, CANVAS, GOOGLE)
+AGAIN = re.compile(r"-\d+(?=\.\w+$)")  # Canvas numbers the files of a later attempt
+CANVAS_ID = "id"  # the column of Canvas's export that holds the number in its files' names
+GITHUB = "github_username"  # a column of GitHub Classroom's roster
+NAMES = (
+    "student", "name", "full name", "sis login id", "login", "email", "sis user id", "identifier",
+    GITHUB,
+)  # fmt: skip
+FIRST, LAST = ("first name", "given name", "firstname"), ("last name", "surname", "lastname")
+ALIKE = 0.75  # how alike two names are for one to be proposed for the other
+MOST_LIKELY = 3  # so many are proposed
+
+
+@dataclass(frozen=True)
+class SubmissionName:
+    """What the name of a file or folder says.
+
+    Args:
+        student: the name in it, as the platform writes it.
+        canvas_id: the student's number in Canvas; empty elsewhere.
+        file: the name of the file as the student called it; empty for a folder or a plain name.
+    """
+
+    student: str
+    canvas_id: str = ""
+    file: str = ""
+
+
+def parse_name(name: str, *, folder: bool) -> SubmissionName | None:
+    """Read the name of one thing that was handed in.
+
+    Args:
+        name: of the file or folder.
+        folder: whether it is a folder.
+
+    Returns:
+        What it says; None for a file that no platform named and that is no zip file.
+    """
+    for platform in PLATFORMS:
+        found = platform.fullmatch(name)
+        if found is None or (folder and platform is not MOODLE):
+            continue
+        canvas_id = found["id"] if platform is CANVAS else ""
+        return SubmissionName(found["name"].strip(), canvas_id, AGAIN.sub("", found["file"]))
+    if folder:
+        return SubmissionName(name)
+    return SubmissionName(PurePath(name).stem) if name.lower().endswith(".zip") else None
+
+
+class Identities:
+    """The students of a roster, and the names each of them may be called by.
+
+    Args:
+        rows: student -> their row of the roster, by its header.
+    """
+
+    def __init__(self, rows: Mapping[str, Mapping[str, str]]) -> None:
+        self._students = {same(student): student for student in rows}
+        self._canvas_ids: dict[str, str] = {}
+        self._aliases: dict[str, set[str]] = {}
+        self._github: dict[str, str] = {}
+        for student, row in rows.items():
+            cells = {head.strip().casefold(): text.strip() for head, text in row.items()}
+            self._canvas_ids[cells.get(CANVAS_ID, "")] = student
+            if cells.get(GITHUB):
+                self._github[cells[GITHUB].casefold()] = student
+            for name in _names(student, cells):
+                for form in spellings(name):
+                    self._aliases.setdefault(form, set()).add(student)
+        self._canvas_ids.pop("", None)
+
+    def find(self, name: SubmissionName) -> str | None:
+        """The only student on the roster that is meant; None if there is none, or several."""
+        try:
+            exact = self._students.get(same(name.student))
+        except Refusal:
+            return None
+        known = exact or self._canvas_ids.get(name.canvas_id)
+        if known is not None:
+            return known
+        meant = set().union(*(self._aliases.get(one, set()) for one in spellings(name.student)))
+        if not meant and not name.file:
+            plain = name.student.casefold()
+            meant = {who for login, who in self._github.items() if plain.endswith(f"-{login}")}
+        return next(iter(meant)) if len(meant) == 1 else None
+
+    def propose(self, name: SubmissionName) -> tuple[str, ...]:
+        """Students on the roster whose names are like this one, the likeliest first."""
+        likeness: dict[str, float] = {}
+        for form, students in self._aliases.items():
+            ratio = max(
+                (difflib.SequenceMatcher(None, form, own).ratio() for own in spellings(name.student)),
+                default=0.0,
+            )
+            for student in students:
+                likeness[student] = max(ratio, likeness.get(student, 0.0))
+        likely = sorted(likeness, key=lambda one: (-likeness[one], one))
+        return tuple(one for one in likely if likeness[one] >= ALIKE)[:MOST_LIKELY]
+
+
+def _names(student: str, cells: Mapping[str, str]) -> Iterator[str]:
+    """What one student may be called, from their row."""
+    yield student
+    yield from (cells[column] for column in NAMES if cells.get(column))
+    first = next((cells[one] for one in FIRST if cells.get(one)), "")
+    last = next((cells[one] for one in LAST if cells.get(one)), "")
+    if first and last:
+        yield f"{first} {last}"
+
+
+def spellings(name: str) -> frozenset[str]:
+    """A name's letters and digits, its words in every rotation, with accents and without.
+
+    ``Doe, Zoë`` and ``Zoë Doe`` share ``zoëdoe``; Canvas's file name is ``doezo`` or ``doezoe``.
+    """
+    words = re.findall(r"[^\W_]+", unicodedata.normalize("NFC", name).casefold())
+    found = set()
+    for start in range(max(len(words), 1)):
+        turned = "".join([*words[start:], *words[:start]])
+        parts = unicodedata.normalize("NFKD", turned)
+        unaccented = "".join(sign for sign in parts if not unicodedata.combining(sign))
+        ascii_only = turned.encode("ascii", "ignore").decode()
+        found |= {turned, unaccented, ascii_only}
+    return frozenset(found - {""})

@@ -1,0 +1,154 @@
+"""Names of what schools hand in: each platform's form is read, and the student on the roster found."""
+
+import zipfile
+
+import pytest
+from small_course import HALF, RIGHT, lay_out
+
+from grader.classroom.handed_in import find_all, stray_files
+from grader.classroom.roster import members
+from grader.classroom.submission_names import Identities, SubmissionName, parse_name
+from grader.exercise import exercises
+from sim.errors import BadRequest
+
+CANVAS = """\
+Student,ID,SIS User ID,SIS Login ID,Section
+    Points Possible,,,,
+"Doe, Jane",101,s101,jdoe,A
+"Müller-Lüdenscheid, Zoë",102,s102,zoe,A
+"de la Cruz, Ana María",103,s103,ana,A
+"""
+
+
+@pytest.fixture
+def course(tmp_path):
+    lay_out(tmp_path / "course")
+    return exercises(tmp_path / "course")
+
+
+def people(tmp_path, text):
+    path = tmp_path / "roster.csv"
+    path.write_text(text, encoding="utf-8")
+    return members(path).identities
+
+
+@pytest.mark.parametrize(
+    ("name", "folder", "found"),
+    [
+        ("doejane_101_5555_exercises.zip", False, ("doejane", "101", "exercises.zip")),
+        ("doejane_LATE_101_5555_answers-2.toml", False, ("doejane", "101", "answers.toml")),
+        ("Jane Doe_4711_assignsubmission_file_exercises.zip", False,
+         ("Jane Doe", "", "exercises.zip")),
+        ("Jane Doe_4711_assignsubmission_file_", True, ("Jane Doe", "", "")),
+        ("Jane Doe_4711_assignsubmission_file", True, ("Jane Doe", "", "")),
+        ("Jane Doe - exercises.zip", False, ("Jane Doe", "", "exercises.zip")),
+        ("week-3-janedoe", True, ("week-3-janedoe", "", "")),
+        ("jane.zip", False, ("jane", "", "")),
+        ("Jane Doe", True, ("Jane Doe", "", "")),
+    ],
+)  # fmt: skip
+def test_each_platforms_names_are_read(name, folder, found):
+    assert parse_name(name, folder=folder) == SubmissionName(*found)
+
+
+@pytest.mark.parametrize("name", ["roster.csv", "notes.txt", "answers.toml"])
+def test_a_file_that_no_platform_named_is_nobodys(name):
+    assert parse_name(name, folder=False) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "student"),
+    [
+        (SubmissionName("doejane", "101", "x.zip"), "jdoe"),
+        (SubmissionName("doejane", "999", "x.zip"), "jdoe"),  # another Canvas's number
+        (SubmissionName("someone", "102", "x.zip"), "zoe"),
+        (SubmissionName("mullerludenscheidzoe", "", "x.zip"), "zoe"),
+        (SubmissionName("mllerldenscheidzo", "", "x.zip"), "zoe"),
+        (SubmissionName("Jane Doe"), "jdoe"),
+        (SubmissionName("Doe Jane"), "jdoe"),
+        (SubmissionName("Doe, Jane"), "jdoe"),
+        (SubmissionName("Ana María de la Cruz"), "ana"),
+        (SubmissionName("de la Cruz Ana Maria"), "ana"),
+        (SubmissionName("JDOE"), "jdoe"),
+        (SubmissionName("s103"), "ana"),
+        (SubmissionName("Jane Do"), None),
+        (SubmissionName("somebody"), None),
+    ],
+)
+def test_the_student_on_the_roster_is_found(tmp_path, name, student):
+    assert people(tmp_path, CANVAS).find(name) == student
+
+
+def test_a_name_that_two_students_have_is_nobodys(tmp_path):
+    both = people(tmp_path, "student,name\na1,Kim Lee\na2,Lee Kim\n")
+
+    assert both.find(SubmissionName("Kim Lee")) is None
+    assert set(both.propose(SubmissionName("Kim Lee"))) == {"a1", "a2"}
+
+
+def test_a_repository_is_found_by_the_login_at_its_end():
+    roster = Identities({"Jane Doe": {"identifier": "Jane Doe", "github_username": "JD-2010"}})
+
+    assert roster.find(SubmissionName("week-3-jd-2010")) == "Jane Doe"
+    assert roster.find(SubmissionName("week-3-somebody")) is None
+
+
+def zipped(path, **files):
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, text in files.items():
+            archive.writestr(name.replace("__", "/") + ".toml", text)
+
+
+def test_a_canvas_download_is_graded_as_it_is(tmp_path, course):
+    place = tmp_path / "in"
+    place.mkdir()
+    zipped(place / "doejane_101_5555_exercises.zip", course__exercises__exercise1__answers=RIGHT)
+    zipped(place / "mllerldenscheidzo_LATE_102_5556_exercise1-1.zip", answers=HALF)
+    (place / "delacruzanamara_103_5557_answers.toml").write_text(RIGHT, encoding="utf-8")
+    (place / "roster.csv").write_text(CANVAS, encoding="utf-8")
+    roster = people(tmp_path, CANVAS)
+    found = {one.student: one for one in find_all(place, course, roster=roster)}
+
+    assert {name: list(one.files) for name, one in found.items()} == dict.fromkeys(
+        ("jdoe", "zoe", "ana"), ["exercise1"]
+    )
+    assert all(not one.problem for one in found.values())
+    assert found["zoe"].files["exercise1"] == {"answers.toml": HALF.encode()}
+    assert stray_files(place) == ("roster.csv",)
+
+
+def test_several_files_of_one_student_are_one_hand_in(tmp_path, course):
+    second = tmp_path / "course" / "exercises" / "exercise2"
+    second.mkdir()
+    first = course[0].folder
+    for name in ("checks.py", "README.md", "hints.toml"):
+        text = (first / name).read_text(encoding="utf-8").replace("answers.toml", "code.toml")
+        (second / name).write_text(text, encoding="utf-8")
+    place = tmp_path / "in"
+    place.mkdir()
+    (place / "Jane Doe - answers.toml").write_text(RIGHT, encoding="utf-8")
+    (place / "Jane Doe - code.toml").write_text(HALF, encoding="utf-8")
+    (one,) = find_all(place, exercises(tmp_path / "course"))
+
+    assert one.student == "Jane Doe"
+    assert {name: list(files) for name, files in one.files.items()} == {
+        "exercise1": ["answers.toml"], "exercise2": ["code.toml"],
+    }  # fmt: skip
+
+
+def test_a_stranger_is_told_with_the_likely_student_and_not_graded(tmp_path, course):
+    place = tmp_path / "in" / "Jane Dow" / "exercise1"
+    place.mkdir(parents=True)
+    (place / "answers.toml").write_text(RIGHT, encoding="utf-8")
+    (one,) = find_all(tmp_path / "in", course, roster=people(tmp_path, CANVAS))
+
+    assert one.files == {}
+    assert "Jane Dow belongs to nobody on the roster; perhaps jdoe" in one.problem
+
+
+def test_two_folders_of_one_student_are_refused(tmp_path, course):
+    for name in ("Jane Doe", "Doe Jane"):
+        (tmp_path / "in" / name).mkdir(parents=True)
+
+    with pytest.raises(BadRequest, match="are one student's"):
+        find_all(tmp_path / "in", course, roster=people(tmp_path, CANVAS))
