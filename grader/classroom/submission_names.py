@@ -113,7 +113,10 @@ class Identities:
         likeness: dict[str, float] = {}
         for form, students in self._aliases.items():
             ratio = max(
-                (difflib.SequenceMatcher(None, form, own).ratio() for own in spellings(name.student)),
+                (
+                    difflib.SequenceMatcher(None, form, own).ratio()
+                    for own in spellings(name.student)
+                ),
                 default=0.0,
             )
             for student in students:
