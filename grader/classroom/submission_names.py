@@ -111,16 +111,11 @@ class Identities:
     def propose(self, name: SubmissionName) -> tuple[str, ...]:
         """Students on the roster whose names are like this one, the likeliest first."""
         likeness: dict[str, float] = {}
+        asked = spellings(name.student)
         for form, students in self._aliases.items():
-            ratio = max(
-                (
-                    difflib.SequenceMatcher(None, form, own).ratio()
-                    for own in spellings(name.student)
-                ),
-                default=0.0,
-            )
+            ratios = [difflib.SequenceMatcher(None, form, own).ratio() for own in asked]
             for student in students:
-                likeness[student] = max(ratio, likeness.get(student, 0.0))
+                likeness[student] = max([likeness.get(student, 0.0), *ratios])
         likely = sorted(likeness, key=lambda one: (-likeness[one], one))
         return tuple(one for one in likely if likeness[one] >= ALIKE)[:MOST_LIKELY]
 
