@@ -10,7 +10,7 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
     def prepare(student, *, say) -> None       optional: makes what the learner works on
     BESIDE : tuple[str, ...]                   optional: files to fill in that belong to the one
                                                graded; ``read`` finds them beside its path
-    LOGS : tuple[str, ...]                     optional: endings of logs of a learner's own robot,
+    LOG_ENDINGS : tuple[str, ...]              optional: endings of logs of a learner's own robot,
                                                which an answer may name and ``read`` finds there
     def consequence(subject)                   optional: what a wrong answer would do on the robot,
                                                a Consequence; None where there is nothing to see
@@ -120,7 +120,7 @@ class Exercise:
     @property
     def logs(self) -> tuple[str, ...]:
         """Endings of the logs of a learner's own robot that may belong to the answer."""
-        return tuple(getattr(self.module, "LOGS", ()))
+        return tuple(getattr(self.module, "LOG_ENDINGS", ()))
 
     @property
     def title(self) -> str:

@@ -8,6 +8,7 @@ from small_course import HALF, RIGHT, lay_out
 from grader.classroom.handed_in import find_all, stray_files
 from grader.classroom.roster import members
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
+from grader.cli import run
 from grader.exercise import exercises
 from sim.errors import BadRequest
 
@@ -133,6 +134,44 @@ def test_several_files_of_one_student_are_one_hand_in(tmp_path, course):
     assert {name: list(files) for name, files in one.files.items()} == {
         "exercise1": ["answers.toml"], "exercise2": ["code.toml"],
     }  # fmt: skip
+
+
+def test_one_exercise_alone_is_found_in_a_whole_course_and_in_a_flat_folder(tmp_path, course):
+    place = tmp_path / "in"
+    for name in ("exercise1", "exercise9"):
+        (place / "ann" / "exercises" / name).mkdir(parents=True)
+        (place / "ann" / "exercises" / name / "answers.toml").write_text(RIGHT, encoding="utf-8")
+    (place / "ann" / "answers.toml").write_text(HALF, encoding="utf-8")
+    (place / "ben").mkdir()
+    (place / "ben" / "my answers.toml").write_text(HALF, encoding="utf-8")
+    ann, ben = find_all(place, course, asked=course)
+
+    assert ann.files == {"exercise1": {"answers.toml": RIGHT.encode()}}
+    assert ben.files == {"exercise1": {"my answers.toml": HALF.encode()}}
+
+
+def test_two_files_that_could_be_one_answer_are_refused_by_name(tmp_path, course):
+    for folder in ("draft", "final"):
+        place = tmp_path / "in" / "ann" / folder / "exercise1"
+        place.mkdir(parents=True)
+        (place / "answers.toml").write_text(RIGHT + f"# {folder}\n", encoding="utf-8")
+    (one,) = find_all(tmp_path / "in", course)
+
+    assert one.problems == {
+        "exercise1": "there are two different files answers.toml; keep the one that counts"
+    }
+
+
+def test_many_tries_at_one_answer_are_not_the_best_of_them(tmp_path, course, monkeypatch):
+    place = tmp_path / "in" / "ann" / "exercise1"
+    place.mkdir(parents=True)
+    for number in range(5):
+        (place / f"a{number}.toml").write_text(f"size = {number}\n", encoding="utf-8")
+    monkeypatch.chdir(course[0].folder)
+
+    assert run(["class", str(tmp_path / "in")]) == 1
+    page = (tmp_path / "in-graded" / "students" / "ann.html").read_text(encoding="utf-8")
+    assert "5 files here could be the answer (a0.toml, a1.toml, a2.toml, …)" in page
 
 
 def test_a_stranger_is_told_with_the_likely_student_and_not_graded(tmp_path, course):

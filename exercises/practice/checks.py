@@ -26,7 +26,7 @@ BESIDE = (
     "ExampleSubsystem.java", "RobotContainer.java", "ExampleMechanism.java",
     "example_subsystem.py", "robotcontainer.py", "example_mechanism.py",
 )  # fmt: skip
-LOGS = (".wpilog", ".csv", ".json")  # of the learner's own robot, named in the answers
+LOG_ENDINGS = (".wpilog", ".csv", ".json")  # of the learner's own robot, named in the answers
 LANGUAGES = {"java": BESIDE[:3], "python": BESIDE[3:]}
 PLACES = ("subsystem", "container", "constants")
 GOOD = 0.9  # simulated velocity R² below which something is wrong with the data

@@ -2,8 +2,8 @@
 
 Each student's folder or zip file may hold single answers, folders of exercises or the whole course;
 zip files inside it are looked into once. A file belongs to the exercise whose name its folder has,
-however deep. One that lies in no such folder belongs to the only exercise that is asked for, or to
-the only one that has a file of its name.
+however deep. Where there is no such folder at all, it belongs to the only exercise that is asked
+for, or to the only one that has a file of its name.
 """
 
 import hashlib
@@ -303,6 +303,15 @@ def _of_zip(archive: zipfile.ZipFile, top: PurePosixPath) -> Iterator[_Found]:
             yield _Found(path, (archive, info))
 
 
+@dataclass(frozen=True)
+class _Taken:
+    """A file of an answer: how deep it lay, its content, and why it cannot be graded."""
+
+    depth: int
+    content: bytes
+    problem: str = ""
+
+
 class _Sorted:
     """Files sorted into exercises as they come.
 
@@ -317,8 +326,9 @@ class _Sorted:
         self._asked = {one.name for one in asked}
         self._only = asked[0] if len(asked) == 1 else None
         self._kinds = {one.name: _endings(one) for one in asked}
-        self._files: dict[str, dict[str, tuple[int, bytes]]] = {}
-        self._problems: dict[tuple[str, str], str] = {}  # of an exercise's file, or of all: ""
+        self._files: dict[str, dict[str, _Taken]] = {}  # exercise -> name -> file
+        self._outside: dict[str, dict[str, _Taken]] = {}  # the same, in no exercise's folder
+        self._has_folders = False
         self._identities: dict[str, bytes] = {}
         self._data: set[str] = set()
         self._left = LARGEST_WHOLE
@@ -338,29 +348,37 @@ class _Sorted:
             self._add_answer(found)
 
     def _add_answer(self, found: _Found) -> None:
-        exercise = self._exercise_of(found.path)
-        if exercise is None or exercise.name not in self._asked:
+        exercise = self._of_folder(found.path)
+        self._has_folders = self._has_folders or exercise is not None
+        outside = exercise is None
+        exercise = exercise or self._only or self._by_file.get(found.path.name)
+        if exercise is None or exercise.name not in self._asked or (outside and self._has_folders):
             return
         name, ending = found.path.name, found.path.suffix.lower()
         if ending not in self._kinds[exercise.name]:
             return
-        mine = self._files.setdefault(exercise.name, {})
+        files = self._outside if outside else self._files
+        mine = files.setdefault(exercise.name, {})
         depth = len(found.path.parts)
-        if name in mine and mine[name][0] < depth:
+        if name in mine and mine[name].depth < depth:
             return
         if name not in mine and len(mine) >= MOST_FILES:
-            self._problems[exercise.name, ""] = f"more than {MOST_FILES} files may belong to it"
-            return
-        most = LARGEST_LOG if ending in exercise.logs else LARGEST
-        content, problem = self._content(found, most), ""
-        if len(content) > most and ending in exercise.logs:
-            content, problem = b"", f"{_shown(name)} is larger than {most / 1e6:g} MB"
-        if name in mine and mine[name][0] == depth and mine[name][1] != content:
-            problem = f"there are two different files {_shown(name)}; keep the one that counts"
-        mine[name] = depth, content
-        self._problems.pop((exercise.name, name), None)
-        if problem:
-            self._problems[exercise.name, name] = problem
+            name, file = "", _Taken(0, b"", f"more than {MOST_FILES} files may belong to it")
+        else:
+            file = self._taken(found, exercise, depth)
+        if name in mine and mine[name].depth == depth and mine[name].content != file.content:
+            said = f"there are two different files {_shown(name)}; keep the one that counts"
+            file = replace(file, problem=said)
+        mine[name] = file
+
+    def _taken(self, found: _Found, exercise: Exercise, depth: int) -> "_Taken":
+        log = found.path.suffix.lower() in exercise.logs
+        most = LARGEST_LOG if log else LARGEST
+        content = self._content(found, most)
+        if log and len(content) > most:
+            said = f"{_shown(found.path.name)} is larger than {most / 1e6:g} MB"
+            return _Taken(depth, b"", said)
+        return _Taken(depth, content)
 
     def _content(self, found: _Found, most: int) -> bytes:
         content = found.content(min(most, self._left))
@@ -369,23 +387,28 @@ class _Sorted:
             raise ValueError(f"it holds more than {LARGEST_WHOLE / 1e6:g} MB of answers")
         return content
 
-    def _exercise_of(self, path: PurePosixPath) -> Exercise | None:
+    def _of_folder(self, path: PurePosixPath) -> Exercise | None:
         for part in reversed(path.parts[:-1]):
             if part.casefold() in self._by_folder:
                 return self._by_folder[part.casefold()]
-        return self._only or self._by_file.get(path.name)
+        return None
 
     def result(self) -> HandedIn:
         """Everything that was taken."""
-        files = {
-            exercise: {name: content for name, (_, content) in sorted(mine.items())}
-            for exercise, mine in sorted(self._files.items())
-        }
+        taken = self._files if self._has_folders else self._outside
         return HandedIn(
             "",
             Path(),
-            files,
-            {exercise: said for (exercise, _), said in self._problems.items()},
+            {
+                exercise: {name: mine[name].content for name in sorted(mine)}
+                for exercise, mine in sorted(taken.items())
+            },
+            {
+                exercise: file.problem
+                for exercise, mine in taken.items()
+                for file in mine.values()
+                if file.problem
+            },
             identities=self._identities,
             data_folders=frozenset(self._data),
         )

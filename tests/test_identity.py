@@ -1,0 +1,132 @@
+"""Whose numbers somebody worked on: the package says it, at home and where a class is graded."""
+
+from pathlib import Path
+
+import pytest
+from small_course import RIGHT, lay_out
+
+from grader.classroom.handed_in import find_all
+from grader.classroom.identity import check_identities
+from grader.classroom.secret import identity_seal
+from grader.cli import run
+from grader.course import load
+from grader.exercise import exercises
+from grader.notebook import submit
+from sim.errors import BadRequest
+
+SECRET = b"0123456789abcdef-east"
+MAKER = '''
+
+def prepare(student, *, say):
+    """Draws nothing; says for whom."""
+    say(f"made for {student}")
+'''
+
+
+def issue(course: Path, student: str, *, secret: bytes = SECRET) -> None:
+    """Write what a class's package says about whose it is."""
+    mark = identity_seal(secret, student=student, name="East")
+    (course / ".course").mkdir(exist_ok=True)
+    (course / ".course" / "class.toml").write_text(
+        f'class = "East"\nstudent = "{student}"\nseal = "{mark}"\n[sealed]\n', encoding="utf-8"
+    )
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A course whose exercise draws numbers."""
+    lay_out(tmp_path / "course")
+    checks = tmp_path / "course" / "exercises" / "exercise1" / "checks.py"
+    checks.write_text(checks.read_text(encoding="utf-8") + MAKER, encoding="utf-8")
+    monkeypatch.chdir(tmp_path / "course")
+    monkeypatch.delenv("SYSID_SECRET", raising=False)
+    return tmp_path / "course"
+
+
+def hand_in(course: Path, place: Path, student: str) -> tuple:
+    """Hand a whole course folder in, under a name."""
+    there = place / student / "course" / "exercises" / "exercise1"
+    there.mkdir(parents=True)
+    (there / "answers.toml").write_text(RIGHT, encoding="utf-8")
+    for name in ("class.toml", "progress.toml"):
+        source = course / ".course" / name
+        if source.is_file():
+            target = place / student / "course" / ".course" / name
+            target.parent.mkdir(exist_ok=True)
+            target.write_bytes(source.read_bytes())
+    return find_all(place, exercises(course))
+
+
+def test_in_a_package_one_is_whom_it_was_issued_to(course, capsys):
+    issue(course, "Zoë")
+
+    assert run(["start", "--no-lab"]) == 0
+    assert "made for Zoë" in capsys.readouterr().out
+    assert load(course)[0].student == "Zoë"
+    assert run(["exercise1"]) == 2
+    assert "only your instructor can grade" in capsys.readouterr().err
+    assert "only your instructor can grade" in str(submit(1, size=3))
+
+
+def test_practice_under_another_name_does_not_change_whose_package_it_is(course, capsys):
+    issue(course, "Zoë")
+
+    assert run(["start", "--no-lab", "--student", "practice"]) == 0
+    assert run(["start", "--no-lab"]) == 0
+    assert capsys.readouterr().out.rindex("made for Zoë") > 0
+
+
+def test_a_package_of_ones_own_is_graded(course, tmp_path):
+    issue(course, "ann")
+    (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=SECRET)
+
+    assert (one.problem, one.numbers_of) == ("", "ann")
+
+
+@pytest.mark.parametrize(
+    ("owner", "secret", "said"),
+    [
+        ("ben", SECRET, "issued to ben, and ann handed it in"),
+        ("ann", SECRET + b"!", "with another secret, or its class.toml was changed"),
+    ],
+)
+def test_another_students_or_class_package_is_told(course, tmp_path, owner, secret, said):
+    issue(course, owner, secret=secret)
+    (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=SECRET)
+
+    assert said in one.problem
+
+
+def test_a_class_without_its_secret_is_refused(course, tmp_path):
+    issue(course, "ann")
+
+    with pytest.raises(BadRequest, match="East issued with a secret"):
+        check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
+
+
+def test_who_never_gave_a_name_is_graded_on_the_numbers_they_had(course, tmp_path, capsys):
+    assert run(["start", "--no-lab"]) == 0
+    (course / ".course").mkdir(exist_ok=True)
+    (course / ".course" / "progress.toml").write_text('student = "me"\n', encoding="utf-8")
+    (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
+
+    assert (one.problem, one.student, one.numbers_of) == ("", "ann", "me")
+    assert run(["class", str(tmp_path / "in")]) == 0
+    assert "worked without a name, and are graded on those numbers: ann" in capsys.readouterr().err
+
+
+def test_a_folder_of_data_tells_it_too(course, tmp_path):
+    place = tmp_path / "in" / "ann" / "exercises" / "exercise1"
+    (place / "data" / "me").mkdir(parents=True)
+    (place / "data" / "me" / "log.csv").write_text("", encoding="utf-8")
+    (one,) = check_identities(find_all(tmp_path / "in", exercises(course)), secret=None)
+
+    assert one.numbers_of == "me"
+
+
+def test_a_course_started_as_somebody_else_is_told(course, tmp_path):
+    (course / ".course").mkdir()
+    (course / ".course" / "progress.toml").write_text('student = "ben"\n', encoding="utf-8")
+    (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
+
+    assert "started as ben, and ann handed it in" in one.problem

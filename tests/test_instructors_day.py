@@ -1,0 +1,292 @@
+"""An instructor's day, typed from the guide: release, start, answer, hand in, grade, export.
+
+On the real course, in a folder with a space and an umlaut in its name, with relative paths. Each
+student answers everything in the authored way and hands it in as another school does.
+"""
+
+import contextlib
+import csv
+import json
+import os
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.request import urlopen
+
+import pytest
+from authored import authored_answer, mistakes_of
+
+from grader.exercise import exercises
+from grader.variant import folder_name, of_class
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+ROOT = Path(__file__).resolve().parents[1]
+LEFT_OUT = (
+    ".git",
+    ".venv",
+    "data",
+    "__pycache__",
+    ".course",
+    "tests",
+    ".mypy_cache",
+    ".ruff_cache",
+)
+WHOLE = 218  # points of the twelve exercises and of practice
+PROGRAMS = {"grade": "grader.cli", "sysid": "sim.cli"}
+LESSONS_SHOWN = 1  # of the ten that `grade edition` runs: the others take minutes
+
+
+@dataclass(frozen=True)
+class Student:
+    """One student, and how their school hands in."""
+
+    name: str
+    canvas_id: str
+    github: str
+    hand_in: "Callable[[Path, Path], None]"  # the student's course folder, the class's folder
+
+
+def pack(source: Path, target: Path, *, top: str = "") -> None:
+    """Pack a folder as a browser or a file manager would."""
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path in sorted(source.rglob("*")):
+            if path.is_file() and "__pycache__" not in path.parts:
+                archive.write(path, Path(top, path.relative_to(source)).as_posix())
+
+
+def _as_folders(course: Path, there: Path) -> None:
+    for one in exercises(course):
+        target = there / "Anna Bauer" / one.name
+        target.mkdir(parents=True)
+        for name in (*one.files, *one.beside):
+            shutil.copy(one.folder / name, target)
+
+
+def _as_course(course: Path, there: Path) -> None:
+    shutil.copytree(course, there / "Diaz Cara" / "course")  # family name first
+
+
+STUDENTS = (
+    Student("Anna Bauer", "101", "anna-b", _as_folders),
+    Student("Ben Öztürk", "102", "benoz", lambda course, there: pack(
+        course / "exercises", there / "Ben Öztürk.zip", top="exercises")),
+    Student("Cara Diaz", "103", "cara", _as_course),
+    Student("Jane Doe", "104", "jdoe", lambda course, there: pack(
+        course / "exercises", there / "doejane_LATE_104_5555_exercises-1.zip", top="exercises")),
+    Student("Eve Fox", "105", "evefox", lambda course, there: pack(
+        course, there / "Eve Fox - my work.zip", top="course")),
+    Student("Gina Hall", "106", "ginah-2010", lambda course, there: shutil.copytree(
+        course, there / "week-3-ginah-2010")),
+    Student("Finn Gray", "107", "finn", lambda course, there: (
+        (there / "Finn Gray_4711_assignsubmission_file_").mkdir(),
+        pack(course / "exercises", there / "Finn Gray_4711_assignsubmission_file_" / "work.zip"))),
+)  # fmt: skip
+
+
+def commands(heading: str) -> list[list[str]]:
+    """The commands that the guide prints under a heading, as a shell would split them."""
+    guide = (ROOT / "INSTRUCTORS.md").read_text(encoding="utf-8")
+    section = guide.partition(f"\n## {heading}")[2].partition("\n## ")[0]
+    blocks = re.findall(r"```shell\n(.*?)```", section, flags=re.DOTALL)
+    return [shlex.split(line) for block in blocks for line in block.splitlines()]
+
+
+def start(words: list[str], *, cwd: Path, **how: object) -> "subprocess.Popen[str]":
+    """Start one of our commands as a terminal would."""
+    code = f"from {PROGRAMS[words[0]]} import main; main()"
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "200", "PYTHONUTF8": "1"}
+    environment.pop("SYSID_SECRET", None)
+    return subprocess.Popen(
+        [sys.executable, "-P", "-c", code, *words[1:]], cwd=cwd, env=environment, encoding="utf-8",
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **how,
+    )  # fmt: skip
+
+
+def say(words: list[str], *, cwd: Path, code: int = 0) -> str:
+    """Run one of our commands; what it says."""
+    running = start(words, cwd=cwd)
+    said, _ = running.communicate(timeout=600)
+    assert running.returncode == code, f"{shlex.join(words)}:\n{said}"
+    return said
+
+
+@pytest.fixture(scope="module")
+def course(tmp_path_factory):
+    """The instructor's copy of the course, as it is fetched."""
+    place = tmp_path_factory.mktemp("day") / "Robotik für alle" / "the course"
+    shutil.copytree(ROOT, place, ignore=shutil.ignore_patterns(*LEFT_OUT))
+    rows = [("student", "ID", "github_username")]
+    rows += [(one.name, one.canvas_id, one.github) for one in STUDENTS]
+    with (place.parent / "roster.csv").open("w", encoding="utf-8", newline="") as stream:
+        csv.writer(stream).writerows(rows)
+    return place
+
+
+@pytest.fixture(scope="module")
+def packages(course):
+    """What the guide's first command makes."""
+    (release,) = (words for words in commands("A class") if words[1] == "release")
+    say(release, cwd=course)
+    return course.parent / "packages"
+
+
+@pytest.fixture(scope="module")
+def at_home(course, packages):
+    """Each student's own course folder: unzipped, started without a name, answered."""
+
+    def answered(student: Student) -> Path:
+        place = course.parent / "homes of students" / student.github
+        for name in ("course.zip", f"students/{folder_name(student.name)}.zip"):
+            with zipfile.ZipFile(packages / name) as archive:
+                archive.extractall(place)
+        mine = place / "course"
+        said = say(["grade", "start", "--no-lab"], cwd=mine)
+        assert student.name in said
+        for one in exercises(mine):
+            data = one.folder / "data"
+            folders = [path.name for path in data.iterdir()] if data.is_dir() else []
+            assert folders in ([], [folder_name(student.name)]), "somebody else's numbers"
+            texts = authored_answer(one, data / folder_name(student.name))
+            for name, text in texts.items():
+                (one.folder / name).write_text(text, encoding="utf-8")
+        return mine
+
+    return {one.name: answered(one) for one in STUDENTS}
+
+
+@pytest.fixture(scope="module")
+def handed_in(course, at_home):
+    """The class's folder, with a hand-in of each form."""
+    there = course.parent / "handed-in"
+    there.mkdir()
+    for one in STUDENTS:
+        one.hand_in(at_home[one.name], there)
+    return there
+
+
+def points_of(out: Path) -> dict[str, list[float]]:
+    """Student -> points by exercise, and in all, as the gradebook has them."""
+    with (out / "gradebook.csv").open(encoding="utf-8-sig", newline="") as stream:
+        return {row[0]: [float(cell) for cell in row[1:-2]] for row in list(csv.reader(stream))[1:]}
+
+
+def test_a_perfect_class_earns_every_point_in_every_form_of_handing_in(course, handed_in):
+    (grade,) = (words for words in commands("A class") if words[1] == "class")
+    said = say(grade, cwd=course)
+    out = handed_in.with_name("handed-in-graded")
+    totals = {name: points[-1] for name, points in points_of(out).items()}
+    with (out / "canvas.csv").open(encoding="utf-8", newline="") as stream:
+        canvas = list(csv.reader(stream))
+
+    assert totals == dict.fromkeys((one.name for one in STUDENTS), WHOLE), said
+    assert {(row[0], row[1]): float(row[-1]) for row in canvas[2:]} == {
+        (one.name, one.canvas_id): WHOLE for one in STUDENTS
+    }
+    assert (out / "index.html").is_file()
+
+
+def test_each_exercise_alone_earns_every_point_too(course, handed_in):
+    for number, one in enumerate(exercises(course)):
+        out = handed_in.with_name(f"alone-{number}")
+        words = ["grade", "class", "../handed-in", "--roster", "../roster.csv", "--secret",
+                 "../class.secret", "--exercise", one.name, "-o", f"../{out.name}"]  # fmt: skip
+        say(words, cwd=course)
+        most = sum(check.points for check in one.checks)
+
+        assert {name: points[-1] for name, points in points_of(out).items()} == dict.fromkeys(
+            (student.name for student in STUDENTS), most
+        ), one.name
+
+
+def test_planted_mistakes_lose_in_a_class_what_they_lose_one_by_one(course, at_home, tmp_path):
+    student = STUDENTS[0]
+    there = tmp_path / "in" / student.name
+    shutil.copytree(at_home[student.name] / "exercises", there)
+    expected = {}
+    for one in exercises(course):
+        mistake = mistakes_of(one.name)[0]
+        file = there / one.name / mistake.file
+        file.write_text(mistake.make(file.read_text(encoding="utf-8")), encoding="utf-8")
+        secret = (course.parent / "class.secret").read_bytes().strip()
+        with of_class(secret):
+            expected[one.name] = one.grade(there / one.name, student=student.name).score
+    words = ["grade", "class", str(tmp_path / "in"), "--roster", "../roster.csv", "--secret",
+             "../class.secret", "-o", str(tmp_path / "out")]  # fmt: skip
+    say(words, cwd=course)
+    points = points_of(tmp_path / "out")[student.name]
+
+    assert dict(zip(expected, points, strict=False)) == expected
+    assert points[-1] < WHOLE
+
+
+def test_another_students_package_is_named_and_not_graded(course, at_home, tmp_path):
+    shutil.copytree(at_home["Anna Bauer"], tmp_path / "in" / "Ben Öztürk")
+    words = ["grade", "class", str(tmp_path / "in"), "--roster", "../roster.csv", "--secret"]
+    said = say([*words, "../class.secret"], cwd=course, code=1)
+
+    assert "its package was issued to Anna Bauer, and Ben Öztürk handed it in" in said
+    assert points_of(tmp_path / "in-graded")["Ben Öztürk"][-1] == 0
+
+
+def test_without_the_secret_nothing_is_graded_on_other_numbers(course, at_home, tmp_path):
+    shutil.copytree(at_home["Anna Bauer"] / "exercises", tmp_path / "in" / "Anna Bauer")
+    said = say(["grade", "class", str(tmp_path / "in")], cwd=course, code=2)
+
+    assert "Anna Bauer worked on numbers that Robotics 1 issued with a secret" in said
+    assert not (tmp_path / "in-graded").exists()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a server on Windows is not ended by a signal")
+def test_the_class_is_served_as_the_guide_says(course, packages):
+    assert packages.is_dir()
+    (serve,) = (words for words in commands("A class") if words[1] == "serve")
+    running = start([*serve, "--port", "0", "--host", "127.0.0.1"], cwd=course)
+    try:
+        assert running.stdout is not None
+        line = next(row for row in running.stdout if "http://" in row)
+        with urlopen(line.split()[-1], timeout=10) as page:  # noqa: S310 - our own server's
+            assert page.status == 200
+        assert (course.parent / "homes" / "codes.csv").is_file()
+    finally:
+        running.send_signal(signal.SIGINT)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            running.communicate(timeout=20)
+        running.kill()
+        running.communicate()
+
+
+def test_datasets_and_pages_are_made_as_the_guide_says(course):
+    for words in commands("Contaminated datasets of your own"):
+        say(words, cwd=course)
+    (edition,) = commands("To show and to print")
+    for path in sorted((course / "lessons").iterdir())[2 * LESSONS_SHOWN :]:
+        path.unlink()
+    say(edition, cwd=course)
+
+    assert list((course.parent / "week3").rglob("*.wpilog"))
+    assert (course.parent / "pages" / "handout.html").is_file()
+
+
+def test_the_autograder_line_gives_gradescopes_result(course, handed_in, tmp_path):
+    guide = (ROOT / "INSTRUCTORS.md").read_text(encoding="utf-8")
+    line = re.search(r"`(grade class SUBMISSION [^`]+)`", guide)
+    assert line is not None
+    places = {"SUBMISSION": str(handed_in / "week-3-ginah-2010"), "NAME": "Gina Hall",
+              "RESULTS": str(tmp_path)}  # fmt: skip
+    words = [places.get(word, word) for word in line[1].split()]
+    say([*words, "--secret", "../class.secret"], cwd=course)
+    (path,) = tmp_path.glob("gradescope/*/results.json")
+    result = json.loads(path.read_text(encoding="utf-8"))
+
+    assert sum(test["score"] for test in result["tests"]) == sum(
+        test["max_score"] for test in result["tests"]
+    )
