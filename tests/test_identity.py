@@ -8,10 +8,12 @@ from small_course import RIGHT, lay_out
 from grader.classroom.handed_in import find_all
 from grader.classroom.identity import check_identities
 from grader.classroom.secret import identity_seal
+from grader.classroom.submission_names import Identities, SubmissionName
 from grader.cli import run
 from grader.course import load
 from grader.exercise import exercises
 from grader.notebook import submit
+from grader.variant import folder_name
 from sim.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
@@ -130,3 +132,17 @@ def test_a_course_started_as_somebody_else_is_told(course, tmp_path):
     (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
 
     assert "started as ben, and ann handed it in" in one.problem
+
+
+@pytest.mark.parametrize("issued", [True, False])
+def test_a_served_home_is_its_students_whatever_its_folder_is_called(course, tmp_path, issued):
+    name = "Ben Öztürk"
+    if issued:
+        issue(course, name)
+    (course / ".course").mkdir(exist_ok=True)
+    (course / ".course" / "progress.toml").write_text(f'student = "{name}"\n', encoding="utf-8")
+    there = hand_in(course, tmp_path / "in", folder_name(name))
+    (one,) = check_identities(there, secret=SECRET if issued else None)
+
+    assert (one.problem, one.student, one.numbers_of) == ("", name, name)
+    assert Identities({name: {}}).find(SubmissionName(folder_name(name))) == name

@@ -31,6 +31,7 @@ LARGEST_WHOLE = 40_000_000  # [bytes] of everything that is read of one student'
 MOST_PACKED = (
     50  # [bytes for one in a zip file] logs come to 10, and text that says nothing to 1000
 )
+LONGEST_NAME = 200  # [bytes] of a file's name; some systems take no more than 255
 SHOWN = 40  # [characters] of a name that is none
 OURS = {"README.md", "hints.toml", "checks.py"}  # of the exercise, whatever a student did to them
 NOT_THEIRS = {"__pycache__", "__MACOSX", ".git", ".gradle", "build"}
@@ -355,7 +356,7 @@ class _Sorted:
         if exercise is None or exercise.name not in self._asked or (outside and self._has_folders):
             return
         name, ending = found.path.name, found.path.suffix.lower()
-        if ending not in self._kinds[exercise.name]:
+        if ending not in self._kinds[exercise.name] or len(os.fsencode(name)) > LONGEST_NAME:
             return
         files = self._outside if outside else self._files
         mine = files.setdefault(exercise.name, {})

@@ -39,6 +39,7 @@ def _checked(one: HandedIn, secret: bytes | None) -> HandedIn:
         found = parse_issued(content)
     except ValueError:
         return replace(one, problem=f"its {PLACE.name} cannot be read: was it changed?")
+    one = _by_name(one, found.student)
     if secret is None:
         raise BadRequest(
             f"{one.student} worked on numbers that {found.name} issued with a secret",
@@ -67,6 +68,7 @@ def _foreign(one: HandedIn, found: Issued, secret: bytes) -> str:
 def _without_class(one: HandedIn) -> HandedIn:
     """The same, on the numbers of whoever the course was started as."""
     started_as = _started_as(one)
+    one = _by_name(one, started_as)
     if folder_name(one.student) in one.data_folders:
         return one
     if not started_as and folder_name(NOBODY) in one.data_folders:
@@ -82,6 +84,13 @@ def _without_class(one: HandedIn) -> HandedIn:
             "then rename it as the one whose work it is"
         ),
     )
+
+
+def _by_name(one: HandedIn, student: str) -> HandedIn:
+    """The same, by the name whose folder `grade serve` gave the student; else as it is."""
+    if student and one.student.casefold() == folder_name(student):
+        return replace(one, student=student)
+    return one
 
 
 def _started_as(one: HandedIn) -> str:

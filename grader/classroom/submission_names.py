@@ -16,7 +16,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import PurePath
 
-from grader.variant import same
+from grader.variant import folder_name, same
 from sim.errors import Refusal
 
 CANVAS = re.compile(r"(?P<name>[^_]+)(?:_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)")
@@ -80,6 +80,7 @@ class Identities:
 
     def __init__(self, rows: Mapping[str, Mapping[str, str]]) -> None:
         self._students = {same(student): student for student in rows}
+        self._students |= {folder_name(student): student for student in rows}  # of a served class
         self._canvas_ids: dict[str, str] = {}
         self._aliases: dict[str, set[str]] = {}
         self._github: dict[str, str] = {}
