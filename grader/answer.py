@@ -7,7 +7,7 @@ never the distance, and never the key.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from grader.check import Wrong
+from grader.check import Wrong, shortened
 from grader.measure import NotAUnitError, read_number, read_unit
 from grader.slip import MANY, Scene, Slip, suspects
 
@@ -113,7 +113,7 @@ def number(raw: object, asked: Asked) -> float:
         raise Wrong(f"a {kind}, not one number", hint=ask)
     found = read_number(raw)
     if found is None:
-        raise Wrong(f'"{raw}", which is not one number', hint=ask)
+        raise Wrong(f'"{shortened(raw)}", which is not one number', hint=ask)
     value, unit = found
     return _finite(value * _scale(unit, asked) if unit else value, asked)
 

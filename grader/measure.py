@@ -8,6 +8,8 @@ import math
 import re
 from dataclasses import dataclass
 
+LONGEST = 80  # [characters] of a number with its unit; "volt-seconds squared per meter" has 30
+SHOWN = 20  # [characters] of a longer one in a message
 NUMBER = re.compile(r"([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 PART = re.compile(r"\s*(?:([a-z°]+)|(\^-?\d+)|([*/()])|(1))")
 RAISED = str.maketrans("⁻¹²³", "-123")
@@ -68,8 +70,10 @@ def read_number(text: str) -> tuple[float, str] | None:
     """Split a text into its number and its unit; None if it does not start with one number.
 
     A comma is a decimal comma. A text with both a comma and a point could be read in two ways, and
-    is not read at all.
+    is not read at all; nor is one that is longer than any number with a unit.
     """
+    if len(text.strip()) > LONGEST:
+        return None
     found = NUMBER.fullmatch(text.strip().replace("−", "-"))
     if found is None or found[2][:1] in {".", ",", "_"} or found[2][:1].isdigit():
         return None
@@ -80,8 +84,11 @@ def read_unit(text: str) -> Measure:
     """Read a unit.
 
     Raises:
-        NotAUnitError: there is a sign or a name in it that is no unit; the message is that part.
+        NotAUnitError: there is a sign or a name in it that is no unit, or it is longer than any; the
+            message is that part.
     """
+    if len(text) > LONGEST:
+        raise NotAUnitError(f"{text[:SHOWN]}…")
     plain = re.sub(r"[⁻¹²³]+", lambda raised: "^" + raised[0].translate(RAISED), text)
     plain = re.sub(r"\*\*", "^", plain).lower()
     plain = re.sub(r"\s*\bsquared\b", "^2", plain)

@@ -83,7 +83,7 @@ def received(exercise: Exercise, file: Path | None) -> list[Line]:
             lines.append(line(f"{path.name}: {len(read_text(path).splitlines())} lines"))
             continue
         answers = read_answers(path)
-        there = [name for name, value in answers.items() if value not in {"", None}]
+        there = [name for name, value in answers.items() if value != ""]
         lines.append(line(f"{path.name}: {len(there)} of {len(answers)} answered"))
         lines += [line(f"  {name} = {answers[name]}") for name in there]
     return lines

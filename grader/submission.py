@@ -8,6 +8,8 @@ from pathlib import Path
 from sim.errors import UnreadableFile
 
 LARGEST = 1_000_000  # [bytes] robot code and answers are far smaller; a log or a picture is not
+LARGEST_ANSWERS = 64_000  # [bytes] of a file of answers; the longest solved one has 3,000
+LONGEST_LINE = 2_000  # [characters] of it: reading a key takes the square of its length
 SHOWN = 3  # names of files in a message
 
 
@@ -125,8 +127,15 @@ def read_answers(path: Path) -> dict[str, object]:
         UnreadableFile: it cannot be read, or is not TOML; the message names the line.
     """
     text = read_text(path)
+    _check_size(text, path)
     try:
         return tomllib.loads(text)
+    except RecursionError:
+        raise UnreadableFile(
+            "lists in lists in lists: they go too deep",
+            where=str(path),
+            advice="An answer is a number, a text, or one list of them.",
+        ) from None
     except tomllib.TOMLDecodeError as error:
         found = re.search(r"line (\d+)", str(error))
         number = int(found[1]) if found else text.count("\n") + 1
@@ -140,6 +149,27 @@ def read_answers(path: Path) -> dict[str, object]:
             what = f"nothing stands after {row.partition('=')[0].strip()} ="
             advice = 'Write a number there, or "" as long as you have none.'
         raise UnreadableFile(what, where=f"{path}, line {number}", advice=advice) from None
+
+
+def _check_size(text: str, path: Path) -> None:
+    """Refuse what nobody writes as an answer, and what takes long to read.
+
+    Raises:
+        UnreadableFile: the file or one of its lines is too long.
+    """
+    if len(text) > LARGEST_ANSWERS:
+        raise UnreadableFile(
+            f"{len(text):,} characters are too many for answers",
+            where=str(path),
+            advice="Write your answers only: is this another file?",
+        )
+    for number, line in enumerate(text.splitlines(), start=1):
+        if len(line) > LONGEST_LINE:
+            raise UnreadableFile(
+                f"this line has {len(line):,} characters",
+                where=f"{path}, line {number}",
+                advice=f"No answer is longer than {LONGEST_LINE:,} characters. Shorten it.",
+            )
 
 
 def _decoded(raw: bytes) -> str | None:

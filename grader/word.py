@@ -3,9 +3,7 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 
-from grader.check import Wrong
-
-LONGEST = 40  # [characters] of a wrong word shown back
+from grader.check import Wrong, shortened
 
 
 def plain(text: str) -> str:
@@ -28,12 +26,12 @@ def word(raw: object, choices: Sequence[str], *, also: Mapping[str, str] | None 
     if raw is None or raw == "":
         raise Wrong("nothing yet", hint=ask)
     if not isinstance(raw, str):
-        raise Wrong(f"{raw}, which is not a word", hint=ask)
+        raise Wrong(f"{shortened(raw)}, which is not a word", hint=ask)
     known = {plain(one): one for one in choices}
     known |= {plain(other): one for other, one in (also or {}).items()}
     found = known.get(plain(raw))
     if found is None:
-        raise Wrong(f'"{raw[:LONGEST]}", which is none of them', hint=ask)
+        raise Wrong(f'"{shortened(raw)}", which is none of them', hint=ask)
     return found
 
 
@@ -62,4 +60,4 @@ def judge_word(
     if found == right:
         return
     hint, code = why(found)
-    raise Wrong(f'"{str(raw)[:LONGEST]}"', hint=hint, misconception=code)
+    raise Wrong(f'"{shortened(raw)}"', hint=hint, misconception=code)

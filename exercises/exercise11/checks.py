@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.answer import Key, judge, number
-from grader.check import Check, NotReached, Wrong, check
+from grader.check import Check, NotReached, Wrong, check, shortened
 from grader.given import hand_out
 from grader.submission import read_answers
 from grader.word import judge_word, word
@@ -169,7 +169,7 @@ def _argued(row: Row, answers: Answers, *, asked: bool = False) -> str:
         return letters[text]
     if not asked:
         return ""
-    seen = "nothing yet" if raw in {None, ""} else f"{str(raw)[:40]}, which is none of them"
+    seen = "nothing yet" if raw is None or raw == "" else f"{shortened(raw)}, which is none of them"
     ask = "Write the letter of a reason: the list is at the end of your questions.md."
     raise Wrong(seen, hint=ask)
 

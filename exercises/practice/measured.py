@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.answer import Asked, Band, Key, gains_asked, number
-from grader.check import NotReached, Wrong
+from grader.check import NotReached, Wrong, shortened
 from grader.word import plain
 from sim.errors import Refusal
 
@@ -66,8 +66,8 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     from sim.formats import read  # noqa: PLC0415 - the same
     from sim.units import unit  # noqa: PLC0415 - the same
 
-    if not path.is_file():
-        raise NotReached(f"there is no {path.name} beside your answers.toml")
+    if not _is_file(path):
+        raise NotReached(f"there is no {shortened(path.name)} beside your answers.toml")
     try:
         log = read(path)
         kind = log.type or "simple"
@@ -80,6 +80,14 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
         return _measured(found, units, _parts(given, units), "")
     except Wrong as wrong:
         return _measured(found, units, None, f"{wrong.seen}. {wrong.hint}")
+
+
+def _is_file(path: Path) -> bool:
+    """Whether there is such a file; none has a name that no system can have."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def _measured(found: "Fit", units: str, parts: Parts | None, why: str) -> Measured:

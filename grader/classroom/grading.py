@@ -91,9 +91,24 @@ def _grade(exercise: Exercise, job: Job, folder: Path) -> Record:
             (folder / name).write_bytes(content)
         grade = exercise.grade(folder, student=job.numbers_of, run=job.run)
         return record(replace(grade, student=student))
+    except MemoryError:
+        reason = "grading it took more memory than there is"
+        return nothing(exercise, student, status="ungradable", reason=reason)
     except Exception as error:  # noqa: BLE001 - one student's file must not stop the class
         broken = f"our mistake ({type(error).__name__}: {error}); please report it, with the file"
         return nothing(exercise, student, status="ungradable", reason=broken)
+
+
+def not_graded(job: Job, name: str, reason: str) -> Record:
+    """The record of an exercise whose grading came to no end.
+
+    Args:
+        job: the student's.
+        name: of the exercise.
+        reason: why, one line.
+    """
+    there = {one.name: one for one in exercises(course_of(job.course))}
+    return nothing(there[name], job.student, status="ungradable", reason=reason)
 
 
 def nothing(exercise: Exercise, student: str, *, status: str, reason: str) -> Record:

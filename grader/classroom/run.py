@@ -1,7 +1,6 @@
 """A class graded: what is known is kept, the rest is done, and one never stops the others."""
 
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -10,13 +9,10 @@ from grader.classroom.bundle import bundle
 from grader.classroom.grading import Graded, Job, grade_one, ungraded
 from grader.classroom.handed_in import HandedIn
 from grader.classroom.store import Store, digest
+from grader.classroom.workers import grade_in_workers
 from grader.exercise import Exercise
 from grader.fingerprint import fingerprint
 from sim.work.cluster import done_on_cluster
-from sim.work.here import WorkerLost, done_here, started
-
-WORTH = 4  # [students] that a further process has to save, to be worth its start
-ENDED = "the process that graded this came to an end while it did"
 
 
 @dataclass(frozen=True)
@@ -116,6 +112,7 @@ def grade_all(
     processes: int,
     cluster: str | None,
     say: Callable[[], None],
+    stop_if_asked: Callable[[], None] = lambda: None,
 ) -> tuple[Graded, ...]:
     """Grade what is left, keep it, and give back all results in order of the students' names.
 
@@ -126,6 +123,7 @@ def grade_all(
         processes: at most so many on this machine.
         cluster: address of a Dask scheduler; None grades on this machine.
         say: called after each student; what it raises stops the run, with all results whole.
+        stop_if_asked: called every moment while workers are busy; what it raises stops the run.
 
     Raises:
         BadRequest: a result cannot be written, or the cluster does not answer.
@@ -135,7 +133,7 @@ def grade_all(
     grading = (
         done_on_cluster(grade_one, plan.todo, address=cluster)
         if cluster
-        else _here(plan.todo, asked.exercises, processes=processes)
+        else grade_in_workers(plan.todo, processes=processes, stop_if_asked=stop_if_asked)
     )
     for one in grading:
         store.put(one)
@@ -148,27 +146,3 @@ def grade_all(
         if one.problem
     )
     return tuple(sorted([*found, *unread], key=lambda one: one.student.casefold()))
-
-
-def _here(
-    todo: Sequence[Job], exercises: Sequence[Exercise], *, processes: int
-) -> Iterator[Graded]:
-    """Grade on this machine; who brings a process down is found out, and alone bears it."""
-    left = {job.student: job for job in todo}
-    try:
-        for one in done_here(grade_one, todo, processes=max(processes, 1), worth=WORTH):
-            del left[one.student]
-            yield one
-    except WorkerLost:
-        for job in left.values():
-            yield _alone(job, exercises)
-
-
-def _alone(job: Job, exercises: Sequence[Exercise]) -> Graded:
-    with started(1) as executor:
-        try:
-            return executor.submit(grade_one, job).result()
-        except BrokenProcessPool:
-            return ungraded(
-                job.student, exercises, handed_in=job.files, reason=ENDED, digest=job.digest
-            )

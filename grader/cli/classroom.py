@@ -188,8 +188,9 @@ def _run(
 
         try:  # one more than there are cores, for while one waits for a learner's code
             return grade_all(
-                work, left, store, processes=processes or cores() + 1, cluster=cluster, say=say
-            )
+                work, left, store, processes=processes or cores() + 1, cluster=cluster, say=say,
+                stop_if_asked=stop_if_noted,
+            )  # fmt: skip
         except KeyboardInterrupt:
             count = done()
     complain(f"stopped with {count} of {total} students graded. The same command goes on.")

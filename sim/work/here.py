@@ -70,7 +70,7 @@ def started(processes: int) -> ProcessPoolExecutor:
         processes,
         # Started afresh, not copied: the same on every system, and no threads are copied halfway.
         mp_context=multiprocessing.get_context("spawn"),
-        initializer=_serve,
+        initializer=serve_quietly,
     )
 
 
@@ -93,7 +93,7 @@ def done_by(
             future.cancel()
 
 
-def _serve() -> None:
+def serve_quietly() -> None:
     """Begin as a worker: Ctrl+C is not for it, and it ends when the one it works for has."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()

@@ -1,0 +1,138 @@
+"""Workers that grade one exercise of one student at a time, within limits, and can be ended.
+
+Whatever an answer does to the process that grades it, only that answer bears it: a worker that
+does not finish, or comes to an end, is replaced, and the exercise is reported as not graded.
+"""
+
+import importlib
+import multiprocessing
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from concurrent.futures import TimeoutError as TimedOut
+from dataclasses import dataclass, field, replace
+
+from pebble import ProcessExpired, ProcessPool
+
+from grader.classroom.grading import Graded, Job, Record, grade_one, not_graded
+from grader.classroom.handed_in import Files
+from sim.work.here import serve_quietly
+from sim.work.interrupt import unheard
+
+SECONDS = 50.0  # [s] for one exercise of one student; an honest one takes 0.1 to 4 s
+MEMORY = 4 * 1024**3  # [bytes] of address space; an honest worker uses a quarter of it
+WORTH = 8  # [exercises] that a further process has to save, to be worth its start
+AHEAD = 4  # [exercises for each worker] handed out at a time: enough that none waits
+LOOK = 0.2  # [s] between two looks at whether somebody wants to stop
+TOO_LONG = f"grading it took more than {SECONDS:g} s and was stopped"
+ENDED = "the process that graded it came to an end, perhaps for want of memory"
+
+Task = tuple[Job, str]  # a student, and one of their exercises
+
+
+@dataclass
+class _Open:
+    """A student of whom some exercises are graded."""
+
+    job: Job
+    records: dict[str, Record] = field(default_factory=dict)
+
+    def graded(self) -> Graded | None:
+        """Their results, once there are all."""
+        if len(self.records) < len(self.job.names):
+            return None
+        records = tuple(self.records[name] for name in self.job.names)
+        return Graded(self.job.student, self.job.digest, records)
+
+
+def grade_in_workers(
+    jobs: Sequence[Job],
+    *,
+    processes: int,
+    stop_if_asked: Callable[[], None] = lambda: None,
+    seconds: float = SECONDS,
+) -> Iterator[Graded]:
+    """Grade students on this machine, each as soon as all their exercises are graded.
+
+    Args:
+        jobs: the students.
+        processes: at most so many workers.
+        stop_if_asked: called every moment; what it raises ends the workers at once.
+        seconds: [s] for one exercise of one student.
+    """
+    tasks = [(job, name) for job in jobs for name in job.names]
+    if not tasks:
+        return
+    workers = max(1, min(processes, -(-len(tasks) // WORTH)))
+    pool = ProcessPool(
+        workers,
+        # Started afresh, not copied: the same on every system, and no threads are copied halfway.
+        context=multiprocessing.get_context("spawn"),
+        initializer=_start_worker,
+    )
+    try:
+        yield from _grade(pool, tasks, workers, stop_if_asked, seconds)
+    finally:
+        pool.stop()  # type: ignore[no-untyped-call]  # pebble types its calls in part
+        pool.join()
+
+
+def _grade(
+    pool: ProcessPool,
+    tasks: Sequence[Task],
+    workers: int,
+    stop_if_asked: Callable[[], None],
+    seconds: float,
+) -> Iterator[Graded]:
+    students = {job.student: _Open(job) for job, _ in tasks}
+    waiting, running = iter(tasks), dict[Future[Graded], Task]()
+
+    def hand_out() -> None:
+        with unheard():
+            while len(running) < AHEAD * workers and (task := next(waiting, None)):
+                job, name = task
+                part = replace(job, names=(name,), files=_only(job, name))
+                running[pool.schedule(grade_one, args=(part,), timeout=seconds)] = task
+
+    hand_out()
+    while running:
+        done, _ = wait(running, timeout=LOOK, return_when=FIRST_COMPLETED)
+        stop_if_asked()
+        for future in done:
+            job, name = running.pop(future)
+            one = students[job.student]
+            one.records[name] = _record(future, job, name)
+            if (graded := one.graded()) is not None:
+                del students[job.student]
+                yield graded
+        hand_out()
+
+
+def _record(future: Future[Graded], job: Job, name: str) -> Record:
+    """The result of one exercise, or why there is none."""
+    try:
+        (record,) = future.result().records
+    except TimedOut:
+        return not_graded(job, name, TOO_LONG)
+    except ProcessExpired:
+        return not_graded(job, name, ENDED)
+    return record
+
+
+def _only(job: Job, name: str) -> Mapping[str, Files]:
+    """What was handed in for one exercise."""
+    return {name: job.files[name]} if name in job.files else {}
+
+
+def _start_worker() -> None:
+    """Begin as a worker: quiet at Ctrl-C, ended with its parent, and with so much memory."""
+    serve_quietly()
+    if sys.platform == "win32":
+        return
+    resource = importlib.import_module("resource")  # Windows has none
+    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+    most = MEMORY if hard == resource.RLIM_INFINITY else min(MEMORY, hard)
+    try:
+        resource.setrlimit(resource.RLIMIT_AS, (most, hard))
+    except (OSError, ValueError):  # macOS knows the limit by name only
+        return
