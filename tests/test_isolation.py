@@ -36,11 +36,29 @@ def apart_run(tmp_path):
     return start
 
 
-@pytest.fixture(params=["all there is", "limits only"])
+ABIS = {"all there is": None, "Landlock as on Linux 6.7": 4}
+
+
+@pytest.fixture(params=[*ABIS, "limits only"])
 def each_level(request, monkeypatch):
-    """Once with all the confinement this system has, once with limits only."""
+    """With all the confinement this system has, with an older kernel's, and with limits only."""
     monkeypatch.setattr(apart, "CONFINED", request.param != "limits only")
+    monkeypatch.setattr(apart, "LANDLOCK_ABI", ABIS.get(request.param))
     return request.param
+
+
+@pytest.fixture(params=ABIS)
+def each_kernel(request, monkeypatch):
+    """With all the confinement this system has, and with an older kernel's."""
+    monkeypatch.setattr(apart, "LANDLOCK_ABI", ABIS[request.param])
+
+
+@pytest.fixture
+def victim():
+    """A process of the same user, for others to end."""
+    with subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"]) as process:
+        yield process
+        process.kill()
 
 
 @pytest.fixture
@@ -340,6 +358,7 @@ def unreadable():
 
 
 @isolated
+@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize("name", unreadable())
 def test_a_key_cannot_be_read(apart_run, name):
     (answer,) = apart_run(attempt(f"open({unreadable()[name]!r}).read()")).answers
@@ -348,6 +367,7 @@ def test_a_key_cannot_be_read(apart_run, name):
 
 
 @isolated
+@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize(
     "code",
     [
@@ -383,6 +403,7 @@ def test_another_learners_file_is_neither_read_nor_changed(apart_run, tmp_path, 
 
 
 @isolated
+@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize(
     "code",
     [
@@ -407,6 +428,7 @@ def test_no_process_is_started_or_touched(apart_run, code):
 
 
 @isolated
+@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize("kind", ["SOCK_STREAM", "SOCK_DGRAM"])
 def test_there_is_no_network(apart_run, listening, kind):
     port, came = listening
@@ -415,6 +437,82 @@ def test_there_is_no_network(apart_run, listening, kind):
 
     assert "PermissionError" in answer.reason
     assert came == []
+
+
+OWNED = """import fcntl, signal, struct
+reader, writer = os.pipe()
+{give}
+fcntl.fcntl(reader, 10, signal.SIGKILL)  # F_SETSIG
+fcntl.fcntl(reader, fcntl.F_SETFL, fcntl.fcntl(reader, fcntl.F_GETFL) | os.O_ASYNC)
+os.write(writer, b"now")
+"""
+FCNTL = seccomp.TABLES[platform.machine()].fcntl if platform.machine() in seccomp.TABLES else 0
+OWNERS = {
+    "F_SETOWN": "fcntl.fcntl(reader, fcntl.F_SETOWN, {pid})",
+    "F_SETOWN_EX": "fcntl.fcntl(reader, 15, struct.pack('ii', 1, {pid}))",
+    "high bits": "import ctypes\nif ctypes.CDLL(None, use_errno=True).syscall({fcntl}, reader, "
+    "ctypes.c_long((1 << 32) + 8), ctypes.c_long({pid})) < 0:\n    raise OSError(ctypes.get_errno())",
+}
+
+
+@isolated
+@pytest.mark.usefixtures("each_kernel")
+@pytest.mark.parametrize("give", OWNERS)
+def test_a_file_given_to_another_process_sends_it_no_signal(apart_run, victim, give):
+    code = OWNED.format(give=OWNERS[give].format(pid=victim.pid, fcntl=FCNTL))
+    (answer,) = apart_run(attempt(code)).answers
+
+    assert "Error" in answer.reason
+    with pytest.raises(subprocess.TimeoutExpired):
+        victim.wait(0.2)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux has F_SETSIG")
+def test_the_same_signal_ends_it_where_nothing_is_filtered(apart_run, victim, monkeypatch):
+    monkeypatch.setattr(apart, "CONFINED", False)
+    code = OWNED.format(give=OWNERS["F_SETOWN"].format(pid=victim.pid))
+    (answer,) = apart_run(attempt(code)).answers
+
+    assert answer.reason == ""
+    assert victim.wait(5) == -9
+
+
+def verdict(table, number, *arguments):
+    """What the filter returns for a system call: an interpreter of its few instructions."""
+    words = {0: number, 4: table.architecture, 16: 0, 24: 0}
+    words |= {16 + 8 * at: value for at, value in enumerate(arguments)}
+    steps, at, kept = [*seccomp._steps(table)], 0, 0
+    while True:
+        code, yes, no, value = steps[at]
+        at += 1
+        if code == seccomp.RETURN:
+            return value
+        if code == seccomp.LOAD:
+            kept = words[value]
+        else:
+            right = {
+                seccomp.EQUAL: kept == value,
+                seccomp.AT_LEAST: kept >= value,
+                seccomp.ANY_BIT: bool(kept & value),
+            }[code]
+            at += yes if right else no
+
+
+@pytest.mark.parametrize("machine", seccomp.TABLES)
+def test_the_filter_refuses_owners_of_files_on_each_processor(machine):
+    table = seccomp.TABLES[machine]
+    refused = [
+        (number, command)
+        for number in (table.fcntl, table.ioctl)
+        for command in (0, 1, 2, 3, 4, 8, 9, 10, 15, 16, 1030, 0x5401, 0x8901, 0x8902, 0x8903)
+        if verdict(table, number, 3, command) == seccomp.REFUSE
+    ]
+
+    owners = [(table.fcntl, 8), (table.fcntl, 10), (table.fcntl, 15)]
+    assert refused == [*owners, (table.ioctl, 0x8901), (table.ioctl, 0x8902)]
+    assert verdict(table, 9999) == seccomp.ALLOW
+    assert verdict(table, table.own[0], 1) == seccomp.REFUSE
+    assert verdict(table, table.own[0], os.getpid()) == seccomp.ALLOW
 
 
 def test_threads_still_work(apart_run):
@@ -478,6 +576,9 @@ def test_where_the_kernel_can_isolate_it_does():
 def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
     text = "def fit(number): return {}\n"
     assert apart_run(text).level == LEVEL
+    monkeypatch.setattr(apart, "LANDLOCK_ABI", 4)
+    if landlock.abi() > 4:
+        assert apart_run(text).level.startswith("isolated (Landlock ABI 4, ")
     monkeypatch.setattr(apart, "CONFINED", False)
 
     assert apart_run(text).level.startswith("limited: time")

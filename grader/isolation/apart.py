@@ -28,6 +28,7 @@ START = (
 )
 PYTHON = (sys.executable, "-I", "-S", "-B", "-X", "utf8", "-c")  # none of a user's own settings
 CONFINED = True  # False leaves only limits, as where a system has no more: to see that they do
+LANDLOCK_ABI: int | None = None  # at most; a number confines as an older kernel would, for tests
 KEPT = ("SYSTEMROOT", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH")  # without them no Python may start
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 UNTIL_READY = 60.0  # [s] for Python and numpy to load, which on a cold disk takes long
@@ -113,6 +114,7 @@ def run(
             "nonce": nonce,
             "root": str(ROOT),
             "confined": CONFINED,
+            "landlock_abi": LANDLOCK_ABI,
             "packages": places(packages),
             **_hand_over(source, calls, given),
             "limits": {

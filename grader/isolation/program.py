@@ -41,6 +41,7 @@ def run_program(
         "arguments": list(arguments),
         "root": str(apart.ROOT),
         "confined": apart.CONFINED,
+        "landlock_abi": apart.LANDLOCK_ABI,
         "given": str(given),
         "packages": apart.places(packages),
         "limits": {
