@@ -451,7 +451,8 @@ OWNERS = {
     "F_SETOWN": "fcntl.fcntl(reader, fcntl.F_SETOWN, {pid})",
     "F_SETOWN_EX": "fcntl.fcntl(reader, 15, struct.pack('ii', 1, {pid}))",
     "high bits": "import ctypes\nif ctypes.CDLL(None, use_errno=True).syscall({fcntl}, reader, "
-    "ctypes.c_long((1 << 32) + 8), ctypes.c_long({pid})) < 0:\n    raise OSError(ctypes.get_errno())",
+    "ctypes.c_long((1 << 32) + 8), ctypes.c_long({pid})) < 0:\n"
+    "    raise OSError(ctypes.get_errno())",
 }
 
 
