@@ -40,6 +40,16 @@ def test_each_button_runs_its_test_in_test_mode_while_it_is_held(tmp_path):
     )
 
 
+@pytest.mark.parametrize("part", [NO_GUARD, GOES_ON], ids=["a trigger", "a command"])
+def test_code_that_replaces_a_part_of_wpilib_earns_nothing(tmp_path, part):
+    path = tmp_path / "robotcontainer.py"
+    path.write_text(changed(IMPORT, part), "utf-8")
+    grade = EXERCISE.grade(path, student="ann")
+
+    assert (grade.status, grade.score) == ("ungradable", 0)
+    assert "it replaces" in grade.reason
+
+
 @needs_robot
 @pytest.mark.parametrize(
     ("change", "check", "said", "points"),
@@ -67,7 +77,10 @@ def test_each_button_runs_its_test_in_test_mode_while_it_is_held(tmp_path):
         ),
     ],
 )
-def test_what_reading_lets_pass_pressing_the_buttons_may_not(tmp_path, change, check, said, points):
+def test_what_reading_lets_pass_pressing_the_buttons_may_not(
+    tmp_path, monkeypatch, change, check, said, points
+):
+    monkeypatch.setattr(bench, "refuse_tampering", lambda _: None)  # they replace parts of WPILib
     read = graded(tmp_path, changed(*change), run=False)
     wrong = [one for one in graded(tmp_path, changed(*change)).values() if one.status != "passed"]
 
