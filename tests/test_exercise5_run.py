@@ -50,7 +50,14 @@ def test_code_that_replaces_a_part_of_wpilib_earns_nothing(tmp_path, part):
     assert "it replaces" in grade.reason
 
 
+@pytest.fixture
+def tampering_allowed(monkeypatch):
+    """Lets through what replaces parts of WPILib, to see that the run shows that, too."""
+    monkeypatch.setattr(bench, "refuse_tampering", lambda _: None)
+
+
 @needs_robot
+@pytest.mark.usefixtures("tampering_allowed")
 @pytest.mark.parametrize(
     ("change", "check", "said", "points"),
     [
@@ -77,10 +84,7 @@ def test_code_that_replaces_a_part_of_wpilib_earns_nothing(tmp_path, part):
         ),
     ],
 )
-def test_what_reading_lets_pass_pressing_the_buttons_may_not(
-    tmp_path, monkeypatch, change, check, said, points
-):
-    monkeypatch.setattr(bench, "refuse_tampering", lambda _: None)  # they replace parts of WPILib
+def test_what_reading_lets_pass_pressing_the_buttons_may_not(tmp_path, change, check, said, points):
     read = graded(tmp_path, changed(*change), run=False)
     wrong = [one for one in graded(tmp_path, changed(*change)).values() if one.status != "passed"]
 
