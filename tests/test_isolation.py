@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from grader.isolation import Call, Limits, apart, landlock, level, run, seccomp
+from grader.isolation.scratch import remove_tree
 from grader.variant import of_class
 
 SHORT = Limits(seconds=0.6)  # where the end of it is waited for
@@ -584,6 +585,39 @@ def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
 
     assert apart_run(text).level.startswith("limited: time")
     assert apart_run(text).level.endswith("it can read files and reach the network")
+
+
+DEEP = """import os
+def fit(number):
+    for level in range(1500):
+        open("file", "w").close()
+        os.symlink("/", "link") if number else None
+        os.mkdir("d", 0o700)
+        os.chdir("d")
+    return {"a": 1.0}
+"""
+
+
+@pytest.mark.usefixtures("each_level")
+def test_a_folder_1500_deep_is_removed_and_blamed_on_nobody(apart_run, monkeypatch, tmp_path):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    (answer,) = apart_run(DEEP).answers
+
+    assert dict(answer.numbers) == {"a": 1.0}
+    assert [file.name for file in tmp_path.iterdir()] == ["fit.py"]
+
+
+@posix
+def test_a_link_in_what_is_removed_is_not_followed(tmp_path):
+    kept, scratch = tmp_path / "kept", tmp_path / "scratch"
+    (kept / "in").mkdir(parents=True)
+    (scratch / "a" / "b").mkdir(parents=True)
+    (scratch / "a" / "b" / "link").symlink_to(kept)
+    (scratch / "a" / "b" / "closed").mkdir(mode=0)
+    remove_tree(scratch)
+
+    assert not scratch.exists()
+    assert (kept / "in").is_dir()
 
 
 def test_a_run_leaves_nothing_behind(apart_run, monkeypatch, tmp_path):

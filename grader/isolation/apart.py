@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, cast
 
 from grader.isolation.received import Answer, Received, receive
+from grader.isolation.scratch import scratch_folder
 
 if TYPE_CHECKING:
     import numpy as np
@@ -106,8 +107,8 @@ def run(
     """
     begin = time.monotonic()
     nonce = secrets.token_hex(16)
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as made:
-        given, work = Path(made, "given").resolve(), Path(made, "work").resolve()
+    with scratch_folder() as made:
+        given, work = made / "given", made / "work"
         given.mkdir()
         work.mkdir()
         orders = {

@@ -18,11 +18,11 @@ of it (``given``), shut in as far as the system can (``apart.confined``). Whoeve
 never comes here.
 """
 
-import tempfile
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 
+from grader.isolation import scratch_folder
 from grader.robotcode.bench.apart import BENCH, BUTTONS, GIVEN, GRACE, Start, command, confined
 from grader.robotcode.bench.given import handed_over
 from grader.robotcode.bench.ran import Driven, Outcome, Press, Ran, Recorded
@@ -84,8 +84,8 @@ def _run(path: Path, name: str, script: Path, *, start: Start, seconds: float) -
         return Ran(Outcome.CANNOT, "RobotPy is not installed here")
     from grader.robotcode.bench.logged import told  # noqa: PLC0415 - needs NumPy
 
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
-        folder = Path(place).resolve() / "left"
+    with scratch_folder() as place:
+        folder = place / "left"
         folder.mkdir()
         copy = handed_over(path, folder.with_name(GIVEN))
         ended = start(
