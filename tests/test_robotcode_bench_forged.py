@@ -6,6 +6,7 @@ import pytest
 from robot_mistakes import ROOT, changed, needs_robot
 
 from grader.exercise import Exercise
+from grader.isolation import apart
 from grader.robotcode import bench
 from grader.robotcode.bench import Outcome
 
@@ -52,7 +53,15 @@ def mine(tmp_path):
     return write
 
 
+@pytest.fixture(params=["all there is", "Landlock as on Linux 6.7", "limits only"])
+def each_level(request, monkeypatch):
+    """With all the confinement this system has, with an older kernel's, and with limits only."""
+    monkeypatch.setattr(apart, "CONFINED", request.param != "limits only")
+    monkeypatch.setattr(apart, "LANDLOCK_ABI", 4 if "6.7" in request.param else None)
+
+
 @needs_robot
+@pytest.mark.usefixtures("each_level")
 def test_what_a_program_wrote_that_left_early_is_not_believed(mine):
     run = bench.run(mine(WRITE + LEAVE), "ExampleSubsystem")
 
@@ -61,6 +70,7 @@ def test_what_a_program_wrote_that_left_early_is_not_believed(mine):
 
 
 @needs_robot
+@pytest.mark.usefixtures("each_level")
 def test_a_file_that_was_changed_after_the_tests_is_not_believed(mine):
     late = "import atexit\natexit.register(lambda: open('seen.json', 'w').write(FORGED))\n"
     run = bench.run(mine(WRITE + late), "ExampleSubsystem")
