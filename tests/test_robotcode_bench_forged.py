@@ -45,7 +45,8 @@ def mine(tmp_path):
     """Writes the halved answer with a trick beside it."""
 
     def write(trick, *changes):
-        (tmp_path / "trick.py").write_text(SHARE + trick, "utf-8")
+        text = trick if "def share" in trick else f"{trick}\n{SHARE}"
+        (tmp_path / "trick.py").write_text(text, "utf-8")
         path = tmp_path / "mine.py"
         path.write_text(changed(*HALVED, *changes), "utf-8")
         return path
@@ -115,6 +116,7 @@ TRICKS = {
     "a name by text": "import wpilib\ngetattr(wpilib, 'a' + 'b')",
     "the modules": "import sys\nsys.modules.clear()",
     "machine code": "import ctypes",
+    "code in an encoding that hides it": "# coding: utf-7\n# +AAo-import os",
     "code that is written first": "open('more.py', 'w').write('')",
     "the log rewritten": "import pathlib\npathlib.Path('robot.wpilog').write_bytes(b'')",
 }

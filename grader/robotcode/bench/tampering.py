@@ -7,8 +7,11 @@ look at it. What a program imports from its own folders is looked at in the same
 """
 
 import ast
+import io
 import re
 import sys
+import tokenize
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -50,6 +53,8 @@ DUNDERS = _words(
     "__all__ __class__ __doc__ __enter__ __exit__ __file__ __init__ __init_subclass__ __name__ "
     "__post_init__ __qualname__ __version__"
 )
+MOST_CODE = 2_000_000  # [bytes] of all files together; a robot program has a fiftieth of it
+UTF_8 = frozenset({"utf-8", "utf-8-sig"})
 NOTES = frozenset({".csv", ".json", ".log", ".txt"})  # what a robot may write; no code, no devices
 LIBRARY_METHOD = re.compile(r"(get|set|is)([A-Z_]\w*)?$")
 SIMULATION = _words("hal isReal isSimulation is_real is_simulation simulation")
@@ -64,14 +69,11 @@ def refuse_tampering(path: Path) -> None:
     Raises:
         UnreadableFile: it does; where, and what to do.
     """
+    local = _local(path)
     for file, tree in _parsed(path):
-        line, what = next(_found(file, tree, _local(path)), (0, ""))
+        line, what = next(_found(file, tree, local), (0, ""))
         if line:
-            raise UnreadableFile(
-                f"{what}, so I cannot tell what this code does",
-                where=f"{file}, line {line}",
-                advice="Take it out: a robot program needs no such thing. Then grade again.",
-            )
+            raise _refusal(what, path if file == path else Path(file.name), line)
 
 
 def simulation_awareness(path: Path) -> str:
@@ -87,16 +89,36 @@ def simulation_awareness(path: Path) -> str:
     return ""
 
 
+def _refusal(what: str, file: Path, line: int) -> UnreadableFile:
+    return UnreadableFile(
+        f"{what}, so I cannot tell what this code does",
+        where=f"{file}, line {line}",
+        advice="Take it out: a robot program needs no such thing. Then grade again.",
+    )
+
+
 def _parsed(path: Path) -> Iterator[tuple[Path, ast.Module]]:
-    """The file and what it imports from its own folders, each as a tree."""
+    """The file and what it imports from its own folders, each as a tree.
+
+    Raises:
+        UnreadableFile: it is too much, or in an encoding that hides what is in it.
+    """
     there = [path, *(one for one in program_files(path) if one.suffix == ".py")]
-    todo, seen = [path], {path.resolve()}
+    todo, seen, size = [path], {path.resolve()}, 0
     while todo:
         file = todo.pop()
         try:
-            tree = ast.parse(file.read_text(encoding="utf-8"))
+            text = file.read_bytes()
+            encoding, _ = tokenize.detect_encoding(io.BytesIO(text).readline)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of a learner's text, which says them itself
+                tree = ast.parse(text)
         except (OSError, ValueError, SyntaxError, RecursionError, MemoryError):
             continue  # whoever imports it stops there
+        size += len(text)
+        if encoding not in UTF_8 or size > MOST_CODE:
+            what = "it is too much code" if size > MOST_CODE else f"it is written in {encoding}"
+            raise _refusal(what, path if file == path else Path(file.name), 1)
         yield file, tree
         asked = {part for node in ast.walk(tree) for part in _imported(node)}
         for one in there:
@@ -195,7 +217,7 @@ def _attribute(
     if name == "open" and call is not None and not _only_reads(call, mode_at=0):
         return "it opens a file to write that may be code"
     if not isinstance(node.ctx, ast.Load) and _of_a_library(node, foreign):
-        return f"it replaces {name} of {ast.unparse(node.value)[:40]}"
+        return f"it replaces {name} of {_root(node.value) or 'a library'}"
     return ""
 
 
@@ -247,18 +269,16 @@ def _foreign(tree: ast.Module, local: frozenset[str]) -> frozenset[str]:
                 top = alias.name.partition(".")[0]
                 if not within and (module or top not in local):
                     found.add(alias.asname or top)
-    assigned = [node for node in ast.walk(tree) if isinstance(node, ast.Assign)]
-    for _ in range(len(assigned)):
-        more = {
-            target.id
-            for node in assigned
-            if _root(node.value) in found and not _called(node.value)
-            for target in node.targets
-            if isinstance(target, ast.Name)
-        }
-        if more <= found:
-            break
+    other_names: dict[str, set[str]] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and not _called(node.value):
+            names = {one.id for one in node.targets if isinstance(one, ast.Name)}
+            other_names.setdefault(_root(node.value), set()).update(names)
+    todo = [*found]
+    while todo:
+        more = other_names.get(todo.pop(), set()) - found
         found |= more
+        todo += more
     return frozenset(found)
 
 
