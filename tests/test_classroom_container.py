@@ -138,6 +138,14 @@ def test_an_engine_is_there_if_it_answers(engine, code, found):
     assert answering_engines() == found
 
 
+@pytest.mark.parametrize(("code", "says"), [(0, "docker answers"), (1, "neither docker nor")])
+def test_the_doctor_says_whether_an_engine_answers(engine, handed_in, capsys, code, says):  # noqa: ARG001 - it stands in the course
+    engine(code=code)
+    run(["doctor"])
+
+    assert says in " ".join(capsys.readouterr().out.split())
+
+
 def test_the_image_holds_what_the_course_needs_and_not_the_course():
     assert "COPY" not in DOCKERFILE
     assert 'pip install --no-cache-dir "/build[robot]"' in DOCKERFILE

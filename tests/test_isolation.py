@@ -575,6 +575,20 @@ def test_where_the_kernel_can_isolate_it_does():
         assert LEVEL.endswith("system calls filtered)")
 
 
+@pytest.mark.parametrize(
+    ("abi", "filtered", "says"),
+    [
+        (6, True, "isolated (Landlock ABI 6, system calls filtered)"),
+        (4, True, "isolated (Landlock ABI 4, system calls filtered)"),
+        (6, False, "isolated (Landlock ABI 6, it may start processes)"),
+        (4, False, "limited: no files (Landlock ABI 4); but it can stop other programs of yours"),
+        (0, True, "limited: no network, no processes; but it can read files"),
+    ],
+)
+def test_only_code_that_cannot_stop_the_examiner_is_called_isolated(abi, filtered, says):
+    assert apart._level({"landlock": abi, "seccomp": filtered, "limited": []}) == says
+
+
 def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
     text = "def fit(number): return {}\n"
     assert apart_run(text).level == LEVEL

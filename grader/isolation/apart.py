@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, cast
 
+from grader.isolation.landlock import SCOPE_ABI
 from grader.isolation.received import Answer, Received, receive
 from grader.isolation.scratch import scratch_folder
 
@@ -286,6 +287,10 @@ def _level(force: Mapping[str, object] | None) -> str:
     if force is None:
         return "not started"
     version, filtered = force.get("landlock"), force.get("seccomp") is True
+    if isinstance(version, int) and 0 < version < SCOPE_ABI and not filtered:
+        return (
+            f"limited: no files (Landlock ABI {version}); but it can stop other programs of yours"
+        )
     if version:
         calls = "system calls filtered" if filtered else "it may start processes"
         return f"isolated (Landlock ABI {version}, {calls})"
