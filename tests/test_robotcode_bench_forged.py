@@ -88,6 +88,18 @@ def test_halved_volts_that_forge_nothing_lose_the_points_of_the_drive_callback(m
     assert "drive" in wrong
 
 
+@needs_robot
+def test_a_forged_run_earns_nothing_even_where_the_code_is_not_refused(mine, monkeypatch):
+    monkeypatch.setattr(bench, "refuse_tampering", lambda _: None)
+    honest = EXERCISE.grade(mine(""), student="ann")
+    forged = EXERCISE.grade(mine(WRITE + LEAVE), student="ann")
+
+    drive = next(one for one in forged.checks if one.id == "drive")
+    assert forged.score <= honest.score
+    assert drive.status == "failed"
+    assert "ended the robot program in the middle of a test" in drive.hint
+
+
 TRICKS = {
     "a forged result": WRITE + LEAVE,
     "an exit": "import os\nos._exit(0)",
