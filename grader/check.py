@@ -7,8 +7,9 @@
             raise Wrong(facts.ramp.text, hint="Volts.of(0.5).per(Second) is 0.5 V/s.")
 
 A check that returns has passed; what it returns, if anything, is a note for the learner. Wrong
-says the answer is wrong, NotReached that there is nothing to look at yet, and anything else that
-our own code broke, for which nobody is blamed.
+says the answer is wrong, NotReached that there is nothing to look at yet, NotRun that it takes
+running the learner's code and that this was not allowed, and anything else that our own code broke,
+for which nobody is blamed.
 """
 
 from collections.abc import Callable, Sequence
@@ -36,6 +37,7 @@ class Status(StrEnum):
     PASSED = "passed"
     FAILED = "failed"
     NOT_REACHED = "not-reached"  # something before it has to be right first
+    NOT_RUN = "not-run"  # it takes running the learner's code, and that was not allowed
     ERROR = "error"  # our code broke; no fault of the learner's
 
 
@@ -63,6 +65,10 @@ class NotReached(Exception):  # noqa: N818 - not an error of the program
     """There is nothing to look at yet; the message says what is missing."""
 
 
+class NotRun(Exception):  # noqa: N818 - not an error of the program
+    """Only running the learner's code could tell, and it was not run; the message says why."""
+
+
 @dataclass(frozen=True)
 class Result:
     """What one check found.
@@ -70,10 +76,10 @@ class Result:
     Args:
         id: the check's name in lower case with dashes: ``applied-voltage``.
         description: the sentence the learner reads.
-        status: passed, failed, not-reached or error.
+        status: passed, failed, not-reached, not-run or error.
         points: points earned.
         max_points: points there are.
-        seen: what was given; for ``not-reached`` and ``error`` the reason.
+        seen: what was given; for ``not-reached``, ``not-run`` and ``error`` the reason.
         hint: likely cause and next step; a note where the check passed.
         misconception: its code, or empty.
     """
@@ -118,6 +124,8 @@ class Check(Generic[Subject]):
             return self._result(Status.NOT_REACHED, 0.0, str(reason))
         except MemoryError:  # whoever grades says it: this check is not broken
             raise
+        except NotRun as reason:
+            return self._result(Status.NOT_RUN, 0.0, str(reason))
         except Exception as error:  # noqa: BLE001 - whatever it is, the learner is not to blame
             return self._result(Status.ERROR, 0.0, f"{type(error).__name__}: {error}")
         return self._result(Status.PASSED, self.points, "", note)

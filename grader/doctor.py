@@ -46,6 +46,7 @@ def examine(course: Path) -> Iterator[Finding]:
     yield _writing(course)
     yield _terminal()
     yield _isolation()
+    yield _container()
     yield _robot()
     yield _dask()
 
@@ -96,10 +97,22 @@ def _isolation() -> Finding:
     found = level()
     right = found.startswith("isolated")
     advice = (
-        "Fine for your own answers. Grade a class's code on Linux, where it can be shut in, or "
-        "on a machine that holds nothing else."
+        "Fine for your own answers. Grade a class's code on Linux, where it can be shut in, or in "
+        "a container: grade class --in docker. Else it is not run."
     )
     return Finding("learners' code", found, right, needed=False, advice=advice)
+
+
+def _container() -> Finding:
+    from grader.classroom.container import BUILD, answering_engines  # noqa: PLC0415 - beside its use
+
+    there = answering_engines()
+    found = f"{' and '.join(there)} answers" if there else "neither docker nor podman answers"
+    advice = (
+        "For grade class --in docker: install Docker or Podman, start it, and in the course "
+        f"folder: {BUILD.format(engine='docker')}"
+    )
+    return Finding("container", found, bool(there), needed=False, advice=advice)
 
 
 def _robot() -> Finding:

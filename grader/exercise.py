@@ -5,7 +5,8 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
 
     FILES : tuple[str, ...]                    the files to fill in, the preferred one first
     def read(path, *, student) -> Subject      what the checks look at; a Refusal if unreadable;
-                                               one that runs robot code also takes ``run: bool``
+                                               one that runs the learner's code also takes
+                                               ``run: bool``
     its checks                                 functions under @check, in the order they are shown
     def prepare(student, *, say) -> None       optional: makes what the learner works on
     BESIDE : tuple[str, ...]                   optional: files to fill in that belong to the one
@@ -162,7 +163,8 @@ class Exercise:
         Args:
             given: a file or a folder; None takes the exercise's own files.
             student: whose answer it is.
-            run: whether robot code may be run, where the exercise can; else it is only read.
+            run: whether the learner's code may be run, where the exercise can; else robot code is
+                only read, and what only running can tell makes the exercise ungradable.
         """
         try:
             whole = whole_answer(given, names=self.files, beside=self.beside)
@@ -198,6 +200,9 @@ class Exercise:
         broken = next((one for one in results if one.status is Status.ERROR), None)
         status = "passed" if score == most else "failed"
         reason = ""
+        unrun = next((one for one in results if one.status is Status.NOT_RUN), None)
+        if unrun:
+            status, reason = "ungradable", f"the check {unrun.id} was {unrun.seen}"
         if broken:
             status = "ungradable"
             reason = (

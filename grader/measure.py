@@ -84,8 +84,8 @@ def read_unit(text: str) -> Measure:
     """Read a unit.
 
     Raises:
-        NotAUnitError: there is a sign or a name in it that is no unit, or it is longer than any; the
-            message is that part.
+        NotAUnitError: a sign or a name in it is no unit, or it is longer than any; the message is
+            that part.
     """
     if len(text) > LONGEST:
         raise NotAUnitError(f"{text[:SHOWN]}…")

@@ -20,6 +20,7 @@ STYLE = {  # of the line that leads a check; colors that are legible on light an
     Status.PASSED: "#1f9d61",
     Status.FAILED: "#d1495b",
     Status.NOT_REACHED: "#808080",
+    Status.NOT_RUN: "#808080",
     Status.ERROR: "#b060b0",
 }
 

@@ -15,6 +15,7 @@ MARKS = {
     Status.PASSED: ("✓", "green"),
     Status.FAILED: ("✗", "red"),
     Status.NOT_REACHED: ("–", "dim"),
+    Status.NOT_RUN: ("–", "dim"),
     Status.ERROR: ("!", "magenta"),
 }
 SPOKEN = {"✓": "right", "✗": "not right yet", "–": "not looked at yet", "!": "our mistake"}

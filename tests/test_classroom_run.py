@@ -29,7 +29,8 @@ def there(run):
     return f"run={run}"
 '''
 ISOLATED, LIMITED = "isolated (Landlock ABI 6)", "limited: time only"
-SAID = f"robot code is read, not run: this machine is {LIMITED}. --run runs it all the same."
+SAID = f"students' code is not run: this machine is {LIMITED}. Robot code is only read"
+WARNED = f"students' code is run although this machine is {LIMITED}. It can read what you can read"
 
 
 @pytest.fixture
@@ -75,6 +76,7 @@ def test_code_is_run_where_it_can_be_shut_in_or_as_told(tmp_path, capsys, level,
 
     said = " ".join(capsys.readouterr().err.split())
     assert (SAID in said) is (level == LIMITED and not options)
+    assert (WARNED in said) is (level == LIMITED and options == ["--run"])
 
 
 @pytest.mark.usefixtures("course")
@@ -105,11 +107,11 @@ def test_an_exercise_that_only_reads_is_not_asked_to_run(tmp_path, monkeypatch, 
 
     assert exercises(tmp_path)[0].runs is False
     assert run(["class", str(tmp_path / "in"), "--processes", "1"]) == 0
-    assert "robot code" not in capsys.readouterr().err
+    assert "students' code" not in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", ["exercise4", "exercise5", "practice"])
-def test_what_runs_robot_code_can_be_told_not_to(name):
+@pytest.mark.parametrize("name", ["exercise4", "exercise5", "exercise9", "practice"])
+def test_what_runs_a_learners_code_can_be_told_not_to(name):
     assert Exercise(name, ROOT / "exercises" / name).runs
 
 
@@ -133,3 +135,23 @@ def test_practice_reads_robot_code_without_running_it_where_it_may_not(tmp_path,
     answers = practice.module.read(tmp_path / "answers.toml", student="ann", run=False)
 
     assert answers.routine.ran is None
+
+
+def test_a_function_that_may_not_be_run_waits_for_a_person_and_is_not_run(tmp_path, monkeypatch):
+    monkeypatch.setattr(grader.isolation, "run", lambda *_, **__: pytest.fail("it was run"))
+    shutil.copy(ROOT / "exercises" / "exercise9" / "answers.toml", tmp_path)
+    shutil.copy(ROOT / "solutions" / "exercise9" / "fit.py", tmp_path)
+    ninth = Exercise("exercise9", ROOT / "exercises" / "exercise9")
+    grade = ninth.grade(tmp_path, student="ann", run=False)
+
+    assert grade.status == "ungradable"
+    assert grade.reason.startswith("the check function was not run: fit.py")
+    assert [one.status for one in grade.checks if one.id == "function"] == ["not-run"]
+
+
+def test_a_function_is_run_for_whoever_grades_their_own_work(tmp_path):
+    shutil.copy(ROOT / "exercises" / "exercise9" / "answers.toml", tmp_path)
+    shutil.copy(ROOT / "solutions" / "exercise9" / "fit.py", tmp_path)
+    ninth = Exercise("exercise9", ROOT / "exercises" / "exercise9")
+
+    assert ninth.grade(tmp_path, student="ann").score == 5.0

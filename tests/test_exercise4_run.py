@@ -84,7 +84,7 @@ def test_a_question_that_the_run_cannot_settle_stays_one(tmp_path):
 def test_a_question_about_a_log_that_names_no_tests_stays_one(tmp_path):
     text = changed(
         ("timeout=10.0", "timeout=10.0, recordState=lambda state: None"),
-        ("self.left.getVoltage()", "eval('self.left.getVoltage()')"),
+        ("self.left.getVoltage()", "getattr(self.left, 'getVoltage')()"),
     )
     checks = graded(tmp_path, text)
 

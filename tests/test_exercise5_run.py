@@ -40,7 +40,24 @@ def test_each_button_runs_its_test_in_test_mode_while_it_is_held(tmp_path):
     )
 
 
+@pytest.mark.parametrize("part", [NO_GUARD, GOES_ON], ids=["a trigger", "a command"])
+def test_code_that_replaces_a_part_of_wpilib_earns_nothing(tmp_path, part):
+    path = tmp_path / "robotcontainer.py"
+    path.write_text(changed(IMPORT, part), "utf-8")
+    grade = EXERCISE.grade(path, student="ann")
+
+    assert (grade.status, grade.score) == ("ungradable", 0)
+    assert "it replaces" in grade.reason
+
+
+@pytest.fixture
+def tampering_allowed(monkeypatch):
+    """Lets through what replaces parts of WPILib, to see that the run shows that, too."""
+    monkeypatch.setattr(bench, "refuse_tampering", lambda _: None)
+
+
 @needs_robot
+@pytest.mark.usefixtures("tampering_allowed")
 @pytest.mark.parametrize(
     ("change", "check", "said", "points"),
     [

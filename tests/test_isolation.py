@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from grader.isolation import Call, Limits, apart, landlock, level, run, seccomp
+from grader.isolation.scratch import remove_tree
 from grader.variant import of_class
 
 SHORT = Limits(seconds=0.6)  # where the end of it is waited for
@@ -36,11 +37,29 @@ def apart_run(tmp_path):
     return start
 
 
-@pytest.fixture(params=["all there is", "limits only"])
+ABIS = {"all there is": None, "Landlock as on Linux 6.7": 4}
+
+
+@pytest.fixture(params=[*ABIS, "limits only"])
 def each_level(request, monkeypatch):
-    """Once with all the confinement this system has, once with limits only."""
+    """With all the confinement this system has, with an older kernel's, and with limits only."""
     monkeypatch.setattr(apart, "CONFINED", request.param != "limits only")
+    monkeypatch.setattr(apart, "LANDLOCK_ABI", ABIS.get(request.param))
     return request.param
+
+
+@pytest.fixture(params=ABIS)
+def each_kernel(request, monkeypatch):
+    """With all the confinement this system has, and with an older kernel's."""
+    monkeypatch.setattr(apart, "LANDLOCK_ABI", ABIS[request.param])
+
+
+@pytest.fixture
+def victim():
+    """A process of the same user, for others to end."""
+    with subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"]) as process:
+        yield process
+        process.kill()
 
 
 @pytest.fixture
@@ -340,6 +359,7 @@ def unreadable():
 
 
 @isolated
+@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize("name", unreadable())
 def test_a_key_cannot_be_read(apart_run, name):
     (answer,) = apart_run(attempt(f"open({unreadable()[name]!r}).read()")).answers
@@ -348,6 +368,7 @@ def test_a_key_cannot_be_read(apart_run, name):
 
 
 @isolated
+@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize(
     "code",
     [
@@ -383,6 +404,7 @@ def test_another_learners_file_is_neither_read_nor_changed(apart_run, tmp_path, 
 
 
 @isolated
+@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize(
     "code",
     [
@@ -407,6 +429,7 @@ def test_no_process_is_started_or_touched(apart_run, code):
 
 
 @isolated
+@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize("kind", ["SOCK_STREAM", "SOCK_DGRAM"])
 def test_there_is_no_network(apart_run, listening, kind):
     port, came = listening
@@ -415,6 +438,83 @@ def test_there_is_no_network(apart_run, listening, kind):
 
     assert "PermissionError" in answer.reason
     assert came == []
+
+
+OWNED = """import fcntl, signal, struct
+reader, writer = os.pipe()
+{give}
+fcntl.fcntl(reader, 10, signal.SIGKILL)  # F_SETSIG
+fcntl.fcntl(reader, fcntl.F_SETFL, fcntl.fcntl(reader, fcntl.F_GETFL) | os.O_ASYNC)
+os.write(writer, b"now")
+"""
+FCNTL = seccomp.TABLES[platform.machine()].fcntl if platform.machine() in seccomp.TABLES else 0
+OWNERS = {
+    "F_SETOWN": "fcntl.fcntl(reader, fcntl.F_SETOWN, {pid})",
+    "F_SETOWN_EX": "fcntl.fcntl(reader, 15, struct.pack('ii', 1, {pid}))",
+    "high bits": "import ctypes\nif ctypes.CDLL(None, use_errno=True).syscall({fcntl}, reader, "
+    "ctypes.c_long((1 << 32) + 8), ctypes.c_long({pid})) < 0:\n"
+    "    raise OSError(ctypes.get_errno())",
+}
+
+
+@isolated
+@pytest.mark.usefixtures("each_kernel")
+@pytest.mark.parametrize("give", OWNERS)
+def test_a_file_given_to_another_process_sends_it_no_signal(apart_run, victim, give):
+    code = OWNED.format(give=OWNERS[give].format(pid=victim.pid, fcntl=FCNTL))
+    (answer,) = apart_run(attempt(code)).answers
+
+    assert "Error" in answer.reason
+    with pytest.raises(subprocess.TimeoutExpired):
+        victim.wait(0.2)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux has F_SETSIG")
+def test_the_same_signal_ends_it_where_nothing_is_filtered(apart_run, victim, monkeypatch):
+    monkeypatch.setattr(apart, "CONFINED", False)
+    code = OWNED.format(give=OWNERS["F_SETOWN"].format(pid=victim.pid))
+    (answer,) = apart_run(attempt(code)).answers
+
+    assert answer.reason == ""
+    assert victim.wait(5) == -9
+
+
+def verdict(table, number, *arguments):
+    """What the filter returns for a system call: an interpreter of its few instructions."""
+    words = {0: number, 4: table.architecture, 16: 0, 24: 0}
+    words |= {16 + 8 * at: value for at, value in enumerate(arguments)}
+    steps, at, kept = [*seccomp._steps(table)], 0, 0
+    while True:
+        code, yes, no, value = steps[at]
+        at += 1
+        if code == seccomp.RETURN:
+            return value
+        if code == seccomp.LOAD:
+            kept = words[value]
+        else:
+            right = {
+                seccomp.EQUAL: kept == value,
+                seccomp.AT_LEAST: kept >= value,
+                seccomp.ANY_BIT: bool(kept & value),
+            }[code]
+            at += yes if right else no
+
+
+@pytest.mark.parametrize("machine", seccomp.TABLES)
+def test_the_filter_refuses_owners_of_files_on_each_processor(machine):
+    table = seccomp.TABLES[machine]
+    refused = [
+        (number, command)
+        for number in (table.fcntl, table.ioctl)
+        for command in (0, 1, 2, 3, 4, 8, 9, 10, 15, 16, 1030, 0x5401, 0x8901, 0x8902, 0x8903)
+        if verdict(table, number, 3, command) == seccomp.REFUSE
+    ]
+
+    owners = [(table.fcntl, 8), (table.fcntl, 10), (table.fcntl, 15)]
+    assert refused == [*owners, (table.ioctl, 0x8901), (table.ioctl, 0x8902)]
+    assert verdict(table, 9999) == seccomp.ALLOW
+    assert verdict(table, table.own[0], 1) == seccomp.REFUSE
+    assert verdict(table, table.own[0], os.getpid()) == seccomp.ALLOW
 
 
 def test_threads_still_work(apart_run):
@@ -475,13 +575,63 @@ def test_where_the_kernel_can_isolate_it_does():
         assert LEVEL.endswith("system calls filtered)")
 
 
+@pytest.mark.parametrize(
+    ("abi", "filtered", "says"),
+    [
+        (6, True, "isolated (Landlock ABI 6, system calls filtered)"),
+        (4, True, "isolated (Landlock ABI 4, system calls filtered)"),
+        (6, False, "isolated (Landlock ABI 6, it may start processes)"),
+        (4, False, "limited: no files (Landlock ABI 4); but it can stop other programs of yours"),
+        (0, True, "limited: no network, no processes; but it can read files"),
+    ],
+)
+def test_only_code_that_cannot_stop_the_examiner_is_called_isolated(abi, filtered, says):
+    assert apart._level({"landlock": abi, "seccomp": filtered, "limited": []}) == says
+
+
 def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
     text = "def fit(number): return {}\n"
     assert apart_run(text).level == LEVEL
+    monkeypatch.setattr(apart, "LANDLOCK_ABI", 4)
+    if landlock.abi() > 4:
+        assert apart_run(text).level.startswith("isolated (Landlock ABI 4, ")
     monkeypatch.setattr(apart, "CONFINED", False)
 
     assert apart_run(text).level.startswith("limited: time")
     assert apart_run(text).level.endswith("it can read files and reach the network")
+
+
+DEEP = """import os
+def fit(number):
+    for level in range(1500):
+        open("file", "w").close()
+        os.symlink("/", "link") if number else None
+        os.mkdir("d", 0o700)
+        os.chdir("d")
+    return {"a": 1.0}
+"""
+
+
+@pytest.mark.usefixtures("each_level")
+def test_a_folder_1500_deep_is_removed_and_blamed_on_nobody(apart_run, monkeypatch, tmp_path):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    (answer,) = apart_run(DEEP).answers
+
+    assert dict(answer.numbers) == {"a": 1.0}
+    assert [file.name for file in tmp_path.iterdir()] == ["fit.py"]
+
+
+@posix
+def test_a_link_in_what_is_removed_is_not_followed(tmp_path):
+    kept, scratch = tmp_path / "kept", tmp_path / "scratch"
+    (kept / "in").mkdir(parents=True)
+    (scratch / "a" / "b").mkdir(parents=True)
+    (scratch / "a" / "b" / "link").symlink_to(kept)
+    (scratch / "a" / "b" / "closed").mkdir(mode=0)
+    remove_tree(scratch)
+
+    assert not scratch.exists()
+    assert (kept / "in").is_dir()
 
 
 def test_a_run_leaves_nothing_behind(apart_run, monkeypatch, tmp_path):

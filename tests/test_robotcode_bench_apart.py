@@ -27,6 +27,12 @@ KEY = "the key is 42"
 SEND = "self.left.setVoltage(voltage)"
 
 
+@pytest.fixture(params=[None, 4], ids=["all there is", "Landlock as on Linux 6.7"])
+def each_kernel(request, monkeypatch):
+    """With all the confinement this system has, and with an older kernel's."""
+    monkeypatch.setattr(isolation, "LANDLOCK_ABI", request.param)
+
+
 @pytest.fixture
 def tried(tmp_path):
     """Runs the right answer with a trick before it sends its first voltage."""
@@ -51,6 +57,7 @@ def quietly(statement):
 
 @needs_robot
 @isolated
+@pytest.mark.usefixtures("each_kernel")
 @pytest.mark.parametrize(
     "statement",
     [
@@ -64,6 +71,10 @@ def quietly(statement):
         pytest.param("import socket; socket.create_connection(('127.0.0.1', {port}))", id="TCP"),
         pytest.param("import socket; socket.socket(type=socket.SOCK_DGRAM)", id="UDP"),
         pytest.param("import os; os.kill({pid}, 9)", id="a signal to the examiner"),
+        pytest.param(
+            "import fcntl, os; fcntl.fcntl(os.pipe()[0], fcntl.F_SETOWN, {pid})",
+            id="a signal to the examiner, by a file",
+        ),
     ],
 )
 def test_a_trick_is_refused_and_the_run_is_what_it_was(tried, tmp_path, statement):
@@ -121,6 +132,11 @@ def test_vendor_code_that_needs_the_network_cannot_be_run_and_is_not_blamed(trie
             "with open('flood', 'wb') as f:\n    for _ in range(99): f.write(bytes(10**6))",
             Outcome.CRASHED,
             id="a file flood",
+        ),
+        pytest.param(
+            "import os\nfor _ in range(1500):\n    os.mkdir('d'); os.chdir('d')",
+            Outcome.RAN,
+            id="a deep folder",
         ),
     ],
 )

@@ -60,6 +60,8 @@ def read(path: Path, *, student: str, run: bool = True) -> Code:  # noqa: ARG001
             where=f"{path}, line {first.line}",
             advice="Mend that line first: code with a mistake like this does not compile.",
         )
+    if facts.language == "python":
+        bench.refuse_tampering(path)
     code = Code(facts)
     if run and facts.language == "python" and bench.installed() and not _mistaken(code):
         return Code(facts, bench.run(path, facts.class_name))

@@ -66,10 +66,13 @@ def settle(
         if isinstance(open_still, Wrong) and not asks(open_still.seen):
             raise
         if ran is not None and ran.outcome in STOPPED and isinstance(open_still, Wrong):
-            _stopped(open_still, ran)
+            _unsettled(open_still, ran.said)
         if ran is None or ran.outcome is not Outcome.RAN:
             raise
         _fail(running(ran), points)
+        if isinstance(open_still, Wrong) and ran.aware:
+            said = f"{ran.aware}, asks whether this is a simulation, and may differ on a robot"
+            _unsettled(open_still, said)
         if not answered(ran):
             raise
         return f"Reading cannot tell, so it was run {IN}: there this is right."
@@ -78,11 +81,11 @@ def settle(
     return note
 
 
-def _stopped(question: Wrong, ran: Ran) -> None:
+def _unsettled(question: Wrong, said: str) -> None:
     """Say that running did not answer the question, either."""
     raise Wrong(
         question.seen,
-        hint=f"{question.hint} Running it {IN} did not help: {ran.said}",
+        hint=f"{question.hint} Running it {IN} did not help: {said}",
         misconception=question.misconception,
         earned=question.earned,
     ) from None

@@ -42,6 +42,8 @@ def read(path: Path, *, student: str, run: bool = True) -> BindingFacts:  # noqa
             where=f"{path}, line {first.line}",
             advice="Mend that line first: code with a mistake like this does not compile.",
         )
+    if facts.language == "python":
+        bench.refuse_tampering(path)
     if not run or facts.language != "python" or not bench.installed():
         return facts
     right = run_all((factories, held, each_once, guard), facts)

@@ -55,6 +55,7 @@ class Answers:
     variant: Variant
     student: str
     function: Path
+    run: bool = True
 
 
 def draw(student: str) -> Variant:
@@ -101,8 +102,13 @@ def prepare(student: str, *, say: Callable[[str], None]) -> None:
     hand_out(made, exercise=HERE, student=student, what="log", say=say)
 
 
-def read(path: Path, *, student: str) -> Answers:
+def read(path: Path, *, student: str, run: bool = True) -> Answers:
     """The answers, and what they are held against.
+
+    Args:
+        path: the file with the answers.
+        student: whose they are.
+        run: whether the learner's function may be run.
 
     Raises:
         UnreadableFile: the file cannot be read.
@@ -117,6 +123,7 @@ def read(path: Path, *, student: str) -> Answers:
         variant,
         student,
         path.with_name(NAME),
+        run,
     )
 
 
@@ -165,7 +172,7 @@ def metrics(answers: Answers) -> None:
 @check(points=5)
 def function(answers: Answers) -> str | None:
     """Your own function, on five logs that you have not seen."""
-    return judge_function(answers.function, student=answers.student, points=5)
+    return judge_function(answers.function, student=answers.student, points=5, run=answers.run)
 
 
 def _metric(name: str, answers: Answers) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.answer import Asked, Key, diagnose, gains_asked, judge
-from grader.check import NotReached, Wrong
+from grader.check import NotReached, NotRun, Wrong
 from grader.variant import generator, seed
 
 from .scene import ASSUMED, USUAL, columns, scene
@@ -160,13 +160,14 @@ def _outcome(text: bytes, student: str, of: int) -> "Outcome":
         return run(source, calls=calls, limits=Limits(seconds=SECONDS))
 
 
-def judge_function(path: Path, *, student: str, points: float) -> str | None:
+def judge_function(path: Path, *, student: str, points: float, run: bool) -> str | None:
     """Try the function on the five logs.
 
     Args:
         path: the learner's file.
         student: whose.
         points: for all five.
+        run: whether it may be run.
 
     Returns:
         What it printed, if it did.
@@ -174,12 +175,15 @@ def judge_function(path: Path, *, student: str, points: float) -> str | None:
     Raises:
         Wrong: at least one log came out wrong; what may be behind it.
         NotReached: there is no file.
+        NotRun: there is one, and it may not be run.
     """
     from grader.submission import read_text  # noqa: PLC0415 - beside its only use
 
     if not path.is_file():
         raise NotReached(f"there is no {NAME} beside your answers; the exercise's folder has one")
     text = read_text(path).encode()
+    if not run:
+        raise NotRun(f"not run: {NAME} was not to be run here, and reading it cannot tell")
     of = seed(student, "exercise9")
     logs, outcome = hidden(student, of), _outcome(text, student, of)
     wrong = [found for found in map(_judge_log, logs, outcome.answers) if found]

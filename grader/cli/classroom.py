@@ -39,8 +39,11 @@ SHOWN = 5  # names in one line
     help="How many grade.  [default: cores, and one]",
 )
 @click.option("--cluster", metavar="ADDRESS", help="Grade on a Dask cluster: tcp://host:8786.")
-@click.option("--run/--no-run", default=None, help="Run robot code, besides reading it.  [default: "
-              "where this machine can shut it in]")  # fmt: skip
+@click.option("--run/--no-run", default=None, help="Run students' code (robot code, fit.py).  "
+              "[default: where this machine can shut it in]")  # fmt: skip
+@click.option("--in", "engine", type=click.Choice(["docker", "podman"]),
+              help="Grade in a container without network.")  # fmt: skip
+@click.option("--image", default="sysid-course", show_default=True, help="Of that container.")
 @click.option("--again", is_flag=True, help="Grade everything again.")
 def class_(  # noqa: PLR0917 - click passes options by name
     folder: Path,
@@ -53,6 +56,8 @@ def class_(  # noqa: PLR0917 - click passes options by name
     name: str | None,
     processes: int | None,
     cluster: str | None,
+    engine: str | None,
+    image: str,  # noqa: ARG001 - the container takes it from the context, with all others
     *,
     run: bool | None,
     again: bool,
@@ -77,15 +82,18 @@ def class_(  # noqa: PLR0917 - click passes options by name
     known = members(roster) if roster else None
     formats = chosen(wanted, roster=known)
     course = find_course(Path.cwd())
+    out = output or folder.with_name(f"{folder.resolve().name.removesuffix('.zip')}-graded")
+    if engine:
+        from grader.classroom.container import grade_in_container  # noqa: PLC0415 - the same
+
+        return grade_in_container(click.get_current_context(), course=course, output=out)
     asked = _asked(only, course)
     kept = find_secret(secret, make=False)
     value = kept.value if kept else None
     there = _found(folder, course, asked, known, student=student)
     there = check_identities(there, secret=value)
     _tell_problems(there)
-    out = output or folder.with_name(f"{folder.resolve().name.removesuffix('.zip')}-graded")
-    if run is None:
-        run = _shut_in(asked, cluster=cluster)
+    run = _shut_in(asked, run=run, cluster=cluster)
     work = Class(there, asked, course, value, run)
     graded = _run(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
@@ -154,16 +162,26 @@ def _some(names: "Sequence[str]") -> str:
     return "; ".join(names[:SHOWN]) + more
 
 
-def _shut_in(asked: "Sequence[Exercise]", *, cluster: str | None) -> bool:
-    """Whether robot code is run unless somebody says: where strangers' code does no harm."""
+def _shut_in(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | None) -> bool:
+    """Whether students' code is run: as told, else where it does no harm; says what that means."""
     from grader.isolation import level  # noqa: PLC0415 - --help must not wait for it
 
-    if not any(one.runs for one in asked):
+    if run is False or not any(one.runs for one in asked):
         return False
     found = "one of a cluster, and nobody knows of all" if cluster else level()
     if found.startswith("isolated"):
         return True
-    complain(f"robot code is read, not run: this machine is {found}. --run runs it all the same.")
+    if run:
+        complain(
+            f"students' code is run although this machine is {found}. It can read what you can "
+            "read: the class's secret, other students' answers. Safer: grade class --in docker."
+        )
+        return True
+    complain(
+        f"students' code is not run: this machine is {found}. Robot code is only read, and a "
+        "fit.py waits for you as ungradable. --in docker runs both in a container; --run runs "
+        "them here all the same."
+    )
     return False
 
 

@@ -15,5 +15,16 @@ What has to run as a whole program, as a robot does, is confined in the same way
 from grader.isolation.apart import Call, Limits, Outcome, level, run
 from grader.isolation.program import run_program
 from grader.isolation.received import Answer, one_line
+from grader.isolation.scratch import scratch_folder
 
-__all__ = ["Answer", "Call", "Limits", "Outcome", "level", "one_line", "run", "run_program"]
+__all__ = [
+    "Answer",
+    "Call",
+    "Limits",
+    "Outcome",
+    "level",
+    "one_line",
+    "run",
+    "run_program",
+    "scratch_folder",
+]

@@ -16,7 +16,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, cast
 
+from grader.isolation.landlock import SCOPE_ABI
 from grader.isolation.received import Answer, Received, receive
+from grader.isolation.scratch import scratch_folder
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,6 +30,7 @@ START = (
 )
 PYTHON = (sys.executable, "-I", "-S", "-B", "-X", "utf8", "-c")  # none of a user's own settings
 CONFINED = True  # False leaves only limits, as where a system has no more: to see that they do
+LANDLOCK_ABI: int | None = None  # at most; a number confines as an older kernel would, for tests
 KEPT = ("SYSTEMROOT", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH")  # without them no Python may start
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 UNTIL_READY = 60.0  # [s] for Python and numpy to load, which on a cold disk takes long
@@ -105,14 +108,15 @@ def run(
     """
     begin = time.monotonic()
     nonce = secrets.token_hex(16)
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as made:
-        given, work = Path(made, "given").resolve(), Path(made, "work").resolve()
+    with scratch_folder() as made:
+        given, work = made / "given", made / "work"
         given.mkdir()
         work.mkdir()
         orders = {
             "nonce": nonce,
             "root": str(ROOT),
             "confined": CONFINED,
+            "landlock_abi": LANDLOCK_ABI,
             "packages": places(packages),
             **_hand_over(source, calls, given),
             "limits": {
@@ -283,6 +287,10 @@ def _level(force: Mapping[str, object] | None) -> str:
     if force is None:
         return "not started"
     version, filtered = force.get("landlock"), force.get("seccomp") is True
+    if isinstance(version, int) and 0 < version < SCOPE_ABI and not filtered:
+        return (
+            f"limited: no files (Landlock ABI {version}); but it can stop other programs of yours"
+        )
     if version:
         calls = "system calls filtered" if filtered else "it may start processes"
         return f"isolated (Landlock ABI {version}, {calls})"

@@ -105,7 +105,10 @@ def confine(orders: Mapping[str, Any]) -> dict[str, object]:
         readable += [folder, folder.with_name(f"{folder.name}.libs")]
     hidden = HERE.parents[1]
     asked, confined = orders["limits"], orders["confined"]
-    landlock = confined and restrict(readable=readable, folder=Path.cwd(), hidden=hidden)
+    newest = orders["landlock_abi"]
+    landlock = confined and restrict(
+        readable=readable, folder=Path.cwd(), hidden=hidden, newest=newest
+    )
     limited = limit(**asked, processes=True)
     seccomp = confined and forbid()
     if not seccomp:  # a filter lets no process start; without it the limit does what it can

@@ -5,6 +5,7 @@ files are out of reach; what it finds out, it leaves in the folder it is started
 """
 
 import importlib.util
+import io
 import json
 import sys
 from pathlib import Path
@@ -17,6 +18,7 @@ def main() -> None:
     """Run the program that standard input asks for, as if it had been started itself."""
     orders = json.load(sys.stdin)
     close_input()
+    sys.stdin = io.StringIO(orders["stdin"])
     script = Path(orders["script"])
     for path in map(Path, orders["beside"]):
         sys.modules[path.stem] = _loaded(path)

@@ -39,18 +39,21 @@ def abi() -> int:
     return max(found, 0)
 
 
-def restrict(*, readable: Iterable[Path], folder: Path, hidden: Path) -> int:
+def restrict(
+    *, readable: Iterable[Path], folder: Path, hidden: Path, newest: int | None = None
+) -> int:
     """From here on this process reads only Python and ``readable``, and writes only ``folder``.
 
     Args:
         readable: files and folders besides Python's own library and the system's.
         folder: where it may make, change and remove files.
         hidden: a folder that stays unreadable even inside one of the libraries.
+        newest: the ABI to use at most, as on an older kernel; None uses all there is.
 
     Returns:
         The ABI in force; 0 if there is none.
     """
-    version = abi()
+    version = abi() if newest is None else min(abi(), newest)
     if not version:
         return 0
     call = ctypes.CDLL(None, use_errno=True).syscall

@@ -2,6 +2,7 @@
 
 import json
 import subprocess
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,7 +21,8 @@ def run_program(
     packages: Sequence[str],
     limits: Limits,
     beside: Sequence[Path] = (),
-) -> bool:
+    stdin: str = "",
+) -> tuple[bool, bytes]:
     """Run a Python program of ours that may read Python, some packages and what it is given.
 
     Args:
@@ -29,18 +31,21 @@ def run_program(
         folder: the only one it may write; empty, and what it leaves there may be a learner's work.
         given: a file, or a folder, that it may read.
         packages: which installed packages it may import.
-        limits: how much it may take; what it prints is dropped.
+        limits: how much it may take, and how much of its standard output is kept.
         beside: further files of ours that it imports by their names.
+        stdin: what it finds on its standard input.
 
     Returns:
-        Whether it ended by itself.
+        Whether it ended by itself, and the beginning of its standard output.
     """
     orders = {
         "script": str(script),
         "beside": [str(path) for path in beside if path != script],
         "arguments": list(arguments),
+        "stdin": stdin,
         "root": str(apart.ROOT),
         "confined": apart.CONFINED,
+        "landlock_abi": apart.LANDLOCK_ABI,
         "given": str(given),
         "packages": apart.places(packages),
         "limits": {
@@ -49,19 +54,22 @@ def run_program(
             "file": limits.file,
         },
     }
-    process = subprocess.Popen(  # noqa: S603 - our own Python and our own program
-        [*apart.PYTHON, START],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        cwd=folder,
-        env=apart.environment(folder),
-        start_new_session=True,
-    )
-    try:
-        process.communicate(json.dumps(orders).encode(), timeout=limits.seconds)
-    except subprocess.TimeoutExpired:
-        return False
-    finally:
-        apart.end(process)
-    return True
+    with tempfile.TemporaryFile() as stdout:
+        process = subprocess.Popen(  # noqa: S603 - our own Python and our own program
+            [*apart.PYTHON, START],
+            stdin=subprocess.PIPE,
+            stdout=stdout,
+            stderr=subprocess.DEVNULL,
+            cwd=folder,
+            env=apart.environment(folder),
+            start_new_session=True,
+        )
+        ended = True
+        try:
+            process.communicate(json.dumps(orders).encode(), timeout=limits.seconds)
+        except subprocess.TimeoutExpired:
+            ended = False
+        finally:
+            apart.end(process)
+        stdout.seek(0)
+        return ended, stdout.read(limits.prints)

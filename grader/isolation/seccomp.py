@@ -1,7 +1,8 @@
 """Seccomp: a Linux process gives up system calls, for good, unprivileged.
 
-Gone are new processes and programs, sockets, signals to others, a look into others, a change of
-anybody's rights, and the ways around Landlock, which knows no ``chmod``. Threads stay.
+Gone are new processes and programs, sockets, signals to others (by ``kill`` or by an owner of a
+file, ``F_SETOWN``), a look into others, a change of anybody's rights, and the ways around Landlock,
+which knows no ``chmod``. Threads stay.
 """
 
 import ctypes
@@ -19,8 +20,14 @@ CAPABILITY_VERSION = 0x20080522
 ANOTHER_TABLE = 0x40000000  # from here on x86-64 has the numbers of its other interface, x32
 
 LOAD, EQUAL, AT_LEAST, ANY_BIT, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
-NUMBER, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # [bytes] into what the filter is shown
+NUMBER, ARCHITECTURE = 0, 4  # [bytes] into what the filter is shown
+FIRST_ARGUMENT, SECOND_ARGUMENT = 16, 24  # [bytes] the same
 ALLOW, REFUSE, ABSENT = 0x7FFF0000, 0x50000 | errno.EPERM, 0x50000 | errno.ENOSYS
+
+# The kernel signals a file's owner when the file is ready, and any process can be made its owner.
+# Landlock stops that from ABI 6 (Linux 6.12) on only.
+FCNTL_OWNER = (8, 10, 15)  # F_SETOWN F_SETSIG F_SETOWN_EX
+IOCTL_OWNER = (0x8901, 0x8902)  # FIOSETOWN SIOCSPGRP
 
 
 @dataclass(frozen=True)
@@ -29,7 +36,7 @@ class Table:
 
     Args:
         architecture: how the filter is told which table a call is of.
-        clone, clone3, capset: their numbers.
+        clone, clone3, capset, fcntl, ioctl: their numbers.
         own: calls that are allowed on oneself only, whose first argument says whom they mean.
         refused: calls that are not allowed at all.
     """
@@ -38,6 +45,8 @@ class Table:
     clone: int
     clone3: int
     capset: int
+    fcntl: int
+    ioctl: int
     own: tuple[int, ...]
     refused: tuple[int, ...]
 
@@ -46,19 +55,19 @@ class Table:
 # setsid setpgid tkill rt_sigqueueinfo rt_tgsigqueueinfo pidfd_send_signal ptrace process_vm_readv
 # process_vm_writev io_uring_setup unshare setns keyctl bpf perf_event_open shmget msgget semget
 # mq_open truncate chmod fchmod fchmodat fchmodat2 chown fchown lchown fchownat setxattr lsetxattr
-# fsetxattr utime utimes utimensat setpriority ioprio_set. (ARM has no fork, vfork, chmod, chown,
-# lchown, utime, utimes.)
+# fsetxattr utime utimes utimensat setpriority ioprio_set pidfd_getfd. (ARM has no fork, vfork,
+# chmod, chown, lchown, utime, utimes.)
 TABLES = {
     "x86_64": Table(
-        0xC000003E, 56, 435, 126, (62, 234, 302, 203),
+        0xC000003E, 56, 435, 126, 72, 16, (62, 234, 302, 203),
         (57, 58, 59, 322, 41, 112, 109, 200, 129, 297, 424, 101, 310, 311, 425, 272, 308, 250,
          321, 298, 29, 68, 64, 240, 76, 90, 91, 268, 452, 92, 93, 94, 260, 188, 189, 190, 132,
-         235, 280, 141, 251),
+         235, 280, 141, 251, 438),
     ),
     "aarch64": Table(
-        0xC00000B7, 220, 435, 91, (129, 131, 261, 122),
+        0xC00000B7, 220, 435, 91, 25, 29, (129, 131, 261, 122),
         (221, 281, 198, 157, 154, 130, 138, 240, 424, 117, 270, 271, 425, 97, 268, 219, 280, 241,
-         194, 186, 190, 180, 45, 52, 53, 452, 55, 54, 5, 6, 7, 88, 140, 30),
+         194, 186, 190, 180, 45, 52, 53, 452, 55, 54, 5, 6, 7, 88, 140, 30, 438),
     ),
 }  # fmt: skip
 
@@ -104,4 +113,11 @@ def _steps(table: Table) -> Iterator[tuple[int, int, int, int]]:
         yield EQUAL, 1, 0, 0
         yield RETURN, 0, 0, REFUSE
         yield RETURN, 0, 0, ALLOW
+    for number, commands in ((table.fcntl, FCNTL_OWNER), (table.ioctl, IOCTL_OWNER)):
+        yield EQUAL, 0, len(commands) + 3, number
+        yield LOAD, 0, 0, SECOND_ARGUMENT
+        for left in range(len(commands), 0, -1):
+            yield EQUAL, left, 0, commands[-left]
+        yield RETURN, 0, 0, ALLOW
+        yield RETURN, 0, 0, REFUSE
     yield RETURN, 0, 0, ALLOW

@@ -9,20 +9,37 @@ holds the log that the robot wrote against what the bench saw. ``season`` knows 
 written for another year than the RobotPy that is installed, ``contradiction`` puts what the run
 showed into words.
 
+A learner's code shares its process with ``on_bench``. What keeps it from forging a run: the bench
+proves with a nonce that it came to its end (``apart``), and code that could find the nonce or
+change WPILib is refused before it is run (``tampering``).
+
 A run takes about a second, needs the extra ``robot``, and executes what the learner wrote: a copy
 of it (``given``), shut in as far as the system can (``apart.confined``). Whoever only wants to read
 never comes here.
 """
 
-import tempfile
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 
+from grader.isolation import scratch_folder
 from grader.robotcode.bench.apart import BENCH, BUTTONS, GIVEN, GRACE, Start, command, confined
 from grader.robotcode.bench.given import handed_over
 from grader.robotcode.bench.ran import Driven, Outcome, Press, Ran, Recorded
+from grader.robotcode.bench.tampering import refuse_tampering, simulation_awareness
 
-__all__ = ["SECONDS", "Driven", "Outcome", "Press", "Ran", "Recorded", "installed", "press", "run"]
+__all__ = [
+    "SECONDS",
+    "Driven",
+    "Outcome",
+    "Press",
+    "Ran",
+    "Recorded",
+    "installed",
+    "press",
+    "refuse_tampering",
+    "run",
+]
 
 SECONDS = 10.0  # [s] a run takes 0.5 s alone on a machine, and several on one that is busy
 
@@ -67,11 +84,12 @@ def _run(path: Path, name: str, script: Path, *, start: Start, seconds: float) -
         return Ran(Outcome.CANNOT, "RobotPy is not installed here")
     from grader.robotcode.bench.logged import told  # noqa: PLC0415 - needs NumPy
 
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
-        folder = Path(place).resolve() / "left"
+    with scratch_folder() as place:
+        folder = place / "left"
         folder.mkdir()
         copy = handed_over(path, folder.with_name(GIVEN))
         ended = start(
             command(copy, name, folder, seconds=seconds, script=script), folder, seconds + GRACE
         )
-        return told(folder, path, ended=ended, seconds=seconds)
+        found = told(folder, path, ended=ended, seconds=seconds)
+        return replace(found, aware=simulation_awareness(path))

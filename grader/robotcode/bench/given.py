@@ -1,6 +1,7 @@
 """What a run may read of a learner's: a copy of the program, and of nothing else beside it."""
 
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 SUFFIXES = {".py", ".json"}  # code, and what robot programs keep numbers in
@@ -21,15 +22,18 @@ def handed_over(path: Path, given: Path) -> Path:
     file = path.resolve()
     above = file.parent.parent
     (given / above.name / file.parent.name).mkdir(parents=True)
-    for number, found in enumerate(_belonging(file)):
-        if number == MOST:
-            break
+    for found in program_files(file):
         copy = given / above.name / found.relative_to(above)
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_bytes(found.read_bytes())
     copied = given / above.name / file.parent.name / path.name
     copied.write_bytes(file.read_bytes())
     return copied
+
+
+def program_files(path: Path) -> Iterator[Path]:
+    """The files that a run may read of the program in ``path``, ``MOST`` at most."""
+    return islice(_belonging(path.resolve()), MOST)
 
 
 def _belonging(file: Path) -> Iterator[Path]:

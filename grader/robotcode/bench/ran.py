@@ -103,6 +103,8 @@ class Ran:
         per_pulse: what the encoders count per pulse, in the program's own unit.
         lacking: why the log cannot be read; empty if it can.
         presses: the buttons that started a test, where buttons were pressed.
+        aware: where the program asks whether it is simulated, so that it may do something else on a
+            robot and the run shows nothing to be right; empty if nowhere.
     """
 
     outcome: Outcome
@@ -119,3 +121,4 @@ class Ran:
     per_pulse: tuple[float, ...] = ()
     lacking: str = ""
     presses: tuple[Press, ...] = ()
+    aware: str = ""
