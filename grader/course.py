@@ -8,6 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
 from grader.variant import student_name
 from sim.errors import BadRequest, Refusal
 
@@ -28,6 +29,23 @@ def find_course(start: Path) -> Path:
     raise BadRequest(
         f"{start} is not in a course folder",
         advice="Run this inside the course folder: the one that holds exercises and lessons.",
+    )
+
+
+def other_code(course: Path) -> str:
+    """What is to be said where a course folder holds other code than the one that is running.
+
+    The folder one stands in decides about exercises and lessons; grader and sim are those of the
+    installation that runs. Empty where the two are the same, or the folder holds no code.
+    """
+    own = [course / one.name for one in PACKAGES]
+    if not all((one / "__init__.py").is_file() for one in own) or own[0].samefile(PACKAGES[0]):
+        return ""
+    if fingerprint_packages(own) == fingerprint():
+        return ""
+    return (
+        f"the grader and sim that run are those in {PACKAGES[0].parent}, and {course} holds other "
+        "ones. To run those of the folder: python -m grader"
     )
 
 

@@ -142,10 +142,11 @@ def here(student: str | None) -> "tuple[Path, Progress, str]":
     Raises:
         BadRequest: there is no course here, or the name is none.
     """
-    from grader.course import find_course, load  # noqa: PLC0415 - --help has to start at once
+    from grader.course import find_course, load, other_code  # noqa: PLC0415 - --help must not wait
     from grader.variant import student_name  # noqa: PLC0415 - the same
 
     folder = find_course(Path.cwd())
+    _tell(other_code(folder))
     progress, said = load(folder)
     _tell(said)
     return folder, progress, progress.student if student is None else student_name(student)

@@ -71,7 +71,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
     from grader.classroom.roster import members  # noqa: PLC0415 - the same
     from grader.classroom.run import Class  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
-    from grader.course import find_course  # noqa: PLC0415 - the same
+    from grader.course import find_course, other_code  # noqa: PLC0415 - the same
 
     formats = exports()
     unknown = [one for one in wanted if one not in formats]
@@ -80,6 +80,8 @@ def class_(  # noqa: PLR0917 - click passes options by name
             f"there is no format {unknown[0]!r}", advice=f"Choose of: {', '.join(formats)}."
         )
     course = find_course(Path.cwd())
+    if said := other_code(course):
+        complain(said)
     asked = _asked(only, course)
     known = members(roster) if roster else None
     found = find_one(folder, asked, student=student) if student else None
