@@ -26,6 +26,7 @@ MODULES = {
     "class": "classroom",
     "doctor": "doctor",
     "edition": "edition",
+    "export": "export",
     "release": "release",
     "serve": "serve",
     "watch": "watch",
@@ -56,7 +57,7 @@ class ExerciseOrCommand(click.Group):
         formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
         formatter.write_usage("grade", "start [--no-lab] [--student NAME]")
         formatter.write_usage(
-            "grade", "watch | doctor | class FOLDER | release | serve FOLDER  [--help]"
+            "grade", "watch | doctor | class FOLDER | release | export | serve FOLDER  [--help]"
         )
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)

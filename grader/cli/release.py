@@ -10,7 +10,7 @@ from sim.command import DONE, NOT_RIGHT
 from sim.errors import BadRequest
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from sim.dataset.secret import Secret
 
@@ -59,7 +59,7 @@ def release(  # noqa: PLR0917 - click passes options by name
 
     course = find_course(Path.cwd())
     if secret:
-        refuse_secret_inside(secret, course=course, output=output)
+        refuse_secret_inside(secret, {"folder of the packages": output, "course folder": course})
     kept = find_secret(secret, make=True) if roster else find_secret(secret, make=False)
     return _release(course, output, roster, kept, name=name, processes=processes)
 
@@ -67,19 +67,18 @@ def release(  # noqa: PLR0917 - click passes options by name
 COMMAND = release
 
 
-def refuse_secret_inside(secret: Path, *, course: Path, output: Path) -> None:
+def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
     """Refuse a secret that lies where students' files are taken from or written to.
 
     Args:
-        secret: its file; a link counts as the place it leads to.
-        course: the course folder.
-        output: the folder of the packages.
+        secret: its file; a link counts as well as the place it leads to.
+        folders: what a folder is called -> the folder.
 
     Raises:
         BadRequest: it lies in one of them.
     """
-    for name, folder in (("folder of the packages", output), ("course folder", course)):
-        places = (secret.resolve(), secret.parent.resolve() / secret.name)  # a link, and its end
+    places = (secret.resolve(), secret.parent.resolve() / secret.name)
+    for name, folder in folders.items():
         if any(place.is_relative_to(folder.resolve()) for place in places):
             raise BadRequest(
                 f"the secret lies in the {name}, and would be given away with it",
@@ -127,11 +126,11 @@ def _release(
     packed = bundle(course)
     value = secret.value if secret else b""
     packages = [Package(student, value, name, packed) for student in students]
-    _put(output / "course.zip", everybody)
+    put(output / "course.zip", everybody)
     with bar("students", len(packages)) as (step, _):
         made = done_here(own, packages, processes=processes or cores(), worth=WORTH)
         for student, content in made:
-            _put(output / "students" / f"{folder_name(student)}.zip", content)
+            put(output / "students" / f"{folder_name(student)}.zip", content)
             step()
     show([line(f"{output / 'course.zip'}: for everybody, {len(everybody) / 1e6:.1f} MB")])
     if students:
@@ -140,7 +139,12 @@ def _release(
     return DONE
 
 
-def _put(path: Path, content: bytes) -> None:
+def put(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all.
+
+    Raises:
+        BadRequest: it cannot be written.
+    """
     part = path.with_name(f"{path.name}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
