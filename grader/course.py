@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
+from grader.issued import PLACE as ISSUED
 from grader.variant import student_name
 from sim.errors import BadRequest, Refusal
 
@@ -20,12 +21,19 @@ def find_course(start: Path) -> Path:
     """The course folder that ``start`` lies in, else the one this package lies in.
 
     Raises:
-        BadRequest: there is none; the message says where to run the command.
+        BadRequest: there is none, or only a student's own numbers are there; the message says what
+            to do.
     """
     here = Path(__file__).resolve().parent.parent
     for folder in (start, *start.parents, here):
         if (folder / "exercises").is_dir() and (folder / "lessons").is_dir():
             return folder
+        if (folder / ISSUED).is_file():
+            raise BadRequest(
+                "your numbers are here, and the course is not",
+                where=str(folder),
+                advice="Unpack your class's course.zip where you unpacked your own zip file.",
+            )
     raise BadRequest(
         f"{start} is not in a course folder",
         advice="Run this inside the course folder: the one that holds exercises and lessons.",

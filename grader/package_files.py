@@ -213,7 +213,7 @@ def strip_notebook(content: bytes, *, name: str) -> bytes:
     """
     try:
         raw = json.loads(content)
-        cells = [_strip_cell(cell) for cell in raw["cells"]]
+        cells = [_strip_cell(cell) for cell in raw["cells"] if "".join(cell["source"]).strip()]
     except (ValueError, TypeError, LookupError, AttributeError):
         raise BadRequest(
             "the notebook was edited (its cells are not those of the lesson's .py), and students "

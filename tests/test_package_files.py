@@ -153,6 +153,8 @@ def test_a_notebook_that_was_run_is_packed_as_it_was_derived(course):
         if cell["cell_type"] == "code":
             cell["execution_count"] = 7
             cell["outputs"] = [{"name": "stdout", "output_type": "stream", "text": ["private"]}]
+    blank = {"cell_type": "code", "id": "new", "metadata": {}, "source": [], "outputs": []}
+    notebook["cells"].append(blank)  # Jupyter adds one after the last cell was run
     path.write_text(json.dumps(notebook), encoding="utf-8")
 
     assert select_package_files(course).files["lessons/01_motor_model.ipynb"] == derived
