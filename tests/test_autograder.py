@@ -116,6 +116,7 @@ def test_a_roster_names_the_student_and_a_secret_draws_the_numbers(root, export,
         "--secret", str(tmp_path / "class.secret"),
     )  # fmt: skip
     warned = capsys.readouterr().err
+    assert (tmp_path / "autograder.zip").stat().st_mode & 0o077 == 0
     with of_class(SECRET):
         answers = perfect(root, "exercise1", "zoë", tmp_path / "copy")
     for file, text in answers.items():

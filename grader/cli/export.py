@@ -13,6 +13,7 @@ from sim.errors import BadRequest
 if TYPE_CHECKING:
     from grader.exercise import Exercise
 
+OWNER_ONLY = 0o600  # of a zip file with a roster or a secret in it
 ONLY = click.option(
     "--exercise", "only", multiple=True, help="Only this exercise; may be repeated."
 )
@@ -64,6 +65,8 @@ def gradescope(
     listed = roster.read_bytes() if roster else None
     names = tuple(one.name for one in asked)
     put(output, pack_gradescope(Gradescope(chosen.files, names, student_from, listed, value)))
+    if value is not None or listed is not None:
+        output.chmod(OWNER_ONLY)
     _tell_gradescope(asked, output, with_secret=value is not None)
     return DONE
 
