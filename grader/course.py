@@ -8,6 +8,8 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
+from grader.issued import PLACE as ISSUED
 from grader.variant import student_name
 from sim.errors import BadRequest, Refusal
 
@@ -19,15 +21,39 @@ def find_course(start: Path) -> Path:
     """The course folder that ``start`` lies in, else the one this package lies in.
 
     Raises:
-        BadRequest: there is none; the message says where to run the command.
+        BadRequest: there is none, or only a student's own numbers are there; the message says what
+            to do.
     """
     here = Path(__file__).resolve().parent.parent
     for folder in (start, *start.parents, here):
         if (folder / "exercises").is_dir() and (folder / "lessons").is_dir():
             return folder
+        if (folder / ISSUED).is_file():
+            raise BadRequest(
+                "your numbers are here, and the course is not",
+                where=str(folder),
+                advice="Unpack your class's course.zip where you unpacked your own zip file.",
+            )
     raise BadRequest(
         f"{start} is not in a course folder",
         advice="Run this inside the course folder: the one that holds exercises and lessons.",
+    )
+
+
+def other_code(course: Path) -> str:
+    """What is to be said where a course folder holds other code than the one that is running.
+
+    The folder one stands in decides about exercises and lessons; grader and sim are those of the
+    installation that runs. Empty where the two are the same, or the folder holds no code.
+    """
+    own = [course / one.name for one in PACKAGES]
+    if not all((one / "__init__.py").is_file() for one in own) or own[0].samefile(PACKAGES[0]):
+        return ""
+    if fingerprint_packages(own) == fingerprint():
+        return ""
+    return (
+        f"the grader and sim that run are those in {PACKAGES[0].parent}, and {course} holds other "
+        "ones. To run those of the folder: python -m grader"
     )
 
 

@@ -7,7 +7,7 @@ students/NAME.zip        to be unpacked over it: data drawn and sealed with the 
 import io
 import tempfile
 import zipfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,11 +17,8 @@ from grader.classroom.bundle import Bundle
 from grader.classroom.secret import identity_seal, seal
 from grader.exercise import exercises
 from grader.issued import PLACE, Issued
+from grader.package_files import select_package_files
 from grader.variant import folder_name, of_class
-from sim.errors import BadRequest
-
-TOPS = ("LICENSE", "README.md", "exercises", "grader", "lessons", "pyproject.toml", "sim")
-MADE = {"__pycache__", ".ipynb_checkpoints"}  # by Python and Jupyter
 
 
 @dataclass(frozen=True)
@@ -49,32 +46,9 @@ def common(course: Path) -> bytes:
     """The zip file for everybody.
 
     Raises:
-        BadRequest: this is not the whole course.
+        BadRequest: this is not the whole course, or a starter is not as it was written.
     """
-    missing = [name for name in TOPS if not (course / name).exists()]
-    if missing:
-        raise BadRequest(
-            f"{missing[0]} is missing: this is not the whole course",
-            where=str(course),
-            advice="Run this in the folder the course was fetched into.",
-        )
-    return _zipped(
-        {
-            f"course/{path.relative_to(course).as_posix()}": path.read_bytes()
-            for top in TOPS
-            for path in _files(course / top)
-            if not _left_out(path.relative_to(course))
-        }
-    )
-
-
-def _files(top: Path) -> Iterable[Path]:
-    return [top] if top.is_file() else sorted(path for path in top.rglob("*") if path.is_file())
-
-
-def _left_out(path: Path) -> bool:
-    """Whether a file was made here: somebody's own data, or by Python."""
-    return bool(MADE & {*path.parts}) or (path.parts[0] == "exercises" and "data" in path.parts)
+    return zip_files(select_package_files(course).files)
 
 
 def own(package: Package) -> tuple[str, bytes]:
@@ -104,15 +78,16 @@ def own(package: Package) -> tuple[str, bytes]:
         PLACE.as_posix(): tomlkit.dumps({**identity, "sealed": sealed}).encode(),
         **dict.fromkeys(sorted(beside), tomlkit.dumps(identity).encode()),
     }
-    return package.student, _zipped({f"course/{name}": text for name, text in files.items()})
+    return package.student, zip_files(files)
 
 
-def _zipped(files: Mapping[str, bytes]) -> bytes:
-    """A zip file; the same files give the same bytes."""
+def zip_files(files: Mapping[str, bytes]) -> bytes:
+    """A zip file with one folder, ``course``; the same files give the same bytes."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():
-            archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED)
+            info = zipfile.ZipInfo(f"course/{name}")  # its time is always 1980
+            archive.writestr(info, content, zipfile.ZIP_DEFLATED)
     return stream.getvalue()
 
 

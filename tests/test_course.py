@@ -95,6 +95,15 @@ def test_outside_a_course_it_uses_the_one_it_belongs_to(tmp_path):
     assert find_course(tmp_path) == ROOT
 
 
+def test_where_only_a_students_numbers_are_unpacked_no_other_course_is_taken(tmp_path):
+    (tmp_path / "exercises" / "exercise1").mkdir(parents=True)
+    (tmp_path / ".course").mkdir()
+    (tmp_path / ".course" / "class.toml").write_text("", encoding="utf-8")
+
+    with pytest.raises(BadRequest, match=r"the course is not. Unpack your class's course.zip"):
+        find_course(tmp_path / "exercises" / "exercise1")
+
+
 def test_a_student_who_is_someone_else_is_somewhere_else():
     names = ["ann", "a.nn", "ann ", "con", "a:b", "a*b", "ä", "😀", "x" * 64, "..", "a.", "Straße"]
     folders = {folder_name(name) for name in names}

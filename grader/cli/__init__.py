@@ -26,6 +26,7 @@ MODULES = {
     "class": "classroom",
     "doctor": "doctor",
     "edition": "edition",
+    "export": "export",
     "release": "release",
     "serve": "serve",
     "watch": "watch",
@@ -56,7 +57,7 @@ class ExerciseOrCommand(click.Group):
         formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
         formatter.write_usage("grade", "start [--no-lab] [--student NAME]")
         formatter.write_usage(
-            "grade", "watch | doctor | class FOLDER | release | serve FOLDER  [--help]"
+            "grade", "watch | doctor | class FOLDER | release | export | serve FOLDER  [--help]"
         )
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)
@@ -144,10 +145,11 @@ def here(student: str | None) -> "tuple[Path, Progress, str]":
     Raises:
         BadRequest: there is no course here, or the name is none.
     """
-    from grader.course import find_course, load  # noqa: PLC0415 - --help has to start at once
+    from grader.course import find_course, load, other_code  # noqa: PLC0415 - --help must not wait
     from grader.issued import learner  # noqa: PLC0415 - the same
 
     folder = find_course(Path.cwd())
+    _tell(other_code(folder))
     progress, said = load(folder)
     _tell(said)
     return folder, progress, learner(folder, known=progress.student, student=student)

@@ -77,11 +77,13 @@ def class_(  # noqa: PLR0917 - click passes options by name
     from grader.classroom.roster import members  # noqa: PLC0415 - the same
     from grader.classroom.run import Class  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
-    from grader.course import find_course  # noqa: PLC0415 - the same
+    from grader.course import find_course, other_code  # noqa: PLC0415 - the same
 
     known = members(roster) if roster else None
     formats = chosen(wanted, roster=known)
     course = find_course(Path.cwd())
+    if said := other_code(course):
+        complain(said)
     out = output or folder.with_name(f"{folder.resolve().name.removesuffix('.zip')}-graded")
     if engine:
         from grader.classroom.container import grade_in_container  # noqa: PLC0415 - the same

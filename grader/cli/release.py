@@ -10,9 +10,12 @@ from sim.command import DONE, NOT_RIGHT
 from sim.errors import BadRequest
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from sim.dataset.secret import Secret
 
 PATH = click.Path(path_type=Path)
+NAMED = 8  # files left out that are named
 WORTH = 3  # [students] that a further process has to save, to be worth its start
 
 
@@ -52,44 +55,82 @@ def release(  # noqa: PLR0917 - click passes options by name
             "numbers for a class need a secret",
             advice="Name a file for it outside the packages: --secret class.secret",
         )
-    if secret and secret.resolve().is_relative_to(output.resolve()):
-        raise BadRequest(
-            "the secret lies in the folder of the packages, and would be given away with them",
-            where=str(secret),
-            advice="Name another place with --secret.",
-        )
-    kept = find_secret(secret, make=True) if roster else None
-    return _release(output, roster, kept, name=name, processes=processes)
+    from grader.course import find_course  # noqa: PLC0415 - --help must not wait for it
+
+    course = find_course(Path.cwd())
+    if secret:
+        refuse_secret_inside(secret, {"folder of the packages": output, "course folder": course})
+    kept = find_secret(secret, make=True) if roster else find_secret(secret, make=False)
+    return _release(course, output, roster, kept, name=name, processes=processes)
 
 
 COMMAND = release
 
 
+def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
+    """Refuse a secret that lies where students' files are taken from or written to.
+
+    Args:
+        secret: its file; a link counts as well as the place it leads to.
+        folders: what a folder is called -> the folder.
+
+    Raises:
+        BadRequest: it lies in one of them.
+    """
+    places = (secret.resolve(), secret.parent.resolve() / secret.name)
+    for name, folder in folders.items():
+        if any(place.is_relative_to(folder.resolve()) for place in places):
+            raise BadRequest(
+                f"the secret lies in the {name}, and would be given away with it",
+                where=str(secret),
+                advice=f"Keep it outside: --secret {Path('..') / secret.name}",
+            )
+
+
+def tell_left_out(left_out: "Sequence[str]") -> None:
+    """Say which files of the course folder students do not get."""
+    if left_out:
+        more = f" and {len(left_out) - NAMED} more" if len(left_out) > NAMED else ""
+        complain(f"left out, as no part of the course: {', '.join(left_out[:NAMED])}{more}")
+
+
 def _release(
-    output: Path, roster: Path | None, secret: "Secret | None", *, name: str, processes: int | None
+    course: Path,
+    output: Path,
+    roster: Path | None,
+    secret: "Secret | None",
+    *,
+    name: str,
+    processes: int | None,
 ) -> int:
     from grader.classroom.bundle import bundle  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.roster import members  # noqa: PLC0415 - the same
-    from grader.course import find_course  # noqa: PLC0415 - the same
-    from grader.release import Package, common, own  # noqa: PLC0415 - the same
+    from grader.course import other_code  # noqa: PLC0415 - the same
+    from grader.package_files import select_package_files  # noqa: PLC0415 - the same
+    from grader.release import Package, own, zip_files  # noqa: PLC0415 - the same
     from grader.variant import folder_name  # noqa: PLC0415 - the same
     from sim.work.bar import bar  # noqa: PLC0415 - the same
     from sim.work.here import cores, done_here  # noqa: PLC0415 - the same
 
-    course = find_course(Path.cwd())
     students = tuple(members(roster).rows) if roster else ()
-    everybody = common(course)
+    said = other_code(course)
+    if said:
+        complain(said)
+    chosen = select_package_files(course)
+    chosen.refuse_secret(secret.value if secret else b"")
+    tell_left_out(chosen.left_out)
+    everybody = zip_files(chosen.files)
     if secret and secret.new:
         secret.keep()
         complain(f"{secret.new}: a new secret. Keep it, and keep it to yourself.")
     packed = bundle(course)
     value = secret.value if secret else b""
     packages = [Package(student, value, name, packed) for student in students]
-    _put(output / "course.zip", everybody)
+    put(output / "course.zip", everybody)
     with bar("students", len(packages)) as (step, _):
         made = done_here(own, packages, processes=processes or cores(), worth=WORTH)
         for student, content in made:
-            _put(output / "students" / f"{folder_name(student)}.zip", content)
+            put(output / "students" / f"{folder_name(student)}.zip", content)
             step()
     show([line(f"{output / 'course.zip'}: for everybody, {len(everybody) / 1e6:.1f} MB")])
     if students:
@@ -98,7 +139,12 @@ def _release(
     return DONE
 
 
-def _put(path: Path, content: bytes) -> None:
+def put(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all.
+
+    Raises:
+        BadRequest: it cannot be written.
+    """
     part = path.with_name(f"{path.name}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,0 +1,165 @@
+"""Autograders for other people's systems: Gradescope's zip file, a workflow for GitHub Classroom.
+
+autograder.zip, as Gradescope asks for it:
+
+    setup.sh                     builds the image
+    run_autograder               grades one submission
+    settings.sh                  what is graded, and by what students are told apart
+    requirements.txt             packages from PyPI; requirements-robot.txt, to run robot code
+    course/                      what students get: no solutions
+    roster.csv, class.secret     only where asked for
+"""
+
+import io
+import re
+import shlex
+import tomllib
+import zipfile
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+SCRIPTS = ("setup.sh", "run_autograder")
+ONLY_LESSONS = {"ipywidgets", "jupyterlab"}  # packages that grading does not need
+SECONDS_ALLOWED = 540  # [s] of the ten minutes that Gradescope allows unless told otherwise
+OWNER_ONLY = {"class.secret", "roster.csv"}
+EXECUTABLE, READABLE, PRIVATE = 0o755, 0o644, 0o600
+
+
+@dataclass(frozen=True)
+class Gradescope:
+    """What Gradescope's autograder is made of.
+
+    Args:
+        course: path in the course folder -> content: what students get.
+        exercises: names of those that are graded.
+        student_from: what tells students apart: ``email``, ``name`` or ``sid``.
+        roster: content of the class's roster; None where there is none.
+        secret: of the class; None where everybody's numbers are those of self-study.
+    """
+
+    course: Mapping[str, bytes]
+    exercises: tuple[str, ...]
+    student_from: str
+    roster: bytes | None = None
+    secret: bytes | None = None
+
+    def __repr__(self) -> str:
+        """Without the secret: a message may hold this."""
+        return f"Gradescope({self.exercises!r})"
+
+
+def pack_gradescope(given: Gradescope) -> bytes:
+    """The zip file to be uploaded as Gradescope's autograder; the same input, the same bytes."""
+    here = Path(__file__).resolve().parent
+    settings = {
+        "EXERCISES": " ".join(given.exercises),
+        "STUDENT_FROM": given.student_from,
+        "SECONDS_ALLOWED": str(SECONDS_ALLOWED),
+    }
+    plain, robot = _requirements(given.course["pyproject.toml"])
+    files = {name: (here / name).read_bytes().replace(b"\r\n", b"\n") for name in SCRIPTS}
+    files |= {
+        "settings.sh": _lines(f"{name}={shlex.quote(value)}" for name, value in settings.items()),
+        "requirements.txt": _lines(plain),
+        "requirements-robot.txt": _lines(robot),
+        **{f"course/{name}": content for name, content in given.course.items()},
+    }
+    if given.roster is not None:
+        files["roster.csv"] = given.roster
+    if given.secret is not None:
+        files["class.secret"] = given.secret + b"\n"
+    return _zipped(files)
+
+
+def _lines(lines: Iterable[str]) -> bytes:
+    return "".join(f"{line}\n" for line in lines).encode()
+
+
+def _requirements(pyproject: bytes) -> tuple[list[str], list[str]]:
+    """What to install from PyPI: always, and to run robot code."""
+    project = tomllib.loads(pyproject.decode())["project"]
+    plain = [
+        one
+        for one in project["dependencies"]
+        if (name := re.match(r"[\w.-]+", one)) and name[0] not in ONLY_LESSONS
+    ]
+    return plain, list(project["optional-dependencies"]["robot"])
+
+
+def _zipped(files: Mapping[str, bytes]) -> bytes:
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in files.items():
+            info = zipfile.ZipInfo(name)  # its time is always 1980
+            info.create_system = 3  # Unix, wherever it is packed: it keeps who may run a file
+            mode = EXECUTABLE if name in SCRIPTS else PRIVATE if name in OWNER_ONLY else READABLE
+            info.external_attr = mode << 16
+            archive.writestr(info, content, zipfile.ZIP_DEFLATED)
+    return stream.getvalue()
+
+
+WORKFLOW = """\
+# Made by: grade export github. Put it into the students' repository: .github/workflows/grade.yml
+#
+# Students can change this file, and the checks in their repository. It tells them how far they
+# are; for marks, grade what they handed in on a machine of yours: grade class --help
+name: grade
+on:
+  push:
+  workflow_dispatch:
+permissions:
+  contents: read
+  checks: write
+jobs:
+  grade:
+    if: github.actor != 'github-classroom[bot]'
+    runs-on: ubuntu-24.04
+    timeout-minutes: 20
+    steps:
+      - uses: actions/checkout@v4
+        with:
+          persist-credentials: false
+      - uses: actions/setup-python@v5
+        with:
+          python-version: "3.12"
+      - name: Install the course
+        run: python -m pip install --quiet --editable .
+{steps}\
+      - name: Show the points
+        if: ${{{{ !cancelled() }}}}
+        uses: classroom-resources/autograding-grading-reporter@v1
+        env:
+{results}\
+        with:
+          runners: {runners}
+"""
+STEP = """\
+      - name: {name}
+        id: {name}
+        if: ${{{{ !cancelled() }}}}
+        env:
+          STUDENT: ${{{{ github.actor }}}}
+        run: |
+          code=0
+          grade class exercises/{name} --student "$STUDENT" --exercise {name} \\
+            --export github --output "$RUNNER_TEMP/{name}" || code=$?
+          if [ "$code" -gt 1 ]; then exit "$code"; fi
+          cat "$RUNNER_TEMP/{name}"/github/*.txt >> "$GITHUB_OUTPUT"
+"""
+RESULT = """\
+          {upper}_RESULTS: ${{{{ steps.{name}.outputs.result }}}}
+"""
+
+
+def make_workflow(exercises: Sequence[str]) -> str:
+    """A workflow for GitHub Classroom: one step for each exercise, and the points of all.
+
+    Args:
+        exercises: names of those that are graded.
+    """
+    return WORKFLOW.format(
+        steps="".join(STEP.format(name=name) for name in exercises),
+        results="".join(RESULT.format(name=name, upper=name.upper()) for name in exercises),
+        runners=",".join(exercises),
+    )

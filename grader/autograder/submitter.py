@@ -1,0 +1,75 @@
+"""Who handed in, as Gradescope says it: run inside the autograder, prints the student's name."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from grader.variant import student_name
+from sim.errors import BadRequest, Refusal
+
+KEYS = ("email", "name", "sid")
+
+
+def find_submitter(metadata: Path, *, by: str, roster: Path | None) -> str:
+    """The student's name, on whom their numbers depend.
+
+    Args:
+        metadata: Gradescope's ``submission_metadata.json``.
+        by: which of ``KEYS`` tells students apart.
+        roster: CSV file of the class; the student is the row that holds what ``by`` says.
+            None takes what ``by`` says for the name.
+
+    Raises:
+        BadRequest: the file cannot be read, says nothing there, or nobody on the roster fits.
+    """
+    try:
+        users = json.loads(metadata.read_text(encoding="utf-8"))["users"]
+        found = str(users[0].get(by) or "").strip()
+    except (OSError, ValueError, TypeError, LookupError, AttributeError):
+        raise BadRequest(
+            "it does not say who handed in",
+            where=str(metadata),
+            advice="Run this as Gradescope does.",
+        ) from None
+    if not found:
+        raise BadRequest(
+            f"the student has no {by}",
+            where=str(metadata),
+            advice="Export the autograder anew with another --student-from.",
+        )
+    return student_name(found) if roster is None else _on_roster(found, roster)
+
+
+def _on_roster(found: str, roster: Path) -> str:
+    from grader.classroom.roster import members  # noqa: PLC0415 - only where there is a roster
+
+    for student, row in members(roster).rows.items():
+        if found.casefold() in {cell.strip().casefold() for cell in row.values()}:
+            return student
+    raise BadRequest(
+        f"nobody on the roster is {found!r}",
+        where=roster.name,
+        advice="Add the student, and export the autograder anew.",
+    )
+
+
+def main(arguments: list[str]) -> int:
+    """Print the student's name; exit code 2 and one line on standard error where there is none."""
+    parser = argparse.ArgumentParser(prog="submitter")
+    parser.add_argument("metadata", type=Path)
+    parser.add_argument("--by", choices=KEYS, required=True)
+    parser.add_argument("--roster", type=Path)
+    given = parser.parse_args(arguments)
+    try:
+        name = find_submitter(given.metadata, by=given.by, roster=given.roster)
+    except Refusal as refusal:
+        sys.stderr.write(f"autograder: {refusal}\n")
+        return 2
+    sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]  # a text stream, always
+    sys.stdout.write(f"{name}\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

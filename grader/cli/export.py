@@ -1,0 +1,131 @@
+"""``grade export``: what other people's systems need to grade with this course."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from grader.cli.release import PATH, put, refuse_secret_inside, tell_left_out
+from grader.terminal import complain, line, show
+from sim.command import DONE
+from sim.errors import BadRequest
+
+if TYPE_CHECKING:
+    from grader.exercise import Exercise
+
+OWNER_ONLY = 0o600  # of a zip file with a roster or a secret in it
+ONLY = click.option(
+    "--exercise", "only", multiple=True, help="Only this exercise; may be repeated."
+)
+
+
+@click.group()
+def export() -> None:
+    """Make what another system needs to grade: Gradescope, GitHub Classroom."""
+
+
+COMMAND = export
+
+
+@export.command()
+@click.option("-o", "--output", type=PATH, required=True, help="The zip file: autograder.zip.")
+@ONLY
+@click.option(
+    "--student-from",
+    type=click.Choice(["email", "name", "sid"]),
+    default="email",
+    show_default=True,
+    help="What Gradescope knows that names a student.",
+)
+@click.option("--roster", type=PATH, help="CSV file; the student is the row that holds that.")
+@click.option("--secret", type=PATH, help="File of the class's secret. It travels in the zip file.")
+def gradescope(
+    output: Path, only: tuple[str, ...], student_from: str, roster: Path | None, secret: Path | None
+) -> int:
+    """Make Gradescope's autograder: a zip file to be uploaded there.
+
+    It holds the course without solutions. Make one for each assignment: Gradescope puts uploaded
+    files beside one another, and an answers.toml can only belong to one exercise.
+    """
+    from grader.autograder import Gradescope, pack_gradescope  # noqa: PLC0415 - --help must not wait
+    from grader.classroom.roster import members  # noqa: PLC0415 - the same
+    from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
+    from grader.package_files import select_package_files  # noqa: PLC0415 - the same
+
+    course, asked = _asked(only)
+    if secret is not None:
+        refuse_secret_inside(secret, {"course folder": course})
+    kept = find_secret(secret, make=False) if secret else None
+    if roster is not None:
+        members(roster)  # what is wrong with it is said here, and not on Gradescope
+    chosen = select_package_files(course)
+    chosen.refuse_secret(kept.value if kept else b"")
+    tell_left_out(chosen.left_out)
+    value = kept.value if kept else None
+    listed = roster.read_bytes() if roster else None
+    names = tuple(one.name for one in asked)
+    put(output, pack_gradescope(Gradescope(chosen.files, names, student_from, listed, value)))
+    if value is not None or listed is not None:
+        output.chmod(OWNER_ONLY)
+    _tell_gradescope(asked, output, with_secret=value is not None)
+    return DONE
+
+
+def _tell_gradescope(asked: "tuple[Exercise, ...]", output: Path, *, with_secret: bool) -> None:
+    if with_secret:
+        complain(
+            f"{output} holds your class's secret. Code of students runs in Gradescope's container; "
+            "where that cannot be shut in (the autograder's output says so), it can read the "
+            "secret, and then anybody's numbers. Upload it nowhere else"
+        )
+    elif any(one.personal for one in asked):
+        complain(
+            "without --secret, numbers depend on the student's name alone; if you released with a "
+            "roster, students have others, and right answers would be marked wrong"
+        )
+    if len(asked) > 1:
+        complain(
+            f"{len(asked)} exercises in one autograder: students have to hand in a zip file with "
+            "a folder for each. For single files, make one for each exercise: --exercise 9"
+        )
+    show([line(f"{output}: upload it to Gradescope, under Configure Autograder")])
+
+
+@export.command()
+@click.option("-o", "--output", type=PATH, required=True, help=".github/workflows/grade.yml")
+@ONLY
+def github(output: Path, only: tuple[str, ...]) -> int:
+    """Make a workflow for GitHub Classroom: it grades at each push, and shows the points.
+
+    It belongs into the repository that students start from, beside an unpacked course.zip. Numbers
+    there depend on the GitHub name alone: grade start --student GITHUB-NAME.
+    """
+    from grader.autograder import make_workflow  # noqa: PLC0415 - --help must not wait for it
+
+    _, asked = _asked(only)
+    put(output, make_workflow([one.name for one in asked]).encode())
+    show([line(f"{output}: for the repository that students start from")])
+    return DONE
+
+
+def _asked(only: tuple[str, ...]) -> "tuple[Path, tuple[Exercise, ...]]":
+    """The course folder, and the exercises asked for.
+
+    Raises:
+        BadRequest: there is no such exercise, or none at all.
+    """
+    from grader.course import find_course, other_code  # noqa: PLC0415 - --help must not wait for it
+    from grader.exercise import exercises, find  # noqa: PLC0415 - the same
+
+    course = find_course(Path.cwd())
+    if said := other_code(course):
+        complain(said)
+    names = {find(one, course).name for one in only}
+    asked = tuple(one for one in exercises(course) if not only or one.name in names)
+    if not asked:
+        raise BadRequest(
+            "there are no exercises here",
+            where=str(course),
+            advice="Run this in the folder the course was fetched into.",
+        )
+    return course, asked

@@ -1,0 +1,261 @@
+"""The files of a course that students get, chosen from a list and never by what lies about.
+
+An instructor's course folder also holds solved exercises, notes, and what students handed in. A
+file is packed if it is
+
+    exercises/starters.toml and what it lists     the starters, as their authors wrote them
+    README.md, hints.toml and checks.py           of an exercise, and the modules checks.py imports
+    lessons/NAME.py and lessons/NAME.ipynb        a notebook as it was derived, without outputs
+    grader/ and sim/                              their Python files and page templates
+    README.md, LICENSE, pyproject.toml            of the course
+
+Everything else stays out and is named, so that nobody misses a file without knowing why.
+"""
+
+import ast
+import hashlib
+import json
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.exercise import Exercise, exercises
+from grader.fingerprint import PACKAGES
+from sim.errors import BadRequest
+
+TOPS = ("LICENSE", "README.md", "pyproject.toml")
+FOLDERS = ("exercises", "lessons")
+STARTERS = "exercises/starters.toml"
+AUTHORED = ("README.md", "hints.toml")  # of an exercise, besides checks.py and its modules
+SOURCES = (".py", ".html", ".jinja", "example.toml", "setup.sh", "run_autograder")  # of packages
+MADE = {"__pycache__", "data", "build", "dist"}  # by Python, and a learner's own data
+IGNORED = {"Thumbs.db", "desktop.ini"}  # by Windows
+KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
+ID = 12  # [characters] of a cell's digest that name it: see .ci/derive_notebooks.py
+
+
+@dataclass(frozen=True)
+class PackageFiles:
+    """What students get of a course.
+
+    Args:
+        files: path in the course folder -> content, in the order of the paths.
+        left_out: files of exercises, lessons, grader and sim that are not part of the course.
+    """
+
+    files: dict[str, bytes]
+    left_out: tuple[str, ...]
+
+    def refuse_secret(self, secret: bytes) -> None:
+        """Refuse to pack a class's secret.
+
+        Args:
+            secret: of the class; empty if there is none.
+
+        Raises:
+            BadRequest: a file holds it.
+        """
+        for name, content in self.files.items():
+            if secret and secret in content:
+                raise BadRequest(
+                    "this file holds the class's secret, and would give it away",
+                    where=name,
+                    advice="Take the secret out of it.",
+                )
+
+
+def select_package_files(course: Path) -> PackageFiles:
+    """The files of a course that students get.
+
+    Args:
+        course: the course folder. Where it holds no grader/ or sim/, those of the running
+            installation are taken.
+
+    Raises:
+        BadRequest: it is not the whole course, or a starter or a notebook is not as it was written.
+    """
+    missing = [name for name in (*TOPS, *FOLDERS, STARTERS) if not (course / name).exists()]
+    if missing:
+        raise BadRequest(
+            f"{missing[0]} is missing: this is not the whole course",
+            where=str(course),
+            advice="Run this in the folder the course was fetched into.",
+        )
+    listed = _read_starters(course)
+    chosen = {name: course / name for name in (*TOPS, STARTERS)}
+    for one in exercises(course):
+        chosen |= {path.relative_to(course).as_posix(): path for path in _exercise_files(one)}
+    chosen |= {name: course / name for name in listed}
+    chosen |= {path.relative_to(course).as_posix(): path for path in _lesson_files(course)}
+    packages = {one.name: _package_folder(course, one) for one in PACKAGES}
+    for name, folder in packages.items():
+        chosen |= {
+            f"{name}/{path.relative_to(folder).as_posix()}": path
+            for path in _all_files(folder)
+            if path.name.endswith(SOURCES)
+        }
+    chosen = {name: path for name, path in chosen.items() if not path.is_symlink()}
+    files = {name: _content(name, chosen[name]) for name in sorted(chosen)}
+    _refuse_changed(files, listed, course)
+    there = {
+        path.relative_to(course).as_posix()
+        for top in (*FOLDERS, *packages)
+        for path in _all_files(course / top)
+    }
+    return PackageFiles(files, tuple(sorted(there - files.keys())))
+
+
+def digest_starter(content: bytes) -> str:
+    """The SHA-256 digest of a starter; Git may have turned its line ends into Windows's."""
+    return hashlib.sha256(content.replace(b"\r\n", b"\n")).hexdigest()
+
+
+def _read_starters(course: Path) -> dict[str, str]:
+    """Path in the course folder -> digest, of every starter.
+
+    Raises:
+        BadRequest: the list cannot be read, a file on it is missing, or a starter is not on it.
+    """
+    path = course / STARTERS
+    try:
+        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+        listed = {
+            f"exercises/{name}/{file}": str(digest)
+            for name, files in raw.items()
+            for file, digest in files.items()
+        }
+    except (OSError, ValueError, AttributeError):
+        raise BadRequest(
+            "the list of starters cannot be read",
+            where=str(path),
+            advice=f"Get it back: git checkout -- {STARTERS}",
+        ) from None
+    for one in exercises(course):
+        for file in (*one.files, *one.beside):
+            if f"exercises/{one.name}/{file}" not in listed:
+                raise BadRequest(
+                    f"{one.name} has a starter {file} that is not listed",
+                    where=str(path),
+                    advice="List the starters anew, unsolved: python .ci/list_starters.py",
+                )
+    return listed
+
+
+def _exercise_files(one: Exercise) -> set[Path]:
+    """The authored files of an exercise, without its starters."""
+    texts = {one.folder / name for name in AUTHORED}
+    return {path for path in texts if path.is_file()} | imported_modules(one.folder / "checks.py")
+
+
+def imported_modules(module: Path) -> set[Path]:
+    """A module of an exercise, and every module beside it that it imports, directly or not."""
+    found: set[Path] = set()
+    left = {module}
+    while left:
+        path = left.pop()
+        found.add(path)
+        left |= {beside for beside in _imports(path) if beside.is_file()} - found
+    return found
+
+
+def _imports(module: Path) -> Iterator[Path]:
+    for node in ast.walk(ast.parse(module.read_bytes())):
+        if isinstance(node, ast.ImportFrom) and node.level == 1:
+            names = [node.module] if node.module else [one.name for one in node.names]
+            yield from (module.with_name(f"{name.partition('.')[0]}.py") for name in names)
+
+
+def _lesson_files(course: Path) -> Iterator[Path]:
+    """Each lesson's text and the notebook derived from it."""
+    for text in sorted((course / "lessons").glob("*.py")):
+        if text.with_suffix(".ipynb").is_file():
+            yield from (text, text.with_suffix(".ipynb"))
+
+
+def _package_folder(course: Path, installed: Path) -> Path:
+    """Where a package's files are taken from: the course folder, else the installation."""
+    own = course / installed.name
+    return own if (own / "__init__.py").is_file() else installed
+
+
+def _all_files(top: Path) -> Iterator[Path]:
+    """The files of a folder, without those that Python, Jupyter or a system made."""
+    for path in sorted(top.rglob("*")):
+        parts = path.relative_to(top).parts
+        made = MADE & {*parts} or any(part.startswith(".") for part in parts)
+        if not made and path.name not in IGNORED and (path.is_file() or path.is_symlink()):
+            yield path
+
+
+def _content(name: str, path: Path) -> bytes:
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise BadRequest(
+            f"it cannot be read ({error.strerror}), and students need it",
+            where=name,
+            advice=f"Get it back: git checkout -- {name}",
+        ) from None
+    return strip_notebook(content, name=name) if name.endswith(".ipynb") else content
+
+
+def strip_notebook(content: bytes, *, name: str) -> bytes:
+    """A notebook as it was derived: without outputs, and without what Jupyter noted in it.
+
+    Args:
+        content: of the notebook's file.
+        name: of the notebook, for a refusal.
+
+    Raises:
+        BadRequest: it is no notebook, or a cell is not as it was derived; a cell's id is made of a
+            digest of its text.
+    """
+    try:
+        raw = json.loads(content)
+        cells = [_strip_cell(cell) for cell in raw["cells"] if "".join(cell["source"]).strip()]
+    except (ValueError, TypeError, LookupError, AttributeError):
+        raise BadRequest(
+            "the notebook was edited (its cells are not those of the lesson's .py), and students "
+            "would get that",
+            where=name,
+            advice=f"Keep a copy if you need it; then get it back: git checkout -- {name}",
+        ) from None
+    plain = {
+        "cells": cells,
+        "metadata": {"kernelspec": KERNEL, "language_info": {"name": "python"}},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    return (json.dumps(plain, ensure_ascii=False, indent=1, sort_keys=True) + "\n").encode()
+
+
+def _strip_cell(cell: dict[str, object]) -> dict[str, object]:
+    lines = cell["source"]
+    text = "".join(lines) if isinstance(lines, list) else str(lines)
+    digest = hashlib.sha256(text.encode("utf-8")).hexdigest()[:ID]
+    if str(cell["id"]).partition("-")[0] != digest:
+        raise ValueError
+    kept = {"cell_type": cell["cell_type"], "id": cell["id"], "metadata": {}, "source": lines}
+    return kept | ({"execution_count": None, "outputs": []} if cell["cell_type"] == "code" else {})
+
+
+def _refuse_changed(files: dict[str, bytes], listed: dict[str, str], course: Path) -> None:
+    """Refuse starters that are not as their authors wrote them: they may hold answers.
+
+    Raises:
+        BadRequest: one is missing or was changed.
+    """
+    changed = [
+        name
+        for name, digest in listed.items()
+        if name not in files or digest_starter(files[name]) != digest
+    ]
+    if changed:
+        several = "are starters that were" if len(changed) > 1 else "is a starter that was"
+        raise BadRequest(
+            f"{', '.join(changed)} {several} changed, and students would get your answers",
+            where=str(course),
+            advice="Copy away what you want to keep; then get the starters back: git checkout -- "
+            + " ".join(changed),
+        )

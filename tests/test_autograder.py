@@ -1,0 +1,342 @@
+"""Gradescope's autograder and GitHub's workflow, run in plain folders as those systems run them."""
+
+import base64
+import importlib.util
+import io
+import json
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+import yaml
+
+from grader.autograder.submitter import find_submitter
+from grader.cli import run
+from grader.exercise import find
+from grader.package_files import select_package_files
+from grader.release import common
+from grader.variant import of_class
+from sim.errors import BadRequest
+
+EMAIL = "zoë.o'neil@example.org"
+SECRET = b"0123456789abcdef-east"
+BASH = shutil.which("bash")
+SCRIPTS = Path(sys.executable).parent  # where the command grade of this Python is
+needs_bash = pytest.mark.skipif(
+    sys.platform == "win32" or not BASH or not shutil.which("timeout"),
+    reason="Gradescope and GitHub run Linux: this needs bash and timeout",
+)
+
+
+def load(path):
+    spec = importlib.util.spec_from_file_location(f"_{path.parent.name}_solve", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def perfect(root, name, student, folder):
+    """The authored answer of an exercise: file name -> text."""
+    one, solutions = find(name, root), root / "solutions" / name
+    if not (solutions / "solve.py").is_file():
+        return {one.files[0]: (solutions / one.files[0]).read_text(encoding="utf-8")}
+    copy = folder / "exercises" / name
+    shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    moved = type(one)(name, copy)
+    moved.prepare(student, say=lambda _: None)
+    (data,) = (copy / "data").iterdir()
+    return load(solutions / "solve.py").solve(copy, data)
+
+
+@pytest.fixture
+def export(root, tmp_path, monkeypatch):
+    """Exports an autograder and lays it out as Gradescope does; the folder ``autograder``."""
+
+    def export(*words, users=({"email": EMAIL, "id": 5, "name": "Zoë O'Neil"},)):
+        monkeypatch.chdir(root)
+        archive = tmp_path / "autograder.zip"
+        assert run(["export", "gradescope", "-o", str(archive), *words]) == 0
+        place = tmp_path / "auto gräder"
+        with zipfile.ZipFile(archive) as opened:
+            opened.extractall(place / "source")
+        (place / "submission").mkdir()
+        metadata = {"id": 1, "users": list(users)}
+        (place / "submission_metadata.json").write_text(json.dumps(metadata), encoding="utf-8")
+        return place
+
+    return export
+
+
+def grade(place, **environment):
+    """Run it as Gradescope does; what it printed, and the results."""
+    done = subprocess.run(
+        [BASH, place / "source" / "run_autograder"],
+        cwd=place,
+        env={
+            **os.environ,
+            "AUTOGRADER_ROOT": str(place),
+            "AUTOGRADER_PYTHON": sys.executable,
+            **environment,
+        },
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+    said = done.stdout + done.stderr
+    assert done.returncode == 0, said
+    return said, json.loads((place / "results" / "results.json").read_text(encoding="utf-8"))
+
+
+@needs_bash
+@pytest.mark.parametrize("name", ["exercise1", "exercise4", "exercise11"])
+def test_a_perfect_answer_beside_nothing_else_earns_every_point(root, export, tmp_path, name):
+    place = export("--exercise", name)
+    for file, text in perfect(root, name, EMAIL, tmp_path / "copy").items():
+        (place / "submission" / file).write_text(text, encoding="utf-8")
+    said, results = grade(place)
+    checks = find(name, root).checks
+
+    assert [one["max_score"] for one in results["tests"]] == [one.points for one in checks], said
+    assert [one["output"] for one in results["tests"] if one["status"] != "passed"] == []
+    assert sum(one["score"] for one in results["tests"]) == sum(one.points for one in checks)
+    assert "Code of learners is:" in said
+
+
+@needs_bash
+def test_a_roster_names_the_student_and_a_secret_draws_the_numbers(root, export, tmp_path, capsys):
+    (tmp_path / "roster.csv").write_text(f"student,mail\nann,a@b.c\nzoë,{EMAIL}\n", "utf-8")
+    (tmp_path / "class.secret").write_bytes(SECRET + b"\n")
+    place = export(
+        "--exercise", "1", "--roster", str(tmp_path / "roster.csv"),
+        "--secret", str(tmp_path / "class.secret"),
+    )  # fmt: skip
+    warned = capsys.readouterr().err
+    assert (tmp_path / "autograder.zip").stat().st_mode & 0o077 == 0
+    with of_class(SECRET):
+        answers = perfect(root, "exercise1", "zoë", tmp_path / "copy")
+    for file, text in answers.items():
+        (place / "submission" / file).write_text(text, encoding="utf-8")
+    _, results = grade(place)
+
+    assert "holds your class's secret. Code of students runs in Gradescope's container" in warned
+    assert {one["status"] for one in results["tests"]} == {"passed"}
+    metadata = place / "submission_metadata.json"
+    metadata.write_text('{"users": [{"email": "who@b.c"}]}', encoding="utf-8")
+    said, results = grade(place)
+    assert "nobody on the roster is 'who@b.c'" in said
+    assert failed(results) == (
+        "It is not known who handed this in; the reason stands at the end of the autograder's "
+        "output."
+    )
+
+
+def failed(results):
+    """What the instructor reads of a hand-in that could not be graded."""
+    (test,) = results["tests"]
+    assert results["score"] == 0
+    assert "could not be graded" in results["output"]
+    assert (results["visibility"], test["visibility"]) == ("visible", "hidden")
+    return test["output"]
+
+
+@needs_bash
+def test_a_result_is_written_after_a_crash_and_a_timeout(export):
+    place = export("--exercise", "4")
+    _, late = grade(place, AUTOGRADER_SECONDS="0.1")
+    (place / "source" / "course" / "exercises" / "exercise4" / "checks.py").write_text("1 / 0\n")
+    _, crashed = grade(place)
+    _, without = grade(place, AUTOGRADER_PYTHON=str(place / "no python"))
+
+    assert "Grading took longer than it may" in failed(late)
+    assert "Grading stopped with exit code" in failed(crashed)
+    assert "not known who handed this in" in failed(without)
+
+
+@needs_bash
+def test_nothing_handed_in_is_a_result_of_zero(export):
+    _, results = grade(export("--exercise", "4"))
+
+    assert {one["score"] for one in results["tests"]} == {0.0}
+    assert "nothing was handed in" in results["tests"][0]["output"]
+
+
+def test_the_autograder_holds_no_solutions_and_no_secret(root, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(root)
+    words = ["export", "gradescope", "-o"]
+    assert run([*words, str(tmp_path / "a.zip")]) == 0
+    said = capsys.readouterr().err
+    assert run([*words, str(tmp_path / "b.zip")]) == 0
+
+    assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
+    with zipfile.ZipFile(tmp_path / "a.zip") as archive:
+        names = archive.namelist()
+        modes = {one.filename: one.external_attr >> 16 for one in archive.infolist()}
+        wanted = archive.read("requirements.txt").decode().split()
+        robot = archive.read("requirements-robot.txt").decode()
+    assert {name for name in names if not name.startswith("course/")} == {
+        "setup.sh", "run_autograder", "settings.sh", "requirements.txt", "requirements-robot.txt",
+    }  # fmt: skip
+    assert {name.removeprefix("course/") for name in names if name.startswith("course/")} == {
+        *select_package_files(root).files
+    }
+    assert [name for name in names if "solutions" in name or "secret" in Path(name).suffix] == []
+    assert modes["setup.sh"] == modes["run_autograder"] == 0o755
+    assert "click>=8.1.7" in wanted
+    assert not any(one.startswith(("jupyter", "ipywidgets")) for one in wanted)
+    assert "wpilib==2026.*" in robot
+    assert "without --secret, numbers depend on the student's name alone" in said
+    assert "13 exercises in one autograder: students have to hand in a zip file" in said
+
+
+@needs_bash
+def test_scripts_are_sound_bash(root):
+    for name in ("setup.sh", "run_autograder"):
+        subprocess.run([BASH, "-n", root / "grader" / "autograder" / name], check=True)
+
+
+def test_grading_needs_none_of_the_packages_that_are_not_installed_there(root, tmp_path):
+    """Neither JupyterLab nor widgets are imported by the command that grades a class."""
+    code = (
+        "import sys\n"
+        "for name in ('jupyterlab', 'ipywidgets', 'IPython'): sys.modules[name] = None\n"
+        "from grader.cli import run\n"
+        "sys.exit(run(['class', sys.argv[1], '--student', 'ann', '--exercise', '4', '-o', "
+        "sys.argv[2], '--export', 'gradescope']))"
+    )
+    place = root / "solutions" / "exercise4"
+    done = subprocess.run([sys.executable, "-c", code, place, tmp_path], cwd=root, check=False)
+
+    assert done.returncode == 0
+    assert (tmp_path / "gradescope" / "ann" / "results.json").is_file()
+
+
+@pytest.mark.parametrize(
+    ("text", "by", "said"),
+    [
+        ("{", "email", "does not say who handed in"),
+        ('{"users": []}', "email", "does not say who handed in"),
+        ('{"users": ["ann"]}', "email", "does not say who handed in"),
+        ('{"users": [{"email": null}]}', "email", "the student has no email"),
+        ('{"users": [{"email": "a@b.c"}]}', "sid", "Export the autograder anew"),
+        ('{"users": [{"name": "a/b"}]}', "name", "path separator"),
+    ],
+)
+def test_metadata_that_name_nobody_are_refused(tmp_path, text, by, said):
+    path = tmp_path / "submission_metadata.json"
+    path.write_text(text, encoding="utf-8")
+
+    with pytest.raises(BadRequest, match=said):
+        find_submitter(path, by=by, roster=None)
+
+
+def test_of_a_group_the_first_is_the_student(tmp_path):
+    path = tmp_path / "submission_metadata.json"
+    path.write_text('{"users": [{"sid": 17}, {"sid": 18}]}', encoding="utf-8")
+
+    assert find_submitter(path, by="sid", roster=None) == "17"
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["gradescope", "-o", "x.zip", "--secret", "{root}/class.secret"], "in the course folder"),
+        (["gradescope", "-o", "x.zip", "--secret", "../gone"], "the secret is not there"),
+        (["gradescope", "-o", "x.zip", "--roster", "gone.csv"], "gone.csv"),
+        (["gradescope", "-o", "x.zip", "--exercise", "99"], "there is no exercise '99'"),
+        (["github", "-o", "{root}/README.md/grade.yml"], "cannot be written"),
+    ],
+)
+def test_what_cannot_be_exported_is_one_line(root, monkeypatch, capsys, words, said):
+    monkeypatch.chdir(root)
+
+    assert run(["export", *(word.format(root=root) for word in words)]) == 2
+    assert said in capsys.readouterr().err
+    assert not (root / "x.zip").exists()
+
+
+@pytest.fixture
+def workflow(root, tmp_path, monkeypatch):
+    """A repository that students start from, with the workflow in it."""
+    repository = tmp_path / "zoë's repository"
+    archive = zipfile.ZipFile(io.BytesIO(common(root)))
+    archive.extractall(tmp_path)
+    (tmp_path / "course").rename(repository)
+    monkeypatch.chdir(repository)
+    path = Path(".github") / "workflows" / "grade.yml"
+    assert run(["export", "github", "-o", str(path), "--exercise", "4", "--exercise", "1"]) == 0
+    return repository, yaml.safe_load(path.read_text(encoding="utf-8"))
+
+
+@needs_bash
+def test_the_workflow_grades_and_hands_its_results_to_the_reporter(root, workflow, tmp_path):
+    repository, parsed = workflow
+    steps = parsed["jobs"]["grade"]["steps"]
+    for name in ("exercise1", "exercise4"):
+        for file, text in perfect(root, name, "octo-cat", tmp_path / "copy").items():
+            (repository / "exercises" / name / file).write_text(text, encoding="utf-8")
+    output = tmp_path / "output"
+    for step in steps:
+        if "id" not in step:
+            continue
+        (tmp_path / step["id"]).unlink(missing_ok=True)
+        output.write_text("", encoding="utf-8")
+        subprocess.run(
+            [BASH, "-e", "-o", "pipefail", "-c", step["run"]],
+            cwd=repository,
+            env={
+                **os.environ,
+                "STUDENT": "octo-cat",
+                "RUNNER_TEMP": str(tmp_path),
+                "GITHUB_OUTPUT": str(output),
+                "PATH": f"{SCRIPTS}{os.pathsep}{os.environ['PATH']}",
+            },
+            check=True,
+        )
+        name, _, text = output.read_text(encoding="utf-8").strip().partition("=")
+        results = json.loads(base64.b64decode(text))
+        assert name == "result"
+        assert (results["status"], [one["name"] for one in results["tests"]]) == (
+            "pass",
+            [step["id"]],
+        )
+        assert sum(one["score"] for one in results["tests"]) == results["max_score"] > 0
+    reporter = steps[-1]
+    assert reporter["with"]["runners"] == "exercise1,exercise4"
+    assert reporter["env"] == {
+        f"{name.upper()}_RESULTS": f"${{{{ steps.{name}.outputs.result }}}}"
+        for name in ("exercise1", "exercise4")
+    }
+
+
+@needs_bash
+def test_the_workflow_of_a_wrong_answer_tells_so_and_does_not_stop(workflow, tmp_path):
+    repository, parsed = workflow
+    (step,) = [one for one in parsed["jobs"]["grade"]["steps"] if one.get("id") == "exercise4"]
+    output = tmp_path / "output"
+    subprocess.run(
+        [BASH, "-e", "-c", step["run"]],
+        cwd=repository,
+        env={
+            **os.environ,
+            "STUDENT": "octo-cat",
+            "RUNNER_TEMP": str(tmp_path),
+            "GITHUB_OUTPUT": str(output),
+            "PATH": f"{SCRIPTS}{os.pathsep}{os.environ['PATH']}",
+        },
+        check=True,
+    )
+
+    assert json.loads(base64.b64decode(output.read_text().partition("=")[2]))["status"] == "fail"
+
+
+def test_the_workflow_takes_nothing_from_github_into_its_shell_lines(workflow):
+    _, parsed = workflow
+
+    for step in parsed["jobs"]["grade"]["steps"]:
+        assert "${{" not in step.get("run", "")
+    assert parsed["permissions"] == {"contents": "read", "checks": "write"}
