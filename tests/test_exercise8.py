@@ -234,5 +234,5 @@ def test_a_window_with_a_word_that_is_none_is_refused(written):
 
 
 @pytest.mark.parametrize("written", ["0,4 to 5,2", "0.4 s - 5.2 s", [0.4, 5.2], "(0.4; 5.2)"])
-def test_a_window_may_be_written_in_many_ways(written):
+def test_a_window_may_be_written_with_units_or_brackets(written):
     assert PREPARATION._window("quasistatic-forward", written) == (0.4, 5.2)

@@ -46,16 +46,20 @@ def test_exercise_1_has_ordinary_gains_and_needs_no_more_than_a_battery_and_a_gr
                 assert abs(at.acceleration) < GRAVITY, student  # friction of 1.0, the least
 
 
-def test_exercise_2_has_a_kS_that_goes_with_what_the_mechanic_noticed():
+def test_exercise_2_has_a_ks_that_goes_with_what_the_mechanic_noticed():
     for student, variant in drawn("exercise2"):
         mechanic = variant.told["noticed"]["mechanic"]
 
         assert KS["least"] <= variant.friction <= STOP, student
         assert variant.flag == "fine" or "as it did when it was new" not in mechanic, student
         assert variant.measured * variant.speed < BATTERY / 2, student
-        assert 0.4 < variant.measured / variant.parts.paper < 2.2, student  # a radius for a diameter
+        assert 0.4 < variant.measured / variant.parts.paper < 2.2, (
+            student
+        )  # a radius for a diameter
         if variant.kind == "drivetrain":
-            assert 0.5 < variant.speed < 3.0, student  # [m/s] a robot in a match
+            assert 0.4 < variant.speed < 3.5, (
+                student
+            )  # [m/s] as the log, or its wrong wheel, has it
 
 
 @pytest.mark.parametrize("name", ANSWERED)

@@ -18,7 +18,7 @@ LONGEST = 15  # [samples] of a median window, as SysId's
 EVERYTHING = ("all", "everything", "whole")
 ANY = Band(0.0, 0.0)  # nobody asks how near: what comes of it is graded
 NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
-BETWEEN = re.compile(r"\s*(?:(?:to|until|till|from|and|seconds?|secs?|s)\b\s*|[-–,;.:()]\s*)*")  # noqa: RUF001 - an en dash may stand between two times
+BETWEEN = re.compile(r"\s*(?:(?:to|until|till|from|and|seconds?|secs?|s)\b\s*|[-–,;.:()]\s*)*")
 
 
 @dataclass(frozen=True)

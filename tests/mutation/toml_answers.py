@@ -7,9 +7,7 @@ from mutation.mutant import Mutant
 from mutation.toml_operators import changes_of
 
 FILE = "answers.toml"
-EXERCISES = tuple(
-    sorted(folder.parent.name for folder in (ROOT / "exercises").glob(f"*/{FILE}"))
-)
+EXERCISES = tuple(sorted(folder.parent.name for folder in (ROOT / "exercises").glob(f"*/{FILE}")))
 
 
 def mutants() -> Iterator[Mutant]:

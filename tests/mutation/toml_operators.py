@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 FACTORS = {  # what a number may be off by -> why
     "minutes": 60.0,
@@ -108,7 +109,7 @@ def _swaps(lines: list[str]) -> Iterator[Change]:
     entries = [
         (at, found) for at, line in enumerate(lines) if (found := ENTRY.match(line.rstrip("\n")))
     ]
-    for (one, first), (other, second) in zip(entries, entries[1:], strict=False):
+    for (one, first), (other, second) in pairwise(entries):
         if any(TABLE.match(line) for line in lines[one:other]):
             continue
         values = first["value"], second["value"]
