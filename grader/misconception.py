@@ -69,7 +69,8 @@ MISCONCEPTIONS: dict[str, Misconception] = {
     ),
     "M-NO-KG-IN-SYSID": Misconception(
         "SysId does find kG, once it is told that there is gravity. Simple has no place for "
-        "gravity, and what gravity takes ends up in kS.",
+        "gravity: what gravity takes ends up in the other gains. With upward runs alone it is "
+        "added to kS; with runs both ways kV may even come out negative.",
         lesson="02_gravity",
         section="From a log: tell SysId what it looks at",
     ),

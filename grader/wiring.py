@@ -129,7 +129,8 @@ def check_driven(motor: str, calls: Sequence[DriveCall]) -> None:
     """
     mine = [call for call in calls if call.motor == motor]
     if not mine:
-        hint = "Drive every motor: one that is left out is dragged along, and counts as friction."
+        hint = "Drive every motor: the others carry one that is left out, and kS and kA come out "
+        hint += "too large."
         raise Wrong(f"{motor} gets no voltage", hint=hint)
     for call in mine:
         hint, misconception = "setVoltage() takes the volts as they come.", ""

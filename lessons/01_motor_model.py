@@ -538,7 +538,8 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above paper"), tup
 #
 # 1. **Numbers** (at a desk): gear ratio, wheel, units, the kind of motor.
 # 2. **Electrical** (in the log): was it the voltage that reached the motors? Are all motors
-#    powered? One that is not is dragged along.
+#    powered? The others carry one that is not: kS and kA grow. If its controller brakes it, kV
+#    grows, too.
 # 3. **Mechanical** (with a wrench): belt, chain, bearings, grease. Turn it by hand. Is it hot after
 #    a test?
 #

@@ -169,3 +169,23 @@ def test_a_comma_and_another_unit_of_voltage_will_do(copy):
 
     for text in (f'"{comma}"', f'"{comma} V"', f'"{1000 * volts:.0f} mV"'):
         assert graded(copy, f"forward = {text}", "forward").status == "passed"
+
+
+@pytest.mark.parametrize("student", CLASS[:12])
+def test_a_wrong_sign_or_a_missing_term_is_named(copy, student):
+    """Of the whole voltage, of friction alone, of kV·v, and a voltage beyond any battery."""
+    variant = OWN.module.draw(student)
+    friction, speed, _ = variant.terms("backward")
+    kick, _, push = variant.terms("accelerating")
+    cases = (
+        ("backward", speed - friction, "friction opposes the motion"),
+        ("backward", -(speed + friction), "v is negative"),
+        ("accelerating", kick + push, "kV·v is missing"),
+        ("forward", 243.5, "no battery"),
+    )
+    for name, volts, says in cases:
+        found = graded(copy, f"{name} = {volts:.4f}", name, student=student)
+
+        assert says in found.hint, (name, volts)
+    turned = graded(copy, f"backward = {speed - friction:.4f}", "backward", student=student)
+    assert "the sign is not right" not in turned.hint

@@ -4,11 +4,13 @@ import re
 import runpy
 import tomllib
 from dataclasses import replace
+from itertools import combinations, permutations
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from grader.check import Wrong
 from grader.cli import run
 from grader.exercise import Exercise
 from grader.variant import folder_name
@@ -22,7 +24,7 @@ from sim.simulate import simulate
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")
 CLASS = [f"student {number}" for number in range(50)]
-GOOD = ["gear-ratio", "wheel-size", "logged-voltage", "tight-belt"]  # finds whatever was planted
+GOOD = ["gear-ratio", "wheel-size", "logged-voltage", "tight-belt"]  # for a sound mechanism
 
 
 def graded(exercise, *, student="ann", **answers):
@@ -41,6 +43,8 @@ def toml(value):
 
 
 def causes(variant):
+    if variant.evident:
+        return [variant.evident, "motor-type"]
     return [one for one in GOOD if variant.valid(one)]
 
 
@@ -139,12 +143,11 @@ def test_the_file_tells_of_every_planted_trouble_and_of_no_other(copy):
             "gear-ratio": parts["ratio"] != code["ratio"],
             "wheel-size": abs(2.0 * code.get("radius", 0.0) - diameter) > 1e-3,
             "logged-voltage": "asked" in code["logged_voltage"],
-            "tight-belt": "hot" in given["noticed"]["mechanic"],
+            "tight-belt": "guitar string" in given["noticed"]["mechanic"],
+            "dry-bearing": "whistles" in given["noticed"]["mechanic"],
         }
 
-        assert {word for word, there in seen.items() if there} == set(variant.planted) - {
-            "dry-bearing"
-        }
+        assert {word for word, there in seen.items() if there} == set(variant.planted)
 
 
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
@@ -193,12 +196,13 @@ def test_a_list_may_be_written_in_many_ways(copy, written, status):
 @pytest.mark.parametrize(
     ("listed", "points", "says"),
     [
-        (["motor-type", "logged-voltage"], 2, "is not on your list"),
-        (["logged-voltage", "gear-ratio"], 1, "where looking costs least"),
-        (["tight-belt", "unpowered-motor", "gear-ratio"], 1, "where looking costs least"),
-        (["gear-ratio", "velocity-unit"], 1, "all of one kind"),
-        (["gear-ratio", "logged-voltage", "mass"], 1, "more mass"),
-        (["gear-ratio", "mass"], 0, "more mass"),
+        (["motor-type", "unpowered-motor"], 2, "is not on your list"),
+        (["unpowered-motor", "wheel-size"], 2, "Look first where looking costs least"),
+        (["wheel-size", "logged-voltage"], 0, "the log has what the motor got"),
+        (["wheel-size", "motor-type", "logged-voltage"], 2, "the log has what the motor got"),
+        (["wheel-size", "motor-type", "mass"], 2, "more mass"),
+        (["wheel-size", "mass"], 0, "more mass"),
+        (["wheel-size", "motor-type", "tight-belt"], 2, "nothing gets hot"),
     ],
 )
 def test_a_list_earns_what_is_good_about_it(copy, listed, points, says):
@@ -301,3 +305,99 @@ def test_a_theory_in_another_unit_is_converted(copy):
 
     in_radians = f"{paper / 6.283185:.5f} V·s/rad"
     assert graded(copy, student=student, kV_theory=in_radians)["kv-theory"].status == "passed"
+
+
+def situations():
+    """One student for every mechanism with every planted trouble, and with kV to either side."""
+    found = {}
+    for number in range(300):
+        variant = OWN.module.draw(f"student {number}")
+        low = variant.verdict == "bookkeeping"
+        found.setdefault((variant.kind, variant.planted, low), (f"student {number}", variant))
+    return found
+
+
+def allowed(variant, given):
+    """The causes that a student's own file leaves, and the one that it shows: from its lines."""
+    parts, code, below = given["parts"], given["code"], variant.verdict == "bookkeeping"
+    diameter = parts.get("wheel_diameter", parts.get("drum_diameter"))
+    shown = {
+        "gear-ratio": parts["ratio"] != code["ratio"],
+        "wheel-size": diameter is not None and abs(2.0 * code["radius"] - diameter) > 1e-3,
+        "logged-voltage": "asked" in code["logged_voltage"],
+        "tight-belt": "guitar" in given["noticed"]["mechanic"],
+        "dry-bearing": "whistles" in given["noticed"]["mechanic"],
+    }
+    left = {"motor-type", "velocity-unit"} | ({"unpowered-motor"} if parts["motors"] > 1 else set())
+    if not any(shown.values()):
+        left |= shown.keys() if diameter else shown.keys() - {"wheel-size"}
+    elif "too hot" in given["noticed"]["mechanic"]:
+        left |= {"tight-belt", "dry-bearing"}
+    left |= {word for word, there in shown.items() if there}
+    braking = {"tight-belt", "dry-bearing", "unpowered-motor"}
+    return left - (braking if below else set()), [word for word, there in shown.items() if there]
+
+
+def test_every_list_of_causes_in_every_order_is_graded_by_what_the_file_says(copy):
+    """A point each for possible causes only, for cheap ones first, and for what the file shows."""
+    judge_list = OWN.module.judge_list
+    cost = dict.fromkeys(["gear-ratio", "wheel-size", "motor-type", "velocity-unit"], 1)
+    cost |= {"logged-voltage": 2, "unpowered-motor": 2, "tight-belt": 3, "dry-bearing": 3}
+    words = [*cost, "mass", "constant-friction", "sensor-noise"]
+    lists = [list(some) for count in (1, 2, 3) for some in permutations(words, count)]
+    lists += [list(some[::way]) for some in combinations(words, 4) for way in (1, -1)]
+    seen = situations()
+    assert len({(kind, planted) for kind, planted, _ in seen}) == 17
+    for student, variant in seen.values():
+        copy.prepare(student, say=lambda _: None)
+        path = copy.folder / "data" / folder_name(student) / "given.toml"
+        left, shown = allowed(variant, tomllib.loads(path.read_text("utf-8")))
+        for causes in lists:
+            possible = [one for one in causes if one in left]
+            later = [cost[one] for one in possible]
+            rest = later[1:] if possible[:1] == shown else later
+            named = shown[0] in causes if shown else len(set(later)) > 1
+            points = (possible == causes) + (rest == sorted(rest)) + named
+            points = points if len(possible) > 1 else 0
+            unnamed = []
+            try:
+                judge_list(causes, variant)
+                found = 3
+            except Wrong as wrong:
+                found = wrong.earned
+                unnamed = [one for one in causes if one not in left and one not in wrong.hint]
+
+            assert (found, unnamed) == (points, []), (student, variant.planted, causes)
+
+
+def test_whoever_lists_everything_does_not_get_full_marks(copy):
+    for student in CLASS[:12]:
+        variant = OWN.module.draw(student)
+        words = [one for one in (*GOOD, "motor-type", "velocity-unit") if variant.valid(one)]
+        found = graded(copy, student=student, inspection=words)["inspection"]
+
+        assert found.status == "failed"
+        assert ("4 at most" in found.hint) == (len(words) > 4)
+
+
+def test_a_right_sign_is_not_asked_for_again(copy):
+    below = student_who(lambda one: one.verdict == "bookkeeping")
+    above = student_who(lambda one: one.verdict == "inspect")
+    for student, word, says in ((below, "ok", "below zero"), (above, "bookkeeping", "above zero")):
+        percent = OWN.module.draw(student).percent(OWN.module.draw(student).parts.paper)
+        right = graded(copy, student=student, difference=percent, verdict=word)["verdict"]
+        wrong = graded(copy, student=student, difference=-percent, verdict=word)["verdict"]
+
+        assert says in right.hint
+        assert "sign" not in right.hint
+        assert "sign" in wrong.hint
+
+
+def test_twelve_over_rpm_is_told_which_steps_are_missing(copy):
+    for student in CLASS:
+        variant = OWN.module.draw(student)
+        found = graded(copy, student=student, kV_theory=12.0 / variant.parts.free_rpm)["kv-theory"]
+
+        assert "60 seconds are a minute and the gear ratio" in found.hint
+        assert ("one turn of the wheel" in found.hint) == bool(variant.parts.diameter)
+        assert found.misconception == "M-UNITS"

@@ -399,3 +399,15 @@ def test_numbers_that_were_changed_are_written_anew(copy):
 
     assert given.read_bytes() == made
     assert ["anew" in line for line in said] == [False, True]
+
+
+def test_a_mark_beyond_the_end_of_the_run_is_wrong(copy):
+    """Meters written as millimeters: the timeout would end the test, but such a mark is no plan."""
+    variant = OWN.module.draw("ann")
+    answers = right(variant)
+    for kind, machine in variant.machines.items():
+        if machine.travel is None:
+            continue
+        found = graded(copy, **{**answers, f"{kind}_release": 60.0 * machine.travel})
+
+        assert any("your mark is at" in check.hint for check in found.values()), kind

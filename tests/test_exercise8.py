@@ -225,3 +225,14 @@ def test_nothing_a_learner_reads_holds_a_gain(tmp_path, monkeypatch, capsys):
         assert near == []
     log = read(folder / "data" / "ann" / "log.wpilog")
     assert [len(run) for run in log.runs] == [len(run) for run in variant("ann").log.runs]
+
+
+@pytest.mark.parametrize("written", ["0 to 3.90x", "0 to 1 min", "from 1 kg to 2", "1 or 2"])
+def test_a_window_with_a_word_that_is_none_is_refused(written):
+    with pytest.raises(Wrong, match="which is not two times"):
+        PREPARATION._window("quasistatic-forward", written)
+
+
+@pytest.mark.parametrize("written", ["0,4 to 5,2", "0.4 s - 5.2 s", [0.4, 5.2], "(0.4; 5.2)"])
+def test_a_window_may_be_written_with_units_or_brackets(written):
+    assert PREPARATION._window("quasistatic-forward", written) == (0.4, 5.2)

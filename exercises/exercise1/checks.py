@@ -22,6 +22,7 @@ FILES = ("answers.toml",)
 FILE_MADE = "given.toml"
 HERE = Path(__file__).resolve().parent
 
+BATTERY = 13.5  # [V] of a battery that was just charged
 LITTLE = 0.10  # [share] up to here a voltage is outside by a little
 WORDS = {
     "ks": "kS",
@@ -123,6 +124,8 @@ def _voltage(name: str, answers: Answers) -> None:
     if not hint:
         size = "little" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "lot"
         hint = f"outside the accepted ±2 %, by a {size}. Write down the three terms one by one"
+    if abs(value) > BATTERY:
+        hint = f"no battery of a robot has more than {BATTERY:g} V: {hint}"
     raise Wrong(f"{value:.4g} V", hint=hint, misconception=codes.pop() if len(codes) == 1 else "")
 
 

@@ -19,6 +19,7 @@ SPEED = {  # [V] that the speed takes at each moment: few enough for kS to be no
     "backward": (2.0, 5.0),
 }
 RATIOS = ((0.4, 0.75), (1.35, 1.9))  # kA·a over kV·v where the speed, or the acceleration, leads
+GRIP = 9.0  # [m/s²] a drivetrain's wheels on carpet: 0.9·g, below a friction of 1.0 to 1.2
 LEAST = 0.8  # [V] below, 2 % are less than a learner's rounding
 APART = 1.3  # [bands] no slip may come nearer to the key than this
 MOST_DRAWS = 2000  # a drivetrain needs two draws, a shooter, with its little friction, twelve
@@ -31,7 +32,7 @@ def draw(student: str) -> Variant:
     kind = tuple(SHOWN)[int(rng.integers(len(SHOWN)))]
     for _ in range(MOST_DRAWS):
         variant = _drawn(kind, rng)
-        if all(_clear(variant, name) for name in MOMENTS):
+        if _grips(variant) and all(_clear(variant, name) for name in MOMENTS):
             return variant
     raise RuntimeError(f"no clear numbers for {student!r}")
 
@@ -57,6 +58,12 @@ def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
         moments[name] = Moment(name, velocity, _rounded(push / gains["kA"]), shown, shown_unit)
     largest_at = ("accelerating", "braking")[int(rng.integers(2))]
     return Variant(kind, per.symbol, gains, moments, largest_at)
+
+
+def _grips(variant: Variant) -> bool:
+    """Whether a drivetrain's wheels can give these accelerations without slipping."""
+    pushes = (abs(at.acceleration) for at in variant.moments.values())
+    return variant.kind != "drivetrain" or max(pushes) <= GRIP
 
 
 def _rounded(value: float) -> float:

@@ -45,7 +45,12 @@ def _frictions(variant: Variant, name: str) -> list[Way]:
     says = "kS·sgn(v) has the sign of v: friction costs volts in the direction of movement"
     if name == "braking":
         says = "did you take sgn of a? It belongs to v: it looks at which way the mechanism moves"
-    turned = _BACKWARD if name == "backward" else Slip("sgn", says)
+    if name == "backward":
+        says = (
+            "friction opposes the motion: moving backward, sgn(v) is -1, so kS·sgn(v) is negative "
+            "as kV·v is"
+        )
+    turned = Slip("sgn", says)
     missing = "kS is missing. Friction takes its volts at every speed, as long as it moves at all"
     return [(volts, None), (0.0, Slip("no-ks", missing)), (-volts, turned)]
 
@@ -60,8 +65,10 @@ def _speeds(variant: Variant, name: str) -> list[Way]:
     volts = variant.terms(name)[1]
     says = "the velocity has the wrong sign. Forward is positive, also while it brakes"
     turned = _BACKWARD if name == "backward" else Slip("v-sign", says)
+    missing = "kV·v is missing. Every speed takes its volts, also where the speed changes"
     return [
         (volts, None),
+        (0.0, Slip("no-kv", missing)),
         (-volts, turned),
         *((volts * times, slip) for times, slip in _units(variant, name)),
     ]
@@ -103,7 +110,9 @@ def _wholes(variant: Variant, name: str) -> list[Guess]:
     """Slips of the whole voltage."""
     volts = sum(variant.terms(name))
     duty = "12 V is a full battery. Asked for are volts, not an output between -1 and 1"
+    turned = [(-volts, _BACKWARD)] if name == "backward" else []
     found = [
+        *turned,
         (volts / 12, Slip("duty", duty, "M-DUTY")),
         (volts * 1000, Slip("milli", "1 V is 1000 mV. Are these millivolts?", "M-UNITS")),
     ]

@@ -90,9 +90,7 @@ def kv_theory(answers: Answers) -> str | None:
 @check(points=2)
 def difference(answers: Answers) -> None:
     """How far the measured kV is above the one on paper, in percent."""
-    variant, raw = answers.variant, answers.given.get("difference")
-    raw = raw.replace("%", "").replace("percent", "") if isinstance(raw, str) else raw
-    value = number(raw, Asked("difference", 0.0, "", Band(0.0, 0.0)))
+    variant, value = answers.variant, _percent(answers)
     try:
         theirs = number(answers.given.get("kv_theory"), variant.asked)
     except Wrong:
@@ -104,6 +102,24 @@ def difference(answers: Answers) -> None:
         says = "that follows from your kV_theory, but your kV_theory is not right yet"
         raise Wrong(f"{value:.4g} %", hint=says, earned=1.0)
     raise Wrong(f"{value:.4g} %", hint=_about_percent(value, variant))
+
+
+def _percent(answers: Answers) -> float:
+    """The student's difference [%].
+
+    Raises:
+        Wrong: it is not a number.
+    """
+    raw = answers.given.get("difference")
+    raw = raw.replace("%", "").replace("percent", "") if isinstance(raw, str) else raw
+    return number(raw, Asked("difference", 0.0, "", Band(0.0, 0.0)))
+
+
+def _own_difference(answers: Answers) -> float | None:
+    try:
+        return _percent(answers)
+    except Wrong:
+        return None
 
 
 def _near(value: float, percent: float, variant: Variant) -> bool:
@@ -133,16 +149,20 @@ def _about_percent(value: float, variant: Variant) -> str:
 def verdict(answers: Answers) -> None:
     """What the difference says: bookkeeping, ok, watch or inspect."""
     right = answers.variant.verdict
+    theirs = _own_difference(answers)
+    sound = theirs is not None and (theirs < 0.0) == (right == "bookkeeping")
 
     def why(found: str) -> tuple[str, str]:
         if right == "bookkeeping":
-            says = "can a mechanism be faster than its motor's free speed allows? Look at the sign"
-            return f"{says} of your difference", "M-BELOW-THEORY-OK"
+            says = "can a mechanism be faster than its motor's free speed allows?"
+            more = "Your difference is below zero: which line of the README's table is that?"
+            if not sound:
+                more = "Look at the sign of your difference"
+            return f"{says} {more}", "M-BELOW-THEORY-OK"
         if found == "bookkeeping":
-            return (
-                "that is for a kV below the one on paper. Which sign has your difference?",
-                "",
-            )
+            says = "that is for a kV below the one on paper."
+            more = "Your difference is above zero" if sound else "Which sign has your difference?"
+            return f"{says} {more}", ""
         return "find your difference in the README's table, sign and all", ""
 
     judge_word(answers.given.get("verdict"), right, VERDICTS, why=why)

@@ -33,11 +33,17 @@ CAUSES = ("none", "ratio", "radius", "voltage", "belt")
 FREE_DRAG = (0.035, 0.06)  # [share] that grease and seals cost a sound mechanism
 BAD_DRAG = (0.26, 0.36)  # [share] of what is tight or dry
 TIRED = (10.7, 11.1)  # [V] of a battery that a duty cycle passes on
-FRICTION = {"fine": (0.12, 0.38), "watch": (0.62, 1.1), "stop": (1.3, 1.7)}  # [V], [kV·speed]
+FRICTION = {"fine": (0.12, 0.38), "watch": (0.55, 0.85), "stop": (1.15, 1.35)}  # [V], [kV·speed]
 SPEED = (2.2, 3.4)  # [V] that the typical speed takes
+CREEP = (0.7, 1.0)  # [V] that it takes where a mechanism creeps, and less than bad friction does
 OFF = (0.08, 0.35)  # [share] that a wrong ratio is off by
 CLEAR = 0.7  # [%] from a verdict's bound, whichever theory is taken
 APART = 0.045  # [share] two slips, and a slip and the key, are apart
+STIFF = "stiff by hand, as stiff slowly as fast; nothing gets hot"  # friction of kS, not of kV
+BRAKING = {
+    "tight-belt": "a belt is as hard as a guitar string",
+    "dry-bearing": "a bearing is dry, and whistles",
+}
 MOST_DRAWS = 2000  # a few are enough; so many would be our fault
 
 
@@ -61,11 +67,13 @@ def _drawn(rng: "np.random.Generator") -> Variant | None:
     ratio, diameter = _one(ratios, rng), _one(diameters, rng)
     parts = Parts(LABELS[name], rpm, MOTORS[name].back_emf, count, ratio, diameter)
     cause, flag = _one(CAUSES, rng), _one(tuple(FRICTION), rng)
-    if cause == "radius" and not diameter:
-        return None
+    if (cause == "radius" and not diameter) or (flag == "stop" and kind == "drivetrain"):
+        return None  # a drivetrain never creeps through a match
     factor, words, told = _gone_wrong(cause, parts, ratios, rng)
+    if flag != "fine" and cause != "belt":
+        told["noticed"]["mechanic"] = f'"{STIFF}"'
     measured = float(f"{parts.exact * factor:.4g}")
-    volts = float(rng.uniform(*SPEED))
+    volts = float(rng.uniform(*(CREEP if flag == "stop" else SPEED)))
     friction = float(rng.uniform(*FRICTION[flag])) * (volts if flag == "stop" else 1.0)
     speed = float(f"{volts / measured:.2g}")
     return Variant(kind, parts, measured, round(friction, 2), speed, words, told)
@@ -78,7 +86,7 @@ def _gone_wrong(
     factor, words = 1.0 + float(rng.uniform(*FREE_DRAG)), ()
     ratio, radius, battery = parts.ratio, parts.diameter / 2.0, float(rng.uniform(12.2, 12.6))
     drive, logged = "motor.setVoltage(volts)", "what the motor got"
-    mechanic = "everything turns by hand as it did when it was new"
+    mechanic = "everything turns by hand as it did when it was new, and stays cool"
     if cause == "ratio":
         ratio = _one(tuple(one for one in ratios if one != parts.ratio), rng)
         factor, words = factor * ratio / parts.ratio, ("gear-ratio",)
@@ -91,9 +99,9 @@ def _gone_wrong(
         drive, logged = "motor.set(volts / 12)", "volts, as it was asked for"
         factor, words = factor * 12.0 / battery, ("logged-voltage",)
     elif cause == "belt":
-        factor, words = 1.0 + float(rng.uniform(*BAD_DRAG)), ("tight-belt", "dry-bearing")
-        part = _one(("a belt is as hard as a guitar string", "a bearing is dry, and whistles"), rng)
-        mechanic = f"{part}; it is too hot to touch after a test"
+        part = _one(tuple(BRAKING), rng)
+        factor, words = 1.0 + float(rng.uniform(*BAD_DRAG)), (part,)
+        mechanic = f"{BRAKING[part]}; it is too hot to touch after a test"
     code = {"ratio": f"{ratio:g}"}
     if parts.diameter:
         code["radius"] = f"{radius:.5g}  # [m]"

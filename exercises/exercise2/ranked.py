@@ -5,40 +5,85 @@ from grader.word import word
 
 from .team import KINDS, ORDER, Variant
 
-LEAST = 2  # causes to name, and kinds of them
-SOME = 1.0  # points for causes that are possible, in an order that is not
-NEARLY = 2.0  # points for a good list on which the team's own trouble is missing
+LEAST, MOST = 2, 4  # causes to name: whoever names them all has not looked
+
+Problem = tuple[str, str]  # what to tell the student, and the misconception's code
+DISAGREES = {  # line of the student's file -> what it says of a cause it rules out
+    "ratio": "your file has the same ratio in [code] as in [parts]",
+    "radius": "twice the radius in [code] is the diameter in [parts]",
+    "logged_voltage": "your file says that the log has what the motor got",
+    "mechanic": "read what your mechanic noticed: nothing gets hot or brakes with the speed",
+}
 
 
 def judge_list(raw: object, variant: Variant) -> None:
-    """Hold a list of causes against what is possible, cheap to check, and there to be seen.
+    """Grade a list of causes: one point each for possible causes, their order and the evidence.
+
+    The three points do not depend on each other, but order and evidence need at least two
+    possible causes.
 
     Raises:
-        Wrong: it is no such list, or one of them does not hold.
+        Wrong: it is no such list, or a point is lost; the hint names every reason.
     """
     causes = _read(raw)
-    seen = ", ".join(causes)
-    valid = [one for one in causes if variant.valid(one)]
-    some = SOME if len(valid) >= LEAST else 0.0
-    for one in causes:
-        if one not in valid:
-            says, code = _impossible(one, variant)
-            raise Wrong(seen, hint=f"{one}: {says}", misconception=code, earned=some)
-    kinds = [KINDS[one] for one in causes]
-    if len(set(kinds)) < LEAST:
+    refused = {one: why for one in causes if (why := _refused(one, variant))}
+    possible = [one for one in causes if one not in refused]
+    found = [(f"{one}: {says}", code) for one, (says, code) in refused.items()]
+    if len(causes) > MOST:
+        found.append((f"name {MOST} at most: the list says where to look first", ""))
+    lost = 1 if found else 0
+    if len(possible) < LEAST:
+        found.append((f"name at least {LEAST} causes that are possible", ""))
+        lost = 3
+    else:
+        further = [_about_order(possible, variant), _about_evidence(possible, variant)]
+        found += [(one, "") for one in further if one]
+        lost += sum(bool(one) for one in further)
+    if found:
+        codes = {code for _, code in found if code}
         raise Wrong(
-            seen,
-            hint="all possible, and all of one kind. Name at least two causes, of two "
-            "kinds: mechanical, written down wrong, electrical",
-            earned=some,
+            ", ".join(causes),
+            hint="; ".join(says for says, _ in found),
+            misconception=codes.pop() if len(codes) == 1 else "",
+            earned=3.0 - lost,
         )
-    if kinds != sorted(kinds, key=ORDER.index):
-        hint = "possible, all of them. Which can you check at a desk, and which needs a wrench?"
-        raise Wrong(seen, hint=f"{hint} Look first where looking costs least", earned=some)
-    if variant.planted and not set(causes) & set(variant.planted):
-        hint = "a good list. But one line of your given.toml does not fit the others, or is not as "
-        hint += "it should be, and what it points to is not on your list. Read it line by line"
-        raise Wrong(seen, hint=hint, earned=NEARLY)
+
+
+def _refused(cause: str, variant: Variant) -> Problem | None:
+    """Why a cause cannot be behind this kV, by physics or by the student's own file."""
+    if not variant.valid(cause):
+        return _impossible(cause, variant)
+    line = variant.ruled_out(cause)
+    return (DISAGREES[line], "") if line else None
+
+
+def _about_order(causes: list[str], variant: Variant) -> str:
+    """What is wrong with the order; the cause that the file shows may also stand first."""
+    kinds = [KINDS[one] for one in causes]
+    rest = kinds[1:] if causes[0] == variant.evident else kinds
+    if rest == sorted(rest, key=ORDER.index):
+        return ""
+    return (
+        "which can you check at a desk, and which needs a wrench? Look first where looking costs "
+        "least; only what your file already shows may go before that"
+    )
+
+
+def _about_evidence(causes: list[str], variant: Variant) -> str:
+    """What the list lacks: the cause that the file shows or, on a sound mechanism, two kinds."""
+    if variant.evident:
+        if variant.evident in causes:
+            return ""
+        return (
+            "one line of your given.toml does not fit the others, or is not as it should be, and "
+            "what it points to is not on your list. Read it line by line"
+        )
+    if len({KINDS[one] for one in causes}) < LEAST:
+        return (
+            "all of one kind. Nothing is wrong yet, so name causes of two kinds at least: "
+            "mechanical, written down wrong, electrical"
+        )
+    return ""
 
 
 def _read(raw: object) -> list[str]:

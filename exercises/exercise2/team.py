@@ -24,6 +24,12 @@ KINDS = {  # word -> where to look for it; "" cannot move kV
     "constant-friction": "",
     "sensor-noise": "",
 }
+BRAKES = ("tight-belt", "dry-bearing")
+RULED_OUT_BY = {  # cause -> what the student's file says about it
+    "gear-ratio": "ratio",
+    "wheel-size": "radius",
+    "logged-voltage": "logged_voltage",
+}
 ORDER = ("units", "electrical", "mechanical")
 VERDICTS = ("bookkeeping", "ok", "watch", "inspect")
 FLAGS = ("fine", "watch", "stop")
@@ -122,8 +128,24 @@ class Variant:
             return "stop"
         return "watch" if self.friction > FRICTION else "fine"
 
+    @property
+    def evident(self) -> str:
+        """The one cause that the student's own file shows; empty if nothing went wrong."""
+        return self.planted[0] if self.planted else ""
+
+    def ruled_out(self, word: str) -> str:
+        """Return which line of the student's file rules a cause out; empty if none does.
+
+        A sound mechanism rules out nothing: its student names causes for another day.
+        """
+        if not self.planted or word in self.planted:
+            return ""
+        if word in BRAKES:
+            return "" if self.evident in BRAKES else "mechanic"
+        return RULED_OUT_BY.get(word, "")
+
     def valid(self, word: str) -> bool:
-        """Whether a cause can be behind a kV that is off as this one is."""
+        """Whether a cause can be behind a kV that is off as this one is, by physics alone."""
         if word == "wheel-size" and not self.parts.diameter:
             return False
         if word == "unpowered-motor" and self.parts.motors == 1:

@@ -1,5 +1,6 @@
 """What a plan has to keep, each rule with its figure, and what the robot would do otherwise."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -30,6 +31,9 @@ def broken(machine: Machine, plan: Plan) -> tuple[Broken, ...]:
 def _safe(machine: Machine, plan: Plan) -> Iterator[Broken]:
     if plan.timeout > LONGEST:
         yield Broken(f"a timeout of {plan.timeout:g} s; no test may be longer than {LONGEST:g} s")
+    if machine.travel is not None and MORE * machine.travel < plan.release < math.inf:
+        room = f"{machine.travel:g} {machine.symbol}"
+        yield Broken(f"your mark is at {plan.release:g} {machine.symbol}; your run ends at {room}")
     slow = quasistatic(machine, plan)
     asks = plan.ramp * (slow.still + slow.lasts)
     if asks > MORE * BATTERY:

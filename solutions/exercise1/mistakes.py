@@ -117,7 +117,7 @@ MISTAKES = (
         ANSWERS,
         volts("backward", lambda s, v, _a, _: v - s),
         "backward",
-        "Moving backward, v is negative",
+        "friction opposes the motion",
     ),
     Mistake(
         "no acceleration while it brakes",

@@ -25,6 +25,15 @@ def flag(text: str) -> str:
     return put("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
 
 
+def wires_first(text: str) -> str:
+    """A wrench in hand before the numbers were checked, on a sound mechanism or not."""
+    sound = 'verdict = "ok"' in text
+    found = re.search(r'^inspection = .*?"(.+?)"', text, re.MULTILINE)
+    first = found[1] if found else ""
+    words = ("tight-belt", "gear-ratio") if sound else ("velocity-unit", first, "motor-type")
+    return causes(*words)(text)
+
+
 def causes(*words: str) -> Callable[[str], str]:
     """Make another list of causes."""
     return put("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
@@ -126,16 +135,16 @@ MISTAKES = (
     Mistake(
         "wires before paper",
         ANSWERS,
-        causes("logged-voltage", "gear-ratio"),
+        wires_first,
         "inspection",
         "where looking costs least",
     ),
     Mistake(
-        "one kind only",
+        "one cause only",
         ANSWERS,
-        causes("gear-ratio", "motor-type"),
+        causes("motor-type"),
         "inspection",
-        "all of one kind",
+        "name at least 2 causes",
     ),
     Mistake(
         "no list", ANSWERS, put("inspection", "[]"), "inspection", "Choose from: constant-friction"

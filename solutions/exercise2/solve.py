@@ -48,10 +48,17 @@ def _flag(log: Mapping[str, float]) -> str:
 
 
 def _causes(given: Mapping[str, Any], *, below: bool) -> list[str]:
-    """What does not fit first among its kind, then what else is possible."""
-    parts, code = given["parts"], given["code"]
-    units = "gear-ratio"
+    """What the file shows first, then what else is possible and not ruled out by the file."""
+    parts, code, mechanic = given["parts"], given["code"], given["noticed"]["mechanic"]
     radius = code.get("radius", 0.0)
-    if not math.isclose(2.0 * radius, _diameter(parts, 0.0), rel_tol=0.01):
-        units = "wheel-size"
-    return [units, "logged-voltage"] + ([] if below else ["tight-belt"])
+    if code["ratio"] != parts["ratio"]:
+        return ["gear-ratio", "motor-type"]
+    if not math.isclose(2.0 * radius, _diameter(parts, 0.0), rel_tol=0.01, abs_tol=1e-9):
+        return ["wheel-size", "motor-type"]
+    if "asked" in code["logged_voltage"]:
+        return ["logged-voltage", "motor-type"]
+    if "hot to touch" in mechanic:
+        return ["dry-bearing" if "bearing" in mechanic else "tight-belt", "motor-type"]
+    if below:
+        raise ValueError("kV is below theory, and no line of the file says why")
+    return ["gear-ratio", "logged-voltage", "tight-belt"]

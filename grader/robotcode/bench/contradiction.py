@@ -88,7 +88,8 @@ def _driven(motor: Driven) -> tuple[str, str, str] | None:
     ):
         return None
     if not motor.share:
-        hint = "Drive every motor: one that is left out is dragged along, and counts as friction."
+        hint = "Drive every motor: the others carry one that is left out, and kS and kA come out "
+        hint += "too large."
         return f"{IN} {motor.name} never gets a voltage", hint, ""
     seen = f"{IN} {motor.name} got {motor.got:.2f} V when the test asked for {motor.asked:.2f} V"
     for nominal in (12.0, 12.5, 13.0):

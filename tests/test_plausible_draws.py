@@ -1,0 +1,84 @@
+"""What any student is given is believable, and the authored way earns full marks on it.
+
+The gate looks at a few students of each exercise. ``SYSID_STUDENTS=300`` looks at so many.
+"""
+
+import os
+import runpy
+import shutil
+from pathlib import Path
+
+import pytest
+
+from grader.exercise import Exercise
+from grader.variant import folder_name
+
+ROOT = Path(__file__).resolve().parents[1]
+HEAVY = {"exercise7", "exercise8", "exercise9", "exercise12", "practice"}  # these simulate logs
+FEW, FEWEST = 20, 3  # students in the gate
+GRAVITY = 9.81  # [m/s²]
+BATTERY = 12.6  # [V] of a good one, charged
+KS = {  # [V] kS of real mechanisms: shooters 0.11 to elevators and arms 0.74, and a margin
+    "least": 0.05,
+    "most": 0.8,
+}
+STOP = 1.4  # [V] kS of exercise 2's mechanism that must not be tested on
+ANSWERED = sorted(path.parent.name for path in (ROOT / "solutions").glob("*/solve.py"))
+
+
+def students(name):
+    few = FEWEST if name in HEAVY else FEW
+    return [f"student {number}" for number in range(int(os.environ.get("SYSID_STUDENTS", few)))]
+
+
+def drawn(name):
+    module = Exercise(name, ROOT / "exercises" / name).module
+    return [(student, module.draw(student)) for student in students(name)]
+
+
+def test_exercise_1_has_ordinary_gains_and_needs_no_more_than_a_battery_and_a_grip():
+    for student, variant in drawn("exercise1"):
+        assert KS["least"] <= variant.gains["kS"] <= KS["most"], student
+        for name, at in variant.moments.items():
+            assert abs(variant.asked(name).expected) < BATTERY, student
+            assert abs(variant.gains["kV"] * at.velocity) < BATTERY, student
+            if variant.kind == "drivetrain":
+                assert abs(at.acceleration) < GRAVITY, student  # friction of 1.0, the least
+
+
+def test_exercise_2_has_a_ks_that_goes_with_what_the_mechanic_noticed():
+    for student, variant in drawn("exercise2"):
+        mechanic = variant.told["noticed"]["mechanic"]
+
+        assert KS["least"] <= variant.friction <= STOP, student
+        assert variant.flag == "fine" or "as it did when it was new" not in mechanic, student
+        assert variant.measured * variant.speed < BATTERY / 2, student
+        assert 0.4 < variant.measured / variant.parts.paper < 2.2, (
+            student
+        )  # a radius for a diameter
+        if variant.kind == "drivetrain":
+            assert 0.4 < variant.speed < 3.5, (
+                student
+            )  # [m/s] as the log, or its wrong wheel, has it
+
+
+@pytest.mark.parametrize("name", ANSWERED)
+def test_the_authored_way_earns_full_marks_for_every_student(name, tmp_path):
+    own = ROOT / "exercises" / name
+    copy = tmp_path / "exercises" / name
+    shutil.copytree(own, copy, ignore=shutil.ignore_patterns("data", "__pycache__"))
+    exercise = Exercise(name, copy)
+    solve = runpy.run_path(str(ROOT / "solutions" / name / "solve.py"))["solve"]
+    for student in students(name):
+        exercise.prepare(student, say=lambda _: None)
+        answers = solve(own, copy / "data" / folder_name(student))
+        for file, text in answers.items():
+            (copy / file).write_text(text, encoding="utf-8")
+        for file in exercise.files:
+            if file not in answers:
+                continue
+            grade = exercise.grade(copy / file, student=student)
+            lost = [(one.id, one.seen, one.hint) for one in grade.checks if one.status != "passed"]
+
+            assert lost == [], student
+        shutil.rmtree(copy / "data" / folder_name(student))
