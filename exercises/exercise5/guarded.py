@@ -38,6 +38,12 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
             hint="That if is asked once, while the robot starts, and it is not in test mode then. "
             "Let the trigger ask, every time.",
         )
+    if Guard.OTHER_MODE in first.guards:
+        raise Wrong(
+            f"the guard of {first.text} in line {first.line} asks for a mode other than test mode",
+            hint="Then the test can start in a match, and in test mode it cannot. Ask for test "
+            "mode itself, without negate(), ! or not.",
+        )
     guarded = bound - len(open_)
     if guarded:
         lines = ", ".join(str(one.line) for one in open_)

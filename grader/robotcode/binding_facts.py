@@ -29,6 +29,7 @@ class Guard(Enum):
     CHORD = "chord"  # a second button has to be held
     TOGGLE = "toggle"  # a switch, a dashboard entry, a constant
     ASKED_ONCE = "asked once"  # test mode, asked while the bindings are made: never true
+    OTHER_MODE = "other mode"  # teleop, say, or every mode but test mode: guards nothing
 
 
 @dataclass(frozen=True)

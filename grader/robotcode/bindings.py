@@ -42,7 +42,11 @@ from grader.robotcode.vocabulary import plain
 DEEPEST = 120  # pieces of code one inside the other
 MOST_CALLS = 5  # methods followed, one inside the other
 MOST_STEPS = 50_000  # pieces of code gone through; a robot's container has a thousandth
-_GUARDS = {Asks.TEST_MODE: Guard.TEST_MODE, Asks.SWITCH: Guard.TOGGLE}
+_GUARDS = {
+    Asks.TEST_MODE: Guard.TEST_MODE,
+    Asks.SWITCH: Guard.TOGGLE,
+    Asks.OTHER_MODE: Guard.OTHER_MODE,
+}
 
 
 @dataclass(frozen=True)
@@ -236,6 +240,8 @@ class _Reader:
         asked = [*parts]
         for condition in runs.conditions:
             asked += self._triggers.parts(condition)
+        for condition in runs.exceptions:
+            asked += self._triggers.opposite(condition)
         found = [_GUARDS[part.asks] for part in asked if part.asks in _GUARDS]
         buttons = {part.key for part in asked if part.asks is Asks.BUTTON}
         if len(buttons) > 1:

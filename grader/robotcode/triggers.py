@@ -1,5 +1,6 @@
 """What a trigger asks: buttons of controllers, the robot's mode, switches."""
 
+import re
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -23,6 +24,7 @@ from grader.robotcode.names import Names
 from grader.robotcode.sight import Seen, definitions, entered, followed, functions_of, returned
 from grader.robotcode.syntax import (
     Call,
+    Choice,
     Function,
     Member,
     Name,
@@ -35,6 +37,9 @@ from grader.robotcode.syntax import (
 from grader.robotcode.vocabulary import plain
 
 DEEPEST = 12  # triggers made of triggers
+COMPARING = {"==": True, "is": True, "!=": False, "is not": False, "^": False}
+NOT_TEST = re.compile(r"not\(test mode.*\)")  # the key of a part that asks for any other mode
+MATCH = re.compile(r"(is)?fmsattached", re.IGNORECASE)  # true in a match only
 JOINING = {"&": "and", "&&": "and", "and": "and", "|": "or", "||": "or", "or": "or"}
 
 
@@ -44,6 +49,7 @@ class Asks(Enum):
     BUTTON = "button"
     TEST_MODE = "test mode"
     OTHER_MODE = "other mode"
+    RELEASED = "released"  # a button that nobody presses keeps nobody from anything
     SWITCH = "switch"  # anything a person sets before the test
     NOTHING = "nothing"  # literally true
     UNKNOWN = "unknown"
@@ -88,12 +94,18 @@ class Triggers:
             return self._call(seen, node, depth + 1)
         if isinstance(node, Function):
             return self._function(replace(seen, scope=seen.scope.within(node)), node, depth + 1)
+        if isinstance(node, Choice):
+            return self._choice(seen, node, depth + 1)
         if isinstance(node, Operation | Opaque):
             return self._operation(seen, node, depth + 1, named=node is not before.node)
         if isinstance(node, Name | Member):
             return self._named(seen, node, depth + 1)
         unknown = isinstance(node, Parameter)
         return (Part(Asks.UNKNOWN if unknown else Asks.SWITCH, node.place.text),)
+
+    def opposite(self, seen: Seen) -> tuple[Part, ...]:
+        """The parts of a condition that must not hold."""
+        return (self._mixed(seen, [seen.node], "not", 1),)
 
     def controller(self, seen: Seen) -> str:
         """The controller that a node stands for: its port, or else its variable; empty if none."""
@@ -206,27 +218,53 @@ class Triggers:
     ) -> tuple[Part, ...]:
         inside = [part for part in node.parts if not isinstance(part, Return)]
         sign = _sign(node)
+        if sign in COMPARING and len(inside) > 1:
+            said = [_truth(part) for part in inside]
+            open_ = [part for part, truth in zip(inside, said, strict=True) if truth is None]
+            if len(open_) == 1:
+                same = (said[0] if said[1] is None else said[1]) is COMPARING[sign]
+                return self._same_or_not(seen.at(open_[0]), depth, same=same)
         if sign == "and" and len(inside) > 1:
             return tuple(part for one in inside for part in self.parts(seen.at(one), depth=depth))
-        if isinstance(node, Opaque) and len(inside) == 1:
+        if isinstance(node, Opaque) and len(inside) == 1 and sign != "not":
             return self.parts(seen.at(inside[0]), depth=depth)
         if not inside:
             always = node.place.text.lower() == "true" and not named
             return (Part(Asks.NOTHING if always else Asks.SWITCH, node.place.text),)
         return (self._mixed(seen, inside, sign or node.place.text, depth),)
 
+    def _choice(self, seen: Seen, node: Choice, depth: int) -> tuple[Part, ...]:
+        """``condition ? true : false``; any other choice is a switch of the program's own."""
+        one, other = _truth(node.one), _truth(node.other)
+        if one is None or other is None or one is other:
+            return (self._mixed(seen, [node.condition, node.one, node.other], "?", depth),)
+        return self._same_or_not(seen.at(node.condition), depth, same=one)
+
+    def _same_or_not(self, seen: Seen, depth: int, *, same: bool) -> tuple[Part, ...]:
+        """A condition as it is, or turned round."""
+        if same:
+            return self.parts(seen, depth=depth)
+        return (self._mixed(seen, [seen.node], "not", depth),)
+
     def _mixed(self, seen: Seen, several: list[Node], sign: str, depth: int) -> Part:
         """Parts of which not all have to hold, or not as they are: one, of the weakest kind."""
         found = [part for one in several for part in self.parts(seen.at(one), depth=depth)]
-        key = f"{sign}({', '.join(sorted(part.key for part in found))})"
+        turned = sign in {*NOT, "!", "~"}
+        key = f"{'not' if turned else sign}({', '.join(sorted(part.key for part in found))})"
         kinds = {part.asks for part in found}
         controllers = {part.controller for part in found if part.controller}
-        weak = (Asks.UNKNOWN, Asks.NOTHING, Asks.BUTTON, Asks.OTHER_MODE)
+        weak = (Asks.UNKNOWN, Asks.NOTHING, Asks.BUTTON, Asks.RELEASED, Asks.OTHER_MODE)
         asks = next((kind for kind in weak if kind in kinds), Asks.SWITCH)
-        if kinds == {Asks.TEST_MODE} and sign not in {*NOT, "!"}:
-            asks = Asks.TEST_MODE
-        elif asks is Asks.BUTTON and sign in {*NOT, "!"}:
-            asks = Asks.OTHER_MODE  # a button nobody presses keeps nobody from anything
+        if turned and len(found) == 1 and NOT_TEST.fullmatch(found[0].key):
+            return Part(Asks.TEST_MODE, found[0].key[4:-1])
+        if turned and len(found) == 1 and MATCH.fullmatch(found[0].key):
+            return Part(Asks.SWITCH, key)
+        if kinds == {Asks.TEST_MODE}:
+            asks = Asks.OTHER_MODE if turned else Asks.TEST_MODE
+        elif turned and Asks.TEST_MODE in kinds:
+            asks = Asks.OTHER_MODE
+        elif turned and asks is Asks.BUTTON:
+            asks = Asks.RELEASED
         return Part(asks, key, min(controllers, default=""))
 
     def _named(self, seen: Seen, node: Node, depth: int, *, text: str = "") -> tuple[Part, ...]:
@@ -263,4 +301,10 @@ def _sign(node: Operation | Opaque) -> str:
         said = source[node.place.start : first.place.start].decode("utf-8", errors="replace")
         return "not" if said.strip(" (") in {"not", "~"} else ""
     said = source[first.place.end : more[0].place.start].decode("utf-8", errors="replace")
-    return JOINING.get(said.strip(" ()\n\t\\"), "")
+    said = " ".join(said.strip(" ()\n\t\\").split())
+    return said if said in COMPARING else JOINING.get(said, "")
+
+
+def _truth(node: Node) -> bool | None:
+    """What a literal says; None for anything else."""
+    return {"true": True, "false": False}.get(node.place.text.lower())
