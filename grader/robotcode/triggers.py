@@ -94,9 +94,7 @@ class Triggers:
             return self._call(seen, node, depth + 1)
         if isinstance(node, Function):
             return self._function(replace(seen, scope=seen.scope.within(node)), node, depth + 1)
-        if isinstance(node, Choice):
-            return self._choice(seen, node, depth + 1)
-        if isinstance(node, Operation | Opaque):
+        if isinstance(node, Operation | Opaque | Choice):
             return self._operation(seen, node, depth + 1, named=node is not before.node)
         if isinstance(node, Name | Member):
             return self._named(seen, node, depth + 1)
@@ -214,8 +212,10 @@ class Triggers:
         return ""
 
     def _operation(
-        self, seen: Seen, node: Operation | Opaque, depth: int, *, named: bool
+        self, seen: Seen, node: Operation | Opaque | Choice, depth: int, *, named: bool
     ) -> tuple[Part, ...]:
+        if isinstance(node, Choice):
+            return self._choice(seen, node, depth)
         inside = [part for part in node.parts if not isinstance(part, Return)]
         sign = _sign(node)
         if sign in COMPARING and len(inside) > 1:
@@ -273,6 +273,11 @@ class Triggers:
             call = Call(node.place, node, ())
             self.asked.add(node)
             if self.controller(seen.at(node.owner)) or functions_of(seen.at(call), self._names):
+                return self._call(seen.at(call), call, depth)
+        if isinstance(node, Name) and not text:  # a variable that holds a lambda, or a function
+            call = Call(node.place, node, ())
+            functions = functions_of(seen.at(call), self._names)
+            if len(functions) == 1 and functions[0][0] not in seen.scope.functions:
                 return self._call(seen.at(call), call, depth)
         word = last_name(node)
         owner = last_name(node.owner) if isinstance(node, Member) else ""
