@@ -20,6 +20,7 @@ from grader.robotcode.meaning import (
 from grader.robotcode.measure import Measures
 from grader.robotcode.motors import owned
 from grader.robotcode.names import Names
+from grader.robotcode.readings import devices, numbers, same_numbers, settings_of
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.syntax import Assign, Call, Function, Member, Node, Null, Number, Self, Text
 from grader.robotcode.value import MotorLog, Value
@@ -75,6 +76,9 @@ def facts_of(path: Path) -> RoutineFacts:
             class_name=home.classes[-1].name,
             is_subsystem=not above.isdisjoint(SUBSYSTEMS),
             motors=owned(home, names),
+            same_numbers=tuple(same_numbers(home, names, measures)),
+            devices=tuple(devices(home, names)),
+            constants=tuple(numbers(home, names, measures)),
         )
     facts = replace(
         facts,
@@ -209,7 +213,8 @@ def _with_mechanism(
         )
         _in_periodic(drive, scope, names)
     commanded = {key for key, value in drive.stored.items() if value.carries is not False}
-    log = LogTrace(names, measures, commanded=commanded)
+    settings = settings_of(scope.home, names, measures)
+    log = LogTrace(names, measures, commanded=commanded, settings=settings)
     callback = _callback(given.get(1), scope, names)
     if callback is not None:
         found = log.run(callback, scope, Value(callback, scope, log=MotorLog()))
@@ -220,6 +225,7 @@ def _with_mechanism(
         logged=tuple(log.signals),
         log_is_null=given.get(1) is not None and callback is None,
         unread=(*drive.unread.values(), *log.unread.values()),
+        inverted=frozenset(settings.inverted),
     )
 
 
