@@ -1,0 +1,100 @@
+"""Authored answers and further right ones: what is mutated, and how a mutant is graded."""
+
+import importlib.util
+import shutil
+import tempfile
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+
+from grader.check import Status
+from grader.course import find_course
+from grader.exercise import Exercise, Grade
+from mutation.mutant import Mutant
+from sim.errors import Refusal
+
+ROOT = find_course(Path(__file__).resolve().parent)
+BASES = Path(__file__).parent / "bases"
+STUDENT = "ann"
+GENERIC = ("something is wrong", "try again", "look at the answer again")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What became of a mutant.
+
+    Args:
+        killed: whether it lost points and its author is told why.
+        score: the points it earned.
+        said: what its author is told first, or why it is a survivor.
+    """
+
+    killed: bool
+    score: float
+    said: str
+
+
+@cache
+def exercise(name: str) -> Exercise:
+    """An exercise of the course."""
+    return Exercise(name, ROOT / "exercises" / name)
+
+
+@cache
+def answer(name: str) -> dict[str, str]:
+    """The authored answer to an exercise: file name and text."""
+    folder, one = ROOT / "solutions" / name, exercise(name)
+    if not (folder / "solve.py").is_file():
+        named = (*one.files, *one.beside)
+        return {file: (folder / file).read_text(encoding="utf-8") for file in named}
+    with tempfile.TemporaryDirectory() as place:
+        copy = Path(place) / "exercises" / name
+        shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data"))
+        Exercise(name, copy).prepare(STUDENT, say=lambda _: None)
+        (data,) = (copy / "data").iterdir()
+        return dict(_load(folder / "solve.py").solve(copy, data))
+
+
+def _load(path: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(f"_{path.parent.name}_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise FileNotFoundError(path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def graded(name: str, file: str, text: str, folder: Path, *, run: bool = False) -> Grade:
+    """Grade an answer of which one file has another text.
+
+    Raises:
+        Refusal: it cannot be read.
+    """
+    one = exercise(name)
+    first = one.files[0] if file in one.beside else file
+    for part, right in answer(name).items():
+        if part == first or part in one.beside:
+            (folder / part).write_text(right, encoding="utf-8")
+    (folder / file).write_text(text, encoding="utf-8")
+    return one.grade(folder / first, student=STUDENT, run=run)
+
+
+def judge(mutant: Mutant, folder: Path, *, run: bool = False) -> Verdict:
+    """Grade a mutant: it is killed by a loss of points with advice of its own."""
+    file = Path(mutant.file).name
+    try:
+        grade = graded(mutant.exercise, file, mutant.text, folder, run=run)
+    except Refusal as refusal:
+        return Verdict(bool(refusal.advice), 0.0, str(refusal))
+    failed = [one for one in grade.checks if one.status is Status.FAILED]
+    broken = [one for one in grade.checks if one.status is Status.ERROR]
+    if broken:
+        return Verdict(killed=False, score=grade.score, said=f"broken: {broken[0].seen}")
+    if grade.score >= grade.max_score:
+        return Verdict(killed=False, score=grade.score, said="full marks")
+    for one in failed:
+        if one.hint.strip() and one.hint.strip().lower() not in GENERIC:
+            said = f"{one.id}: {one.seen} | {one.hint}"
+            return Verdict(killed=True, score=grade.score, said=said)
+    return Verdict(killed=False, score=grade.score, said="it lost points without a word")
