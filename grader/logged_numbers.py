@@ -1,6 +1,6 @@
-"""Whether the logged numbers are what their names and units say, judged by the device behind them.
+"""Whether logged numbers are what their names and units say, judged by the device behind them.
 
-The facts come from ``grader.robotcode.readings``. What cannot be told by reading is left alone here.
+The facts come from ``grader.robotcode.readings``. What reading cannot tell is left alone here.
 """
 
 import itertools
@@ -102,8 +102,8 @@ def _twice(facts: RoutineFacts) -> Iterator[Fault]:
                         f"{before.motor}"
                     ),
                     (
-                        f"Copied and not changed? Log for {one.motor} what its own motor and its own "
-                        "encoder say."
+                        f"Copied and not changed? Log for {one.motor} what its own motor and its "
+                        "own encoder say."
                     ),
                 )
     yield from _mixed(facts)
@@ -122,8 +122,8 @@ def _mixed(facts: RoutineFacts) -> Iterator[Fault]:
                 yield (
                     f"{name} {later}",
                     (
-                        f"{_at(other)}: the {later} of {name} comes from {other.device}, its {earlier} "
-                        f"from {one.device}"
+                        f"{_at(other)}: the {later} of {name} comes from {other.device}, its "
+                        f"{earlier} from {one.device}"
                     ),
                     "All three signals of a motor have to come from the same side.",
                 )

@@ -199,7 +199,14 @@ class Arm(Subsystem):
 
 
 def python(body, *, more=""):
-    return f"""{ARM}
+    return f"""from commands2 import Subsystem
+from commands2.button import CommandXboxController, JoystickButton, Trigger
+from commands2.sysid import SysIdRoutine
+from wpilib import DriverStation, RobotModeTriggers
+
+Direction = SysIdRoutine.Direction
+
+{ARM}
 
 class RobotContainer:
     def __init__(self):

@@ -20,10 +20,12 @@ from grader.robotcode.bench import Outcome, Ran, contradiction
 from grader.robotcode.bench.contradiction import Fault, stopped
 from grader.robotcode.facts import RoutineFacts
 from grader.submission import read_text
+from grader.wiring import READ as READ_ONLY
 from grader.wiring import (
     Advice,
     Setting,
     cannot_tell,
+    check_compiles,
     check_driven,
     check_open_loop,
     check_recorded,
@@ -93,6 +95,8 @@ def routine(code: Code) -> str | None:
             f"no SysIdRoutine in {code.facts.class_name or 'this file'}",
             hint="Make one where the motors are made, and keep it in a field.",
         )
+    if code.facts.language == "java" or not bench.installed():
+        return READ_ONLY[code.facts.language]
     return noted(code.ran, contradiction.figures)
 
 
@@ -296,6 +300,7 @@ def _assembled(facts: RoutineFacts) -> None:
             f"{facts.class_name} is not a subsystem",
             hint="Let it extend SubsystemBase (Python: Subsystem).",
         )
+    check_compiles(facts.compile_errors, language=facts.language)
 
 
 @check(points=2, after=routine)

@@ -122,6 +122,7 @@ class BindingFacts:
         uncalled: private methods with bindings that nothing calls: name and line.
         unread: bindings whose command cannot be told by reading.
         problems: syntax errors; when there are any, the rest is empty.
+        compile_errors: what keeps the file from being compiled, as far as text can tell.
     """
 
     language: str
@@ -132,3 +133,4 @@ class BindingFacts:
     uncalled: tuple[tuple[str, int], ...] = ()
     unread: tuple[Problem, ...] = ()
     problems: tuple[Problem, ...] = ()
+    compile_errors: tuple[Problem, ...] = ()

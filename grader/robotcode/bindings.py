@@ -16,6 +16,7 @@ from grader.robotcode.binding_facts import (
 from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS
 from grader.robotcode.commands import Commands, Runs
 from grader.robotcode.comments import beside, comments
+from grader.robotcode.compiling import compile_errors
 from grader.robotcode.controllers import controllers
 from grader.robotcode.factories import factories, is_private
 from grader.robotcode.facts import Problem
@@ -121,6 +122,7 @@ class _Reader:
             elsewhere=tuple(self._elsewhere.items()),
             uncalled=tuple(uncalled),
             unread=tuple(dict.fromkeys(self._unread)),
+            compile_errors=compile_errors(self._names),
         )
 
     def _several(

@@ -152,6 +152,7 @@ class RoutineFacts:
         same_numbers: pairs of devices that are made with the same port or CAN ID.
         devices: the class of every motor controller and encoder the class owns, by its name.
         constants: the numbers among the class's fields, by their name.
+        compile_errors: what keeps the file from being compiled, as far as text can tell.
         unread: where the callbacks lead to code that is not in these files, or too deep to
             follow: what is missing in ``drive`` or ``logged`` may be there.
     """
@@ -176,6 +177,7 @@ class RoutineFacts:
     mechanism_argument: int = -1
     problems: tuple[Problem, ...] = ()
     unread: tuple[Problem, ...] = ()
+    compile_errors: tuple[Problem, ...] = ()
     inverted: frozenset[str] = frozenset()
     same_numbers: tuple[tuple[str, str], ...] = ()
     devices: tuple[tuple[str, str], ...] = ()

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from grader.robotcode.compiling import compile_errors
 from grader.robotcode.drive import DriveTrace
 from grader.robotcode.facts import Known, Problem, Quantity, RoutineFacts
 from grader.robotcode.files import Files
@@ -61,6 +62,7 @@ def facts_of(path: Path) -> RoutineFacts:
     module = names.main
     facts = RoutineFacts(module.language, problems=module.problems)
     routine = _find(names)
+    facts = replace(facts, compile_errors=compile_errors(names))
     if routine is None:
         return facts
     measures = Measures(names)

@@ -134,9 +134,7 @@ def lines(report: Report) -> Iterator[str]:
 def main(arguments: list[str]) -> int:
     """Print the report; 1 if there is a survivor or a stale entry."""
     part = next((one for one in arguments if not one.startswith("-")), "")
-    wanted = (
-        one for one in all_mutants() if part in f"{one.exercise} {one.file} {one.operator}"
-    )
+    wanted = (one for one in all_mutants() if part in f"{one.exercise} {one.file} {one.operator}")
     report = survey(wanted, run="--run" in arguments)
     if part:
         report.stale = []

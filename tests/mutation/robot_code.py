@@ -1,5 +1,6 @@
 """Every mutant of the Java and RobotPy answers to exercises 4, 5, 10 and the practice."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -23,7 +24,20 @@ def bases() -> Iterator[tuple[str, str, str]]:
 
 
 def mutants() -> Iterator[Mutant]:
-    """Every mutant of every base."""
+    """Every mutant of every base; of exercise 5 only the learner's own part, and the imports."""
     for name, file, text in bases():
+        own = _learners_lines(text)
         for operator, line, changed in CHANGES[Path(file).suffix](text):
-            yield Mutant(name, file, operator, line, changed)
+            if name != "exercise5" or line in own:
+                yield Mutant(name, file, operator, line, changed)
+
+
+def _learners_lines(text: str) -> set[int]:
+    """The lines between the marks of an authored answer, and the imports."""
+    found, inside = set(), False
+    for number, line in enumerate(text.splitlines(), 1):
+        if "--- answer:" in line or "--- end" in line:
+            inside = "--- answer:" in line
+        elif inside or re.match(r"(import|from) ", line):
+            found.add(number)
+    return found
