@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 
 from grader.check import Wrong
 from grader.robotcode.facts import LoggedSignal, RoutineFacts
+from grader.robotcode.readings import PULSE_COUNT
 
 SIDES = (("left", "right"), ("front", "back"), ("front", "rear"), ("top", "bottom"))
 MOVING = ("position", "velocity")
@@ -19,7 +20,7 @@ UNITS_OF = {
     "rpm": "rotations per minute",
     "pulse": "pulses",
 }
-CLOSE = 1e-6
+CLOSE = 1e-6  # relative
 LONGEST = 2.0  # [m] no wheel or drum lays so much behind it in one rotation of its motor
 SHARE = 1 / 6  # of the log's points: one wrong signal
 
@@ -263,21 +264,24 @@ def _slip(one: LoggedSignal) -> str:
         return ""
     per_second = abs(one.scale) * (60.0 if one.native == "rpm" else 1.0)
     bare = math.isclose(abs(one.scale), 1.0, rel_tol=CLOSE)
-    if one.family == "linear":
-        if one.native == "pulse" and bare:
-            return "Until setDistancePerPulse() is called, an encoder counts pulses. Set it first."
-        if bare or math.isclose(per_second, 1.0, rel_tol=CLOSE):
-            return (
-                "The unit's name around a number converts nothing. Multiply by the meters of one "
-                "rotation: the wheel's circumference over the gear ratio."
-            )
-        if one.native != "pulse" and per_second > LONGEST:
-            return (
-                f"One rotation would be {per_second:.3g} m. Multiply by the meters of one "
-                "rotation, and do not divide by them."
-            )
-        return ""
-    return _angular_slip(one, per_second, bare=bare)
+    if one.family != "linear":
+        return _angular_slip(one, per_second, bare=bare)
+    hint = ""
+    if one.type == PULSE_COUNT:
+        hint = "Ask getDistance() and getRate(): they know the distance of a pulse."
+    elif one.native == "pulse" and bare:
+        hint = "Until setDistancePerPulse() is called, an encoder counts pulses. Set it first."
+    elif bare or math.isclose(per_second, 1.0, rel_tol=CLOSE):
+        hint = (
+            "The unit's name around a number converts nothing. Multiply by the meters of one "
+            "rotation: the wheel's circumference over the gear ratio."
+        )
+    elif one.native != "pulse" and per_second > LONGEST:
+        hint = (
+            f"One rotation would be {per_second:.3g} m. Multiply by the meters of one rotation, "
+            "and do not divide by them."
+        )
+    return hint
 
 
 def _angular_slip(one: LoggedSignal, per_second: float, *, bare: bool) -> str:
@@ -375,6 +379,11 @@ def check_numbers(facts: RoutineFacts) -> None:
     Raises:
         Wrong: two are.
     """
+    for name, number in facts.impossible_numbers:
+        raise Wrong(
+            f"{name} is made with {number:g}",
+            hint="That can be no port and no CAN ID of its own. Look at how it is wired.",
+        )
     for one, other in facts.same_numbers:
         raise Wrong(
             f"{one} and {other} are made with the same number",

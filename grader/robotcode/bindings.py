@@ -47,6 +47,7 @@ _GUARDS = {
     Asks.TEST_MODE: Guard.TEST_MODE,
     Asks.SWITCH: Guard.TOGGLE,
     Asks.OTHER_MODE: Guard.OTHER_MODE,
+    Asks.ONCE: Guard.ASKED_ONCE,
 }
 
 

@@ -149,6 +149,7 @@ class RoutineFacts:
         problems: syntax errors; when there are any, the other facts may be incomplete.
         inverted: motors that the code sets to turn the other way round; ``*`` is one that cannot
             be told apart.
+        impossible_numbers: devices that are made with what can be no port and no CAN ID.
         same_numbers: pairs of devices that are made with the same port or CAN ID.
         devices: the class of every motor controller and encoder the class owns, by its name.
         constants: the numbers among the class's fields, by their name.
@@ -179,6 +180,7 @@ class RoutineFacts:
     unread: tuple[Problem, ...] = ()
     compile_errors: tuple[Problem, ...] = ()
     inverted: frozenset[str] = frozenset()
+    impossible_numbers: tuple[tuple[str, float], ...] = ()
     same_numbers: tuple[tuple[str, str], ...] = ()
     devices: tuple[tuple[str, str], ...] = ()
     constants: tuple[tuple[str, float], ...] = ()

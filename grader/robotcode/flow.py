@@ -7,7 +7,7 @@ from grader.robotcode.conversions import FACTORS
 from grader.robotcode.meaning import last_name, simple, type_of
 from grader.robotcode.measure import Measure, Measures
 from grader.robotcode.names import Names
-from grader.robotcode.readings import Reading, device_of, quantity_of
+from grader.robotcode.readings import COUNTS, PULSE_COUNT, Reading, device_of, quantity_of
 from grader.robotcode.scope import Scope
 from grader.robotcode.syntax import Call, Member, Node, Operation
 from grader.robotcode.value import CHANGED, Mark, Value, joined
@@ -22,6 +22,7 @@ from grader.robotcode.vocabulary import (
     MEASURED,
     OPPOSITE,
     OVER,
+    PULSES,
     REPLACES,
     SAME,
     TIMES,
@@ -110,6 +111,8 @@ class Flow:
             return None
         device, type_ = device_of(receiver.origin, receiver.scope, self._names)
         quantity = quantity_of(name, motor=is_motor(type_)) if device else ""
+        if PULSES.fullmatch(type_) and name in COUNTS:
+            type_ = PULSE_COUNT
         return Reading(f"{receiver.me}{device}", type_, quantity) if quantity else None
 
     def _scale_of_call(self, call: Call, name: str, made: Value, scope: Scope) -> float | None:

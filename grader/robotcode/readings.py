@@ -13,7 +13,7 @@ from grader.robotcode.measure import Measures
 from grader.robotcode.motors import label
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope, bindings, walk
-from grader.robotcode.syntax import Assign, Call, Member, Name, Node, Number, Self, Text
+from grader.robotcode.syntax import Assign, Call, Member, Name, Node, Self, Text
 from grader.robotcode.vocabulary import (
     APPLIED_DUTY,
     APPLIED_VOLTAGE,
@@ -34,9 +34,12 @@ QUANTITIES = (
     ("velocity", re.compile(r"get\w*(Velocity|Rate|Speed)\w*")),
     ("acceleration", re.compile(r"get\w*Acceleration\w*")),
     ("current", re.compile(r"get\w*Current\w*")),
-    ("position", re.compile(r"get\w*(Position|Distance|Angle)\w*|get")),
+    ("position", re.compile(r"get\w*(Position|Distance|Angle|Raw)\w*|get")),
 )
 ENCODER = re.compile(r"\w*(Encoder|CANcoder|CANCoder|Cancoder)")
+MOST_IDS = 62  # on a CAN bus
+PULSE_COUNT = "pulse count"  # the type of a reading by one of ...
+COUNTS = frozenset({"get", "getRaw"})  # methods of WPILib's Encoder that know of no distance
 ANY = "*"  # a setting of a device that cannot be told apart
 
 
@@ -120,6 +123,8 @@ def native_unit(reading: Reading, settings: Settings) -> tuple[str, float | None
         if factors or not settings.elsewhere:
             factor = 1.0 if not factors else factors.pop() if len(factors) == 1 else None
             found = ("rpm" if moves else "rotation"), factor
+    elif reading.type == PULSE_COUNT:
+        found = "pulse", 1.0
     elif PULSES.fullmatch(reading.type):
         if ANY in settings.per_pulse:
             found = "set", None
@@ -199,31 +204,43 @@ def _is_open(node: Node, scope: Scope, names: Names) -> bool:
     return bool(names.local(node.name, scope))
 
 
+def impossible_numbers(home: Scope, names: Names, measures: Measures) -> list[tuple[str, float]]:
+    """A class's devices that are made with what can be no port and no CAN ID."""
+    found = []
+    for name, value in _made(home, names):
+        several = (measures.of(arg, home) for arg in value.args)
+        amounts = [one.value for one in several if one is not None]
+        wrong = [one for one in amounts if one != int(one) or not 0 <= one <= MOST_IDS]
+        twice = len(amounts) > 1 and amounts[0] == amounts[1]
+        if wrong or (twice and last_name(value.target) == "Encoder"):
+            found.append((name, (wrong or amounts)[0]))
+    return found
+
+
+def _made(home: Scope, names: Names) -> Iterator[tuple[str, Call]]:
+    """The motor controllers and encoders of a class that are made with a number."""
+    for name, definitions in (names.fields(home) if home.classes else {}).items():
+        value = next((one.value for one in definitions if isinstance(one.value, Call)), None)
+        if isinstance(value, Call) and value.args:
+            type_ = simple(type_of(value, home, names))
+            if is_motor(type_) or type_ == "Encoder":
+                yield name, value
+
+
 def same_numbers(home: Scope, names: Names, measures: Measures) -> list[tuple[str, str]]:
     """Pairs of a class's devices that are made with the same number of a port or a CAN ID."""
     made: dict[tuple[object, ...], str] = {}
-    found = []
-    fields = names.fields(home) if home.classes else {}
-    for name, definitions in fields.items():
-        value = next((one.value for one in definitions if isinstance(one.value, Call)), None)
-        if not isinstance(value, Call) or not value.args:
-            continue
-        type_ = simple(type_of(value, home, names))
-        if not (is_motor(type_) or type_ == "Encoder"):
-            continue
-        key: list[object] = [type_]
-        for arg in value.args:
-            amount = measures.of(arg, home)
-            if amount is not None and isinstance(arg, Number | Name | Member):
-                key.append(amount.value)
-            elif isinstance(arg, Text):
-                key.append(arg.value)
-        if len(key) < 2:  # noqa: PLR2004 - the class, and at least one number
-            continue
-        if tuple(key) in made:
-            found.append((made[tuple(key)], name))
-        made.setdefault(tuple(key), name)
-    return found
+    found: list[tuple[str, str]] = []
+    for name, value in _made(home, names):
+        kind = simple(type_of(value, home, names))
+        amounts = [measures.of(arg, home) for arg in value.args]
+        known = [one.value for one in amounts if one is not None]
+        texts = [arg.value for arg in value.args if isinstance(arg, Text)]
+        keys: list[tuple[object, ...]] = [(kind, *known, *texts)] if known else []
+        if kind == "Encoder":  # each of its two channels is a port of its own
+            keys = [(kind, channel) for channel in dict.fromkeys(known[:2])]
+        found += [(made[key], name) for key in keys if made.setdefault(key, name) != name]
+    return list(dict.fromkeys(found))
 
 
 def devices(home: Scope, names: Names) -> Iterator[tuple[str, str]]:

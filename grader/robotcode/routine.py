@@ -21,7 +21,13 @@ from grader.robotcode.meaning import (
 from grader.robotcode.measure import Measures
 from grader.robotcode.motors import owned
 from grader.robotcode.names import Names
-from grader.robotcode.readings import devices, numbers, same_numbers, settings_of
+from grader.robotcode.readings import (
+    devices,
+    impossible_numbers,
+    numbers,
+    same_numbers,
+    settings_of,
+)
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.syntax import Assign, Call, Function, Member, Node, Null, Number, Self, Text
 from grader.robotcode.value import MotorLog, Value
@@ -78,6 +84,7 @@ def facts_of(path: Path) -> RoutineFacts:
             class_name=home.classes[-1].name,
             is_subsystem=not above.isdisjoint(SUBSYSTEMS),
             motors=owned(home, names),
+            impossible_numbers=tuple(impossible_numbers(home, names, measures)),
             same_numbers=tuple(same_numbers(home, names, measures)),
             devices=tuple(devices(home, names)),
             constants=tuple(numbers(home, names, measures)),

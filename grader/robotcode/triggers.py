@@ -52,6 +52,7 @@ class Asks(Enum):
     RELEASED = "released"  # a button that nobody presses keeps nobody from anything
     SWITCH = "switch"  # anything a person sets before the test
     NOTHING = "nothing"  # literally true
+    ONCE = "asked once"  # test mode, asked while the program starts and kept in a variable
     UNKNOWN = "unknown"
 
 
@@ -91,7 +92,10 @@ class Triggers:
         if depth > DEEPEST:
             return (Part(Asks.UNKNOWN, ""),)
         if isinstance(node, Call):
-            return self._call(seen, node, depth + 1)
+            found = self._call(seen, node, depth + 1)
+            kept = node is not before.node and isinstance(before.node, Name | Member)
+            asked = last_name(node.target).lower().startswith("is")
+            return tuple(map(_kept, found)) if kept and asked else found
         if isinstance(node, Function):
             return self._function(replace(seen, scope=seen.scope.within(node)), node, depth + 1)
         if isinstance(node, Operation | Opaque | Choice):
@@ -154,6 +158,10 @@ class Triggers:
         if name in BUTTONS and args:
             rest = [self._argument(seen.at(arg)) for arg in args[1:]]
             return self._button(seen.at(args[0]), "button" if name[0] == "J" else "pov", rest)
+        if isinstance(call.target, Name):  # a variable that holds a method: testing()
+            held = followed(seen.at(call.target), self._names)
+            if isinstance(held.node, Member):
+                return self._named(held, held.node, depth)
         found = () if owner is None else self._method(seen, owner, name, args, depth)
         return found or self._named(seen, call.target, depth, text=call.place.text)
 
@@ -294,6 +302,11 @@ class Triggers:
     def _is_open(self, seen: Seen, node: Name) -> bool:
         found = self._names.local(node.name, seen.scope)
         return any(isinstance(one.value, Parameter) for one in found)
+
+
+def _kept(part: Part) -> Part:
+    """A part that a variable holds: test mode is then what it was when the program started."""
+    return replace(part, asks=Asks.ONCE) if part.asks is Asks.TEST_MODE else part
 
 
 def _sign(node: Operation | Opaque) -> str:

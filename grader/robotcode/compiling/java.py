@@ -13,7 +13,7 @@ from grader.robotcode.compiling.season import (
     nearly,
 )
 from grader.robotcode.facts import Problem
-from grader.robotcode.meaning import called, simple
+from grader.robotcode.meaning import called, class_of, methods, simple
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.syntax import (
@@ -53,6 +53,7 @@ def errors(names: Names) -> Iterator[Problem]:
         return
     yield from _imports(names)
     yield from type_errors(names)
+    yield from _file_name(names)
     every = list(walk(module.body, Scope(module)))
     open_ = any(one.name == "*" and not _static(one) for one in module.imports)
     declared = {node.name for node, _ in every if isinstance(node, Class)}
@@ -67,6 +68,16 @@ def errors(names: Names) -> Iterator[Problem]:
             yield from _variable(node, declared, scope, names, open_=open_)
         elif isinstance(node, Call):
             yield from _method(node, scope, names)
+
+
+def _file_name(names: Names) -> Iterator[Problem]:
+    """A public class whose name is nearly its file's: Java wants both to be the same."""
+    stem = names.main.path.stem
+    for node in names.main.body:
+        public = isinstance(node, Class) and node.place.text.startswith("public")
+        if public and isinstance(node, Class) and nearly(node.name, frozenset({stem})):
+            said = f"the class is {node.name}, and its file {stem}: both need one name"
+            yield Problem(said, node.place.line)
 
 
 def name_is_value(node: Name) -> bool:
@@ -187,6 +198,14 @@ def _method(call: Call, scope: Scope, names: Names) -> Iterator[Problem]:
     line = target.place.line
     if isinstance(target, Member) and not isinstance(target, Reference):
         if called(call, scope, names) or isinstance(target.owner, Self):
+            return
+        home = class_of(target.owner, scope, names)
+        if home is not None and home.classes and _closed(home, names):
+            there = methods(target.name, home, names) or target.name in INHERITED
+            record = home.classes[-1].place.text.split("{")[0]
+            if not there and "enum" not in record and "record" not in record:
+                where = home.classes[-1].name
+                yield Problem(f"{where} has no method {target.name}()", line)
             return
         if _defined(target.name, names):
             return

@@ -41,6 +41,7 @@ VALUES = {"position": "Angle", "velocity": "AngularVelocity", "voltage": "Voltag
 PARAMETERS = ({"Voltage", "Measure", ""}, {"SysIdRoutineLog", ""})  # of the two callbacks
 NUMBERS = frozenset({"double", "float", "int", "long", "Double", "Float", "Integer"})
 MAKES = frozenset({"of", "ofBaseUnits", "mutable", "one", "zero"})
+ARITHMETIC = frozenset({"+", "-", "*", "/", "%"})
 PLAIN_NUMBERS = frozenset(
     {"in", "getValueAsDouble", "baseUnitMagnitude", "magnitude", "getAsDouble"}
 )
@@ -50,6 +51,8 @@ KEEPS = re.compile(r"mut_?\w+|plus|minus|copy|mutableCopy|unaryMinus|negate")
 def type_errors(names: Names) -> Iterator[Problem]:
     """Arguments of the SysId log, of units and of the callbacks that are of another type."""
     for node, scope in walk(names.main.body, Scope(names.main)):
+        if isinstance(node, Operation) and node.sign in ARITHMETIC:
+            yield from _operands(node, scope, names)
         if not isinstance(node, Call):
             continue
         name = last_name(node.target)
@@ -57,6 +60,15 @@ def type_errors(names: Names) -> Iterator[Problem]:
             yield from _argument(node, node.target, name, scope, names)
         if constructed(node, scope, names) == "Mechanism":
             yield from _callbacks(node, scope, names)
+
+
+def _operands(node: Operation, scope: Scope, names: Names) -> Iterator[Problem]:
+    """Arithmetic with what is no number: Java has no operators for measures and signals."""
+    for part in (node.left, node.right):
+        given = "" if part is None else type_of_expression(part, scope, names)
+        if given == SIGNAL or given in MEASURES:
+            what = "a signal: add getValueAsDouble()" if given == SIGNAL else f"a {given}"
+            yield Problem(f"{node.sign} takes numbers, and this is {what}", node.place.line)
 
 
 def _argument(
@@ -143,7 +155,7 @@ def type_of_expression(node: Node, scope: Scope, names: Names, *, depth: int = 0
     if isinstance(node, Number):
         found = NUMBER
     elif isinstance(node, Operation):
-        found = NUMBER if node.sign in {"+", "-", "*", "/", "%"} else ""
+        found = NUMBER if node.sign in ARITHMETIC else ""
     elif isinstance(node, Cast):
         found = _named(node.type)
     elif isinstance(node, Choice):

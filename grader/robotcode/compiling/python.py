@@ -129,6 +129,13 @@ def _members(one: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> set[str] | 
             return None
         waiting += [classes[name] for name in bases & classes.keys()]
         known |= {name for node in ast.walk(place) for name in _sets(node)}
+        known |= {
+            target.id
+            for node in place.body
+            for target in ast.walk(node)
+            if isinstance(node, ast.Assign | ast.AnnAssign)
+            if isinstance(target, ast.Name) and not isinstance(target.ctx, ast.Load)
+        }
     return None if known & OPEN else known
 
 
@@ -138,5 +145,5 @@ def _sets(node: ast.AST) -> Iterator[str]:
         yield node.name
     elif isinstance(node, ast.Attribute) and _is_set(node):
         yield node.attr
-    elif (isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load)) or (isinstance(node, ast.Name) and node.id in OPEN):
+    elif isinstance(node, ast.Name) and node.id in OPEN:
         yield node.id
