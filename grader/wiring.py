@@ -15,6 +15,7 @@ from grader.robotcode.facts import (
     Known,
     LoggedSignal,
     Output,
+    Problem,
     Quantity,
     RoutineFacts,
     Source,
@@ -257,6 +258,34 @@ def family(name: str) -> str:
     if linear == angular:
         return ""
     return "linear" if linear else "angular"
+
+
+def check_compiles(errors: Sequence[Problem], *, language: str, earned: float = 0.0) -> None:
+    """Whether reading finds nothing that a compiler, or Python itself, would stop at.
+
+    Args:
+        errors: what it found.
+        language: ``java`` or ``python``.
+        earned: points all the same.
+
+    Raises:
+        Wrong: it found something.
+    """
+    for one in errors:
+        stops = "the code does not compile" if language == "java" else "Python stops with an error"
+        more = f" There are {len(errors)} such lines." if len(errors) > 1 else ""
+        raise Wrong(
+            f"line {one.line}: {one.message}",
+            hint=f"Like this {stops}, and the robot runs none of it. Mend the name, its import or "
+            f"its type.{more}",
+            earned=earned,
+        )
+
+
+READ = {  # what is said of code that nobody compiled
+    "java": "Read, not compiled: build it once with WPILib before you trust it.",
+    "python": "Read, not compiled, not run: RobotPy is not installed here.",
+}
 
 
 def at(what: Quantity | DriveCall | LoggedSignal) -> str:

@@ -199,7 +199,14 @@ class Arm(Subsystem):
 
 
 def python(body, *, more=""):
-    return f"""{ARM}
+    return f"""from commands2 import Subsystem
+from commands2.button import CommandXboxController, JoystickButton, Trigger
+from commands2.sysid import SysIdRoutine
+from wpilib import DriverStation, RobotModeTriggers
+
+Direction = SysIdRoutine.Direction
+
+{ARM}
 
 class RobotContainer:
     def __init__(self):
@@ -242,7 +249,8 @@ PYTHON_STYLES = {
         Guard.CHORD,
     ),
     "a lambda": (
-        four("Trigger(lambda: self.driver.get{key}Button() and self.on)!", keys="ABXY"),
+        "self.on = False\n"
+        + four("Trigger(lambda: self.driver.get{key}Button() and self.on)!", keys="ABXY"),
         Guard.TOGGLE,
     ),
     "buttons": (

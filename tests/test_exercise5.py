@@ -136,7 +136,7 @@ def test_a_robotpy_container_finds_its_subsystem_in_another_file(tmp_path):
         ((START, "() -> true"), "guard", 0, "Ask for something"),
         ((START, "m_driver.start().negate()"), "guard", 0, "Ask for something"),
         ((START, "m_driver.start().or(m_driver.back())"), "guard", 2, ""),
-        ((START, "RobotModeTriggers.disabled()"), "guard", 0, "Ask for something"),
+        ((START, "RobotModeTriggers.disabled()"), "guard", 0, "a mode other than test mode"),
     ],
 )
 def test_what_is_not_right_is_told(tmp_path, change, check, points, says):
@@ -262,3 +262,75 @@ def test_code_that_leads_nowhere_ends(tmp_path, text):
     path.write_text(text, "utf-8")
 
     assert bindings_of(path).language == "java"
+
+
+INVERTED = [
+    "RobotModeTriggers.test().negate()",
+    "() -> !DriverStation.isTest()",
+    "new Trigger(() -> !DriverStation.isTestEnabled())",
+    "() -> DriverStation.isTest() == false",
+    "() -> DriverStation.isTest() != true",
+    "() -> DriverStation.isTest() ? false : true",
+    "new Trigger(DriverStation::isTest).negate()",
+    "new Trigger(() -> m_driver.getHID().getStartButton() && DriverStation.isTest()).negate()",
+]
+
+
+@pytest.mark.parametrize("guard", INVERTED)
+def test_a_guard_that_asks_for_any_mode_but_test_mode_is_none(tmp_path, guard):
+    found = judged(tmp_path, java(PLAIN.replace(START, guard)))["guard"]
+
+    assert (found.status, found.points) == ("failed", 0)
+    assert "a mode other than test mode" in found.seen
+    assert "Ask for test mode itself" in found.hint
+
+
+@pytest.mark.parametrize(
+    "guard",
+    [
+        "Trigger(DriverStation.isTest).negate()",
+        "~Trigger(DriverStation.isTest)",
+        "lambda: not DriverStation.isTest()",
+        "Trigger(lambda: not DriverStation.isTest())",
+        "lambda: DriverStation.isTest() is False",
+        "lambda: DriverStation.isTest() == False",
+        "lambda: False if DriverStation.isTest() else True",
+    ],
+)
+def test_an_inverted_guard_in_robotpy_is_none(tmp_path, guard):
+    body = four(f"self.driver.{{key}}().and_({guard})!")
+    found = judged(tmp_path, python(body), name=PYTHON)["guard"]
+
+    assert (found.status, found.points) == ("failed", 0)
+    assert "a mode other than test mode" in found.seen
+
+
+@pytest.mark.parametrize(
+    ("decorated", "right"),
+    [
+        ("onlyIf(DriverStation::isTest)", True),
+        ("unless(() -> !DriverStation.isTest())", True),
+        ("unless(DriverStation::isFMSAttached)", True),
+        ("unless(DriverStation::isTest)", False),
+        ("onlyIf(() -> !DriverStation.isTest())", False),
+        ("unless(DriverStation::isTeleop)", False),
+    ],
+)
+def test_a_commands_own_condition_is_read_with_its_sign(tmp_path, decorated, right):
+    bound = PLAIN.replace(f".and({START})", "").replace("));", f").{decorated});")
+
+    assert (judged(tmp_path, java(bound))["guard"].status == "passed") is right
+
+
+@pytest.mark.parametrize(
+    "guard",
+    [
+        "RobotModeTriggers.test().negate().negate()",
+        "() -> !(!DriverStation.isTest())",
+        "() -> DriverStation.isTest() == true",
+        "() -> DriverStation.isTest() ? true : false",
+        "() -> !DriverStation.isFMSAttached()",
+    ],
+)
+def test_a_guard_turned_round_twice_and_one_that_excludes_matches_are_guards(tmp_path, guard):
+    assert judged(tmp_path, java(PLAIN.replace(START, guard)))["guard"].status == "passed"

@@ -10,6 +10,8 @@ from grader.consequence import Consequence
 from grader.given import hand_out
 from grader.robotcode.deployed import Constant, DeployFacts, Feedforward, gains_of
 from grader.submission import read_text
+from grader.wiring import READ as READ_ONLY
+from grader.wiring import check_compiles
 from sim.errors import UnreadableFile
 
 from .drawn import draw
@@ -217,11 +219,12 @@ def _unit_told(one: Constant, code: Code) -> bool | None:
 
 
 @check(points=1)
-def feedforward(code: Code) -> None:
+def feedforward(code: Code) -> str:
     """The feedforward is of the class that fits the mechanism."""
     one = feedforward_of(code.facts, code.variant)
     if one.kind == code.variant.made:
-        return
+        check_compiles(code.facts.compile_errors, language=code.facts.language)
+        return READ_ONLY[code.facts.language].partition(":")[0] + "."
     gravity = code.variant.analysis != "Simple" and one.kind == "SimpleMotorFeedforward"
     raise Wrong(
         f"{one.kind} in line {one.line}",

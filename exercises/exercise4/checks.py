@@ -6,15 +6,26 @@ from pathlib import Path
 
 from grader import robotcode
 from grader.check import NotReached, Status, Wrong, check, run_all
+from grader.logged_numbers import (
+    check_all_logged,
+    check_constants,
+    check_devices,
+    check_logged_signs,
+    check_numbers,
+    check_signs,
+    check_sources,
+)
 from grader.robotcode import bench
 from grader.robotcode.bench import Outcome, Ran, contradiction
 from grader.robotcode.bench.contradiction import Fault, stopped
 from grader.robotcode.facts import RoutineFacts
 from grader.submission import read_text
+from grader.wiring import READ as READ_ONLY
 from grader.wiring import (
     Advice,
     Setting,
     cannot_tell,
+    check_compiles,
     check_driven,
     check_open_loop,
     check_recorded,
@@ -32,6 +43,9 @@ RAMP = Setting(
 )
 STEP = Setting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)", "stepVoltage=3.5")
 TIMEOUT = Setting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)", "timeout=10.0")
+TASK = "ExampleSubsystem"  # the class of the exercise's own drivetrain, one motor on each side
+SIDES = 2
+METERS = {"METERS_PER_ROTATION": 0.0472, "METERS_PER_PULSE": 0.000156}  # as the files give them
 NEEDED = ("voltage", "position", "velocity")  # of every motor
 EXACT, LOOPS = 1e-6, 0.1  # [SI] how far a number of a run may be off; a timeout is seen in loops
 LESSON_STEP = 3.0  # [V] in the source lesson's example
@@ -83,6 +97,8 @@ def routine(code: Code) -> str | None:
             f"no SysIdRoutine in {code.facts.class_name or 'this file'}",
             hint="Make one where the motors are made, and keep it in a field.",
         )
+    if code.facts.language == "java" or not bench.installed():
+        return READ_ONLY[code.facts.language]
     return noted(code.ran, contradiction.figures)
 
 
@@ -177,6 +193,10 @@ def _drive(facts: RoutineFacts) -> str | None:
     if wrong:
         wrong[0].earned = round(3 * (1 - len(wrong) / len(motors)), 1)
         raise wrong[0]
+    check_numbers(facts)
+    note = check_signs(facts, points=3, mirrored=facts.class_name != TASK)
+    if note:
+        return note
     if any(call.method in {"setControl", "set_control"} for call in facts.drive):
         return "setVoltage() sends a VoltageOut, too. Keep one request object and reuse it."
     return None
@@ -221,6 +241,9 @@ def _log(facts: RoutineFacts) -> None:
         )
     for motor in motors:
         check_recorded(motor, [one for one in facts.logged if one.motor == motor], points=3)
+    check_devices(facts, points=3)
+    check_all_logged(facts, demanded=SIDES if facts.class_name == TASK else 0, points=3)
+    check_logged_signs(facts.logged)
 
 
 @check(points=2, after=routine)
@@ -238,7 +261,11 @@ def _units(facts: RoutineFacts) -> None:
     signals = [one for one in facts.logged if one.signal in {"position", "velocity"}]
     if not signals:
         raise NotReached("looked at once position and velocity are recorded")
-    check_units(signals, mechanism=facts.class_name)
+    task = facts.class_name == TASK
+    check_units(signals, mechanism="Drivetrain" if task else facts.class_name)
+    check_sources(signals)
+    if task:
+        check_constants(facts, METERS)
 
 
 @check(points=1, after=routine)
@@ -275,6 +302,7 @@ def _assembled(facts: RoutineFacts) -> None:
             f"{facts.class_name} is not a subsystem",
             hint="Let it extend SubsystemBase (Python: Subsystem).",
         )
+    check_compiles(facts.compile_errors, language=facts.language)
 
 
 @check(points=2, after=routine)

@@ -9,6 +9,8 @@ from grader.robotcode.bench.contradiction import Fault, stopped
 from grader.robotcode.binding_facts import BindingFacts
 from grader.robotcode.bindings import bindings_of
 from grader.submission import read_text
+from grader.wiring import READ as READ_ONLY
+from grader.wiring import check_compiles
 from sim.errors import UnreadableFile
 
 from .explained import check_comment
@@ -94,6 +96,9 @@ def held(facts: BindingFacts) -> str | None:
     for one in facts.bindings:
         check_hold(one, facts, earned=earned)
     if len(facts.bindings) >= len(TESTS):
+        check_compiles(facts.compile_errors, language=facts.language, earned=1)
+        if facts.language == "java" or not bench.installed():
+            return READ_ONLY[facts.language]
         return agreed(facts, _stops, points=3)
     _readable(facts, earned=earned)
     hint = "Four tests, four buttons: two kinds, each forward and reverse."

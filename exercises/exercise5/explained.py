@@ -5,6 +5,7 @@ import re
 from grader.check import Wrong
 from grader.robotcode.binding_facts import Binding
 
+NAMES = {"quasistatic": r"quasi.?static", "dynamic": r"dynamic"}
 TEST = {
     "quasistatic": re.compile(r"quasi.?static|\bramp|\bslow", re.IGNORECASE),
     "dynamic": re.compile(r"\bdynamic|\bstep\b|\bsteps\b", re.IGNORECASE),
@@ -35,6 +36,9 @@ def check_comment(one: Binding) -> None:
             hint="Write one above it, or behind it: which test, and what does it measure?",
         )
     seen = f'"{said[:60]}" beside line {one.line}'
+    opposite = re.match(rf"\W*{NAMES[other]}", said, re.IGNORECASE)
+    if opposite and not re.search(NAMES[kind], said, re.IGNORECASE):
+        raise Wrong(seen, hint=f"This button runs the {kind} test.")
     test, property_ = bool(TEST[kind].search(said)), bool(PROPERTY[kind].search(said))
     if test and property_:
         return

@@ -34,9 +34,15 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
     seen = f"nothing guards {first.text} in line {first.line}"
     if Guard.ASKED_ONCE in first.guards:
         raise Wrong(
-            f"test mode is asked in an if around line {first.line}",
-            hint="That if is asked once, while the robot starts, and it is not in test mode then. "
+            f"test mode is asked once for line {first.line}, while the program starts",
+            hint="The robot is not in test mode then, and the answer never changes. "
             "Let the trigger ask, every time.",
+        )
+    if Guard.OTHER_MODE in first.guards:
+        raise Wrong(
+            f"the guard of {first.text} in line {first.line} asks for a mode other than test mode",
+            hint="Then the test can start in a match, and in test mode it cannot. Ask for test "
+            "mode itself, without negate(), ! or not.",
         )
     guarded = bound - len(open_)
     if guarded:

@@ -29,6 +29,7 @@ class Guard(Enum):
     CHORD = "chord"  # a second button has to be held
     TOGGLE = "toggle"  # a switch, a dashboard entry, a constant
     ASKED_ONCE = "asked once"  # test mode, asked while the bindings are made: never true
+    OTHER_MODE = "other mode"  # teleop, say, or every mode but test mode: guards nothing
 
 
 @dataclass(frozen=True)
@@ -121,6 +122,7 @@ class BindingFacts:
         uncalled: private methods with bindings that nothing calls: name and line.
         unread: bindings whose command cannot be told by reading.
         problems: syntax errors; when there are any, the rest is empty.
+        compile_errors: what keeps the file from being compiled, as far as text can tell.
     """
 
     language: str
@@ -131,3 +133,4 @@ class BindingFacts:
     uncalled: tuple[tuple[str, int], ...] = ()
     unread: tuple[Problem, ...] = ()
     problems: tuple[Problem, ...] = ()
+    compile_errors: tuple[Problem, ...] = ()

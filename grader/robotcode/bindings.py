@@ -16,6 +16,7 @@ from grader.robotcode.binding_facts import (
 from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS
 from grader.robotcode.commands import Commands, Runs
 from grader.robotcode.comments import beside, comments
+from grader.robotcode.compiling import compile_errors
 from grader.robotcode.controllers import controllers
 from grader.robotcode.factories import factories, is_private
 from grader.robotcode.facts import Problem
@@ -42,7 +43,12 @@ from grader.robotcode.vocabulary import plain
 DEEPEST = 120  # pieces of code one inside the other
 MOST_CALLS = 5  # methods followed, one inside the other
 MOST_STEPS = 50_000  # pieces of code gone through; a robot's container has a thousandth
-_GUARDS = {Asks.TEST_MODE: Guard.TEST_MODE, Asks.SWITCH: Guard.TOGGLE}
+_GUARDS = {
+    Asks.TEST_MODE: Guard.TEST_MODE,
+    Asks.SWITCH: Guard.TOGGLE,
+    Asks.OTHER_MODE: Guard.OTHER_MODE,
+    Asks.ONCE: Guard.ASKED_ONCE,
+}
 
 
 @dataclass(frozen=True)
@@ -117,6 +123,7 @@ class _Reader:
             elsewhere=tuple(self._elsewhere.items()),
             uncalled=tuple(uncalled),
             unread=tuple(dict.fromkeys(self._unread)),
+            compile_errors=compile_errors(self._names),
         )
 
     def _several(
@@ -236,6 +243,8 @@ class _Reader:
         asked = [*parts]
         for condition in runs.conditions:
             asked += self._triggers.parts(condition)
+        for condition in runs.exceptions:
+            asked += self._triggers.opposite(condition)
         found = [_GUARDS[part.asks] for part in asked if part.asks in _GUARDS]
         buttons = {part.key for part in asked if part.asks is Asks.BUTTON}
         if len(buttons) > 1:

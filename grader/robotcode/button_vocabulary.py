@@ -35,6 +35,7 @@ CONDITIONED = {
     "ConditionalCommand": 2,
 }
 ENDED = frozenset({"until", "onlyWhile"})  # ... that end it, too
+EXCEPT = frozenset({"unless", "until"})  # ... and let it run while the condition is false
 CHOOSERS = frozenset({"addOption", "setDefaultOption", "addDefaultOption", "addCmd", "schedule"})
 
 CONTROLLER = re.compile(

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from grader.robotcode.binding_facts import KINDS, SysIdTest
-from grader.robotcode.button_vocabulary import CONDITIONED, ENDED
+from grader.robotcode.button_vocabulary import CONDITIONED, ENDED, EXCEPT
 from grader.robotcode.meaning import called, last_name, simple, type_from, type_of
 from grader.robotcode.names import Names
 from grader.robotcode.sight import Seen, definitions, entered, followed, functions_of, returned
@@ -36,7 +36,8 @@ class Runs:
 
     Args:
         tests: the tests.
-        conditions: what its own decorators ask before it starts.
+        conditions: what its own decorators ask before it starts: they must hold.
+        exceptions: what its own decorators ask before it starts: they must not hold.
         scheduled: whether a test is only handed to the scheduler.
         stopped: whether a decorator ends it early.
         unclear: what could not be told; None if nothing was left open.
@@ -45,6 +46,7 @@ class Runs:
 
     tests: tuple[SysIdTest, ...] = ()
     conditions: tuple[Seen, ...] = ()
+    exceptions: tuple[Seen, ...] = ()
     scheduled: bool = False
     stopped: bool = False
     unclear: Node | None = None
@@ -133,8 +135,7 @@ class Commands:
         if not found.tests:
             return None
         if asked is not None:
-            conditions = tuple(seen.at(arg) for arg in args[asked : asked + 1])
-            found = replace(found, conditions=(*found.conditions, *conditions))
+            found = self._conditioned(found, tuple(map(seen.at, args)), name, asked, depth)
         unclear = found.unclear if len(found.tests) > 1 else None
         return replace(
             found,
@@ -142,6 +143,16 @@ class Commands:
             scheduled=found.scheduled or name == "schedule",
             stopped=found.stopped or name in ENDED,
         )
+
+    def _conditioned(
+        self, found: Runs, args: tuple[Seen, ...], name: str, asked: int, depth: int
+    ) -> Runs:
+        """A command with the condition of a decorator, or of a choice between two commands."""
+        condition = args[asked : asked + 1]
+        second = asked > 1 and bool(args) and not self.of(args[0], depth=depth).tests
+        if name in EXCEPT or second:
+            return replace(found, exceptions=(*found.exceptions, *condition))
+        return replace(found, conditions=(*found.conditions, *condition))
 
     def _type(self, seen: Seen) -> str:
         """The class of what a method is called on, by its own name; empty if unknown."""
@@ -187,6 +198,7 @@ def joined(several: Iterable[Runs]) -> Runs:
     return Runs(
         tuple(dict.fromkeys(test for one in found for test in one.tests)),
         tuple(condition for one in found for condition in one.conditions),
+        tuple(condition for one in found for condition in one.exceptions),
         scheduled=any(one.scheduled for one in found),
         stopped=any(one.stopped for one in found),
         unclear=next((one.unclear for one in found if one.unclear is not None), None),

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.robotcode.comments import Comment, beside, comments
+from grader.robotcode.compiling import compile_errors
 from grader.robotcode.facts import Problem
 from grader.robotcode.files import Files
 from grader.robotcode.meaning import MOST_STEPS, constructed, last_name
@@ -96,6 +97,7 @@ class DeployFacts:
         feedforwards: those that are made, in order.
         feedback: the argument made of kP that something other than a feedforward is given.
         problems: syntax errors; when there are any, the rest is empty.
+        compile_errors: what keeps the file from being compiled, as far as text can tell.
     """
 
     language: str
@@ -105,6 +107,7 @@ class DeployFacts:
     feedforwards: tuple[Feedforward, ...] = ()
     feedback: Argument | None = None
     problems: tuple[Problem, ...] = ()
+    compile_errors: tuple[Problem, ...] = ()
 
     def constant(self, gain: str) -> Constant | None:
         """A gain's constant, if it is there."""
@@ -161,6 +164,7 @@ class _Reader:
             general=_around(holder, comments(module)),
             feedforwards=tuple(made),
             feedback=self._feedback(calls),
+            compile_errors=compile_errors(self._names),
         )
 
     def _constants(self, module: Module) -> Iterator[Constant]:

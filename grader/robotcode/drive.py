@@ -88,6 +88,7 @@ class DriveTrace(Trace):
                     scaled=sent.scaled,
                     text=call.place.text,
                     line=self.line_of(call),
+                    negative=sent.factor is not None and sent.factor < 0,
                 )
             )
 

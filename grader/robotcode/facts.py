@@ -57,6 +57,7 @@ class DriveCall:
         uses_parameter: whether the callback's voltage reaches the call; None if it cannot be told.
         scaled: whether the voltage is changed on its way (``voltage.in(Volts) / 12``), a sign
             apart; None if it cannot be told.
+        negative: whether its sign is changed on its way.
         text: the call's source text.
         line: line in the source, from 1; 0 if it stands in another file.
     """
@@ -68,6 +69,7 @@ class DriveCall:
     scaled: bool | None
     text: str
     line: int
+    negative: bool = False
 
 
 class Source(Enum):
@@ -90,6 +92,12 @@ class LoggedSignal:
         source: where the value comes from.
         text: the call's source text, without what it is called on.
         line: line in the source, from 1; 0 if it stands in another file.
+        device: the motor controller or encoder that reports it; empty if none or several do.
+        type: that device's class.
+        quantity: what the device reports: ``position``, ``velocity``, ``voltage``, ...
+        native: the unit in which the device reports it, as ``readings.native_unit`` says.
+        scale: what the device's number is multiplied with before the log gets it, the factor
+            included that the device is set to; None if it cannot be told.
     """
 
     motor: str
@@ -99,6 +107,11 @@ class LoggedSignal:
     source: Source
     text: str
     line: int
+    device: str = ""
+    type: str = ""
+    quantity: str = ""
+    native: str = ""
+    scale: float | None = None
 
 
 @dataclass(frozen=True)
@@ -134,6 +147,13 @@ class RoutineFacts:
         config_argument, mechanism_argument: positions of the two in the constructor call (0 and 1
             when right), -1 if absent.
         problems: syntax errors; when there are any, the other facts may be incomplete.
+        inverted: motors that the code sets to turn the other way round; ``*`` is one that cannot
+            be told apart.
+        impossible_numbers: devices that are made with what can be no port and no CAN ID.
+        same_numbers: pairs of devices that are made with the same port or CAN ID.
+        devices: the class of every motor controller and encoder the class owns, by its name.
+        constants: the numbers among the class's fields, by their name.
+        compile_errors: what keeps the file from being compiled, as far as text can tell.
         unread: where the callbacks lead to code that is not in these files, or too deep to
             follow: what is missing in ``drive`` or ``logged`` may be there.
     """
@@ -158,3 +178,9 @@ class RoutineFacts:
     mechanism_argument: int = -1
     problems: tuple[Problem, ...] = ()
     unread: tuple[Problem, ...] = ()
+    compile_errors: tuple[Problem, ...] = ()
+    inverted: frozenset[str] = frozenset()
+    impossible_numbers: tuple[tuple[str, float], ...] = ()
+    same_numbers: tuple[tuple[str, str], ...] = ()
+    devices: tuple[tuple[str, str], ...] = ()
+    constants: tuple[tuple[str, float], ...] = ()

@@ -1,10 +1,13 @@
 """How a value goes through an expression: what arithmetic and library calls do to the voltage."""
 
+import math
 from dataclasses import replace
 
+from grader.robotcode.conversions import FACTORS
 from grader.robotcode.meaning import last_name, simple, type_of
 from grader.robotcode.measure import Measure, Measures
 from grader.robotcode.names import Names
+from grader.robotcode.readings import COUNTS, PULSE_COUNT, Reading, device_of, quantity_of
 from grader.robotcode.scope import Scope
 from grader.robotcode.syntax import Call, Member, Node, Operation
 from grader.robotcode.value import CHANGED, Mark, Value, joined
@@ -19,6 +22,7 @@ from grader.robotcode.vocabulary import (
     MEASURED,
     OPPOSITE,
     OVER,
+    PULSES,
     REPLACES,
     SAME,
     TIMES,
@@ -44,7 +48,9 @@ class Flow:
         """The value of ``left sign right``."""
         if left is None:
             return joined([right.times(-1.0 if node.sign == "-" else 1.0)], at=at)
-        both = joined([left, right], at=at)
+        both = replace(
+            joined([left, right], at=at), scale=self._scale_of(node, left, right, at.scope)
+        )
         if both.carries is False:
             return both
         if left.carries is not False and right.carries is not False:
@@ -56,12 +62,33 @@ class Flow:
             factor = CHANGED
         return replace(both, factor=carrying.times(factor).factor)
 
+    def _scale_of(self, node: Operation, left: Value, right: Value, scope: Scope) -> float | None:
+        """What the reading in ``left sign right`` is multiplied with."""
+        if left.readings and right.readings:
+            if node.sign == "*" and left.scale is not None and right.scale is not None:
+                return left.scale * right.scale
+            return None
+        if not left.readings and not right.readings:
+            return 1.0
+        reading, other = (left, node.right) if left.readings else (right, node.left)
+        if node.sign in {"+", "-"}:  # an offset changes no unit
+            flipped = node.sign == "-" and reading is right
+            return reading.times(-1.0).scale if flipped else reading.scale
+        constant = None if other is None else self._measures.of(other, scope)
+        factor = _factor(node.sign, constant, left_carries=reading is left)
+        return None if factor is None or math.isnan(factor) else reading.times(factor).scale
+
     def through(self, call: Call, receiver: Value | None, args: list[Value], at: Value) -> Value:
         """The value of a call whose function is not in these files."""
         name = plain(last_name(call.target))
         several = [*args] if receiver is None else [receiver, *args]
         made = joined(several, at=at)
         made = replace(made, marks=made.marks | self._marks(name, receiver))
+        reading = self._reading(name, receiver)
+        if reading is not None:
+            made = replace(made, readings=made.readings | {reading}, scale=1.0)
+        elif made.readings:
+            made = replace(made, scale=self._scale_of_call(call, name, made, at.scope))
         if name in CALCULATES:
             controller = receiver is not None and self._is_controller(receiver)
             return replace(made, closed=made.closed or controller, factor=CHANGED)
@@ -77,6 +104,32 @@ class Flow:
         if made.carries is False:
             return made
         return replace(made, factor=self._factor_of_call(call, name, made, at.scope))
+
+    def _reading(self, name: str, receiver: Value | None) -> Reading | None:
+        """The number that a method of a device reports; None if it is no such method."""
+        if receiver is None or receiver.readings:
+            return None
+        device, type_ = device_of(receiver.origin, receiver.scope, self._names)
+        quantity = quantity_of(name, motor=is_motor(type_)) if device else ""
+        if PULSES.fullmatch(type_) and name in COUNTS:
+            type_ = PULSE_COUNT
+        return Reading(f"{receiver.me}{device}", type_, quantity) if quantity else None
+
+    def _scale_of_call(self, call: Call, name: str, made: Value, scope: Scope) -> float | None:
+        """The scale after a call that a reading goes into or is asked."""
+        first = call.args[0] if call.args else None
+        if name in OPPOSITE:
+            return made.times(-1.0).scale
+        if name in TIMES | OVER:
+            constant = None if first is None else self._measures.of(first, scope)
+            factor = _factor("*" if name in TIMES else "/", constant, left_carries=True)
+            return None if factor is None or math.isnan(factor) else made.times(factor).scale
+        if name in FACTORS:
+            return made.times(FACTORS[name]).scale
+        if name == "in" and first is not None:
+            return made.times(_turns(made.unit) / _turns(last_name(first))).scale
+        kept = name in SAME | ARGUMENT | AMOUNTS | REPLACES or name.startswith("with")
+        return made.scale if kept or name[:1].isupper() else None
 
     def _factor_of_call(self, call: Call, name: str, made: Value, scope: Scope) -> float | None:
         """The factor after a call that the parameter goes into or is asked."""
@@ -100,6 +153,8 @@ class Flow:
         unit = self._measures.of(units[0], scope)
         if unit is None or not unit.unit:
             return None
+        if unit.volts != 1 or unit.seconds or unit.other:
+            return CHANGED  # no unit of a voltage
         return 1.0 / unit.value if inverse else unit.value
 
     def _unit(self, call: Call, name: str, scope: Scope) -> str:
@@ -136,6 +191,15 @@ class Flow:
     def _is_controller(self, receiver: Value) -> bool:
         type_ = simple(type_of(receiver.origin, receiver.scope, self._names))
         return bool(CONTROLLERS.fullmatch(type_ or receiver.origin.place.text))
+
+
+def _turns(unit: str) -> float:
+    """How many rotations a unit of an angle is; 1 for any other unit."""
+    name = unit.lower()
+    if name == "rpm":
+        return 1.0 / 60.0
+    sizes = {"radian": 0.5 / math.pi, "degree": 1.0 / 360.0}
+    return next((size for word, size in sizes.items() if word in name), 1.0)
 
 
 def _factor(sign: str, constant: Measure | None, *, left_carries: bool) -> float | None:

@@ -7,6 +7,7 @@ from grader.robotcode.facts import LoggedSignal, Source
 from grader.robotcode.meaning import last_name, text_of
 from grader.robotcode.measure import Measures
 from grader.robotcode.names import Names
+from grader.robotcode.readings import Reading, Settings, native_unit
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.statements import Frame
 from grader.robotcode.syntax import Call, Function, Member, Name, Parameter
@@ -24,10 +25,19 @@ class LogTrace(Trace):
         names: the names of the program.
         measures: its constants.
         commanded: the fields that the drive callback put its voltage into.
+        settings: what the program sets its devices to.
     """
 
-    def __init__(self, names: Names, measures: Measures, *, commanded: Collection[str]) -> None:
+    def __init__(
+        self,
+        names: Names,
+        measures: Measures,
+        *,
+        commanded: Collection[str],
+        settings: Settings,
+    ) -> None:
         super().__init__(names, measures)
+        self._settings = settings
         self.signals: list[LoggedSignal] = []
         self._commanded = commanded
         self._open: set[str] = set()  # fields being looked into
@@ -98,6 +108,10 @@ class LogTrace(Trace):
             python = value.scope.module.language == "python"
             unit = UNITS.get(value.unit)
             family = LINEAR if python else unit.family if unit else ""
+        told = [one for one in value.readings if one.quantity != "bus"] or [*value.readings]
+        reading = told[0] if len(told) == 1 else Reading("", "", "")
+        native, factor = native_unit(reading, self._settings)
+        scale = None if factor is None else value.times(factor).scale
         self.signals.append(
             LoggedSignal(
                 motor=motor,
@@ -107,6 +121,11 @@ class LogTrace(Trace):
                 source=_source(signal, value.marks),
                 text=call.target.place.text,
                 line=self.line_of(call.target),
+                device=reading.device,
+                type=reading.type,
+                quantity=reading.quantity,
+                native=native,
+                scale=scale if native else value.scale if told else None,
             )
         )
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from grader.robotcode.compiling import compile_errors
 from grader.robotcode.drive import DriveTrace
 from grader.robotcode.facts import Known, Problem, Quantity, RoutineFacts
 from grader.robotcode.files import Files
@@ -20,6 +21,13 @@ from grader.robotcode.meaning import (
 from grader.robotcode.measure import Measures
 from grader.robotcode.motors import owned
 from grader.robotcode.names import Names
+from grader.robotcode.readings import (
+    devices,
+    impossible_numbers,
+    numbers,
+    same_numbers,
+    settings_of,
+)
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.syntax import Assign, Call, Function, Member, Node, Null, Number, Self, Text
 from grader.robotcode.value import MotorLog, Value
@@ -62,6 +70,7 @@ def facts_of(path: Path) -> RoutineFacts:
     routine = _find(names)
     if routine is None:
         return facts
+    facts = replace(facts, compile_errors=compile_errors(names))
     measures = Measures(names)
     home = routine.scope.home
     if home.classes:
@@ -75,6 +84,10 @@ def facts_of(path: Path) -> RoutineFacts:
             class_name=home.classes[-1].name,
             is_subsystem=not above.isdisjoint(SUBSYSTEMS),
             motors=owned(home, names),
+            impossible_numbers=tuple(impossible_numbers(home, names, measures)),
+            same_numbers=tuple(same_numbers(home, names, measures)),
+            devices=tuple(devices(home, names)),
+            constants=tuple(numbers(home, names, measures)),
         )
     facts = replace(
         facts,
@@ -209,7 +222,8 @@ def _with_mechanism(
         )
         _in_periodic(drive, scope, names)
     commanded = {key for key, value in drive.stored.items() if value.carries is not False}
-    log = LogTrace(names, measures, commanded=commanded)
+    settings = settings_of(scope.home, names, measures)
+    log = LogTrace(names, measures, commanded=commanded, settings=settings)
     callback = _callback(given.get(1), scope, names)
     if callback is not None:
         found = log.run(callback, scope, Value(callback, scope, log=MotorLog()))
@@ -220,6 +234,7 @@ def _with_mechanism(
         logged=tuple(log.signals),
         log_is_null=given.get(1) is not None and callback is None,
         unread=(*drive.unread.values(), *log.unread.values()),
+        inverted=frozenset(settings.inverted),
     )
 
 

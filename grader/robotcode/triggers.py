@@ -1,5 +1,6 @@
 """What a trigger asks: buttons of controllers, the robot's mode, switches."""
 
+import re
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -23,6 +24,7 @@ from grader.robotcode.names import Names
 from grader.robotcode.sight import Seen, definitions, entered, followed, functions_of, returned
 from grader.robotcode.syntax import (
     Call,
+    Choice,
     Function,
     Member,
     Name,
@@ -35,6 +37,9 @@ from grader.robotcode.syntax import (
 from grader.robotcode.vocabulary import plain
 
 DEEPEST = 12  # triggers made of triggers
+COMPARING = {"==": True, "is": True, "!=": False, "is not": False, "^": False}
+NOT_TEST = re.compile(r"not\(test mode.*\)")  # the key of a part that asks for any other mode
+MATCH = re.compile(r"(is)?fmsattached", re.IGNORECASE)  # true in a match only
 JOINING = {"&": "and", "&&": "and", "and": "and", "|": "or", "||": "or", "or": "or"}
 
 
@@ -44,8 +49,10 @@ class Asks(Enum):
     BUTTON = "button"
     TEST_MODE = "test mode"
     OTHER_MODE = "other mode"
+    RELEASED = "released"  # a button that nobody presses keeps nobody from anything
     SWITCH = "switch"  # anything a person sets before the test
     NOTHING = "nothing"  # literally true
+    ONCE = "asked once"  # test mode, asked while the program starts and kept in a variable
     UNKNOWN = "unknown"
 
 
@@ -85,15 +92,22 @@ class Triggers:
         if depth > DEEPEST:
             return (Part(Asks.UNKNOWN, ""),)
         if isinstance(node, Call):
-            return self._call(seen, node, depth + 1)
+            found = self._call(seen, node, depth + 1)
+            kept = node is not before.node and isinstance(before.node, Name | Member)
+            asked = last_name(node.target).lower().startswith("is")
+            return tuple(map(_kept, found)) if kept and asked else found
         if isinstance(node, Function):
             return self._function(replace(seen, scope=seen.scope.within(node)), node, depth + 1)
-        if isinstance(node, Operation | Opaque):
+        if isinstance(node, Operation | Opaque | Choice):
             return self._operation(seen, node, depth + 1, named=node is not before.node)
         if isinstance(node, Name | Member):
             return self._named(seen, node, depth + 1)
         unknown = isinstance(node, Parameter)
         return (Part(Asks.UNKNOWN if unknown else Asks.SWITCH, node.place.text),)
+
+    def opposite(self, seen: Seen) -> tuple[Part, ...]:
+        """The parts of a condition that must not hold."""
+        return (self._mixed(seen, [seen.node], "not", 1),)
 
     def controller(self, seen: Seen) -> str:
         """The controller that a node stands for: its port, or else its variable; empty if none."""
@@ -144,6 +158,10 @@ class Triggers:
         if name in BUTTONS and args:
             rest = [self._argument(seen.at(arg)) for arg in args[1:]]
             return self._button(seen.at(args[0]), "button" if name[0] == "J" else "pov", rest)
+        if isinstance(call.target, Name):  # a variable that holds a method: testing()
+            held = followed(seen.at(call.target), self._names)
+            if isinstance(held.node, Member):
+                return self._named(held, held.node, depth)
         found = () if owner is None else self._method(seen, owner, name, args, depth)
         return found or self._named(seen, call.target, depth, text=call.place.text)
 
@@ -202,31 +220,59 @@ class Triggers:
         return ""
 
     def _operation(
-        self, seen: Seen, node: Operation | Opaque, depth: int, *, named: bool
+        self, seen: Seen, node: Operation | Opaque | Choice, depth: int, *, named: bool
     ) -> tuple[Part, ...]:
+        if isinstance(node, Choice):
+            return self._choice(seen, node, depth)
         inside = [part for part in node.parts if not isinstance(part, Return)]
         sign = _sign(node)
+        if sign in COMPARING and len(inside) > 1:
+            said = [_truth(part) for part in inside]
+            open_ = [part for part, truth in zip(inside, said, strict=True) if truth is None]
+            if len(open_) == 1:
+                same = (said[0] if said[1] is None else said[1]) is COMPARING[sign]
+                return self._same_or_not(seen.at(open_[0]), depth, same=same)
         if sign == "and" and len(inside) > 1:
             return tuple(part for one in inside for part in self.parts(seen.at(one), depth=depth))
-        if isinstance(node, Opaque) and len(inside) == 1:
+        if isinstance(node, Opaque) and len(inside) == 1 and sign != "not":
             return self.parts(seen.at(inside[0]), depth=depth)
         if not inside:
             always = node.place.text.lower() == "true" and not named
             return (Part(Asks.NOTHING if always else Asks.SWITCH, node.place.text),)
         return (self._mixed(seen, inside, sign or node.place.text, depth),)
 
+    def _choice(self, seen: Seen, node: Choice, depth: int) -> tuple[Part, ...]:
+        """``condition ? true : false``; any other choice is a switch of the program's own."""
+        one, other = _truth(node.one), _truth(node.other)
+        if one is None or other is None or one is other:
+            return (self._mixed(seen, [node.condition, node.one, node.other], "?", depth),)
+        return self._same_or_not(seen.at(node.condition), depth, same=one)
+
+    def _same_or_not(self, seen: Seen, depth: int, *, same: bool) -> tuple[Part, ...]:
+        """A condition as it is, or turned round."""
+        if same:
+            return self.parts(seen, depth=depth)
+        return (self._mixed(seen, [seen.node], "not", depth),)
+
     def _mixed(self, seen: Seen, several: list[Node], sign: str, depth: int) -> Part:
         """Parts of which not all have to hold, or not as they are: one, of the weakest kind."""
         found = [part for one in several for part in self.parts(seen.at(one), depth=depth)]
-        key = f"{sign}({', '.join(sorted(part.key for part in found))})"
+        turned = sign in {*NOT, "!", "~"}
+        key = f"{'not' if turned else sign}({', '.join(sorted(part.key for part in found))})"
         kinds = {part.asks for part in found}
         controllers = {part.controller for part in found if part.controller}
-        weak = (Asks.UNKNOWN, Asks.NOTHING, Asks.BUTTON, Asks.OTHER_MODE)
+        weak = (Asks.UNKNOWN, Asks.NOTHING, Asks.BUTTON, Asks.RELEASED, Asks.OTHER_MODE)
         asks = next((kind for kind in weak if kind in kinds), Asks.SWITCH)
-        if kinds == {Asks.TEST_MODE} and sign not in {*NOT, "!"}:
-            asks = Asks.TEST_MODE
-        elif asks is Asks.BUTTON and sign in {*NOT, "!"}:
-            asks = Asks.OTHER_MODE  # a button nobody presses keeps nobody from anything
+        if turned and len(found) == 1 and NOT_TEST.fullmatch(found[0].key):
+            return Part(Asks.TEST_MODE, found[0].key[4:-1])
+        if turned and len(found) == 1 and MATCH.fullmatch(found[0].key):
+            return Part(Asks.SWITCH, key)
+        if kinds == {Asks.TEST_MODE}:
+            asks = Asks.OTHER_MODE if turned else Asks.TEST_MODE
+        elif turned and Asks.TEST_MODE in kinds:
+            asks = Asks.OTHER_MODE
+        elif turned and asks is Asks.BUTTON:
+            asks = Asks.RELEASED
         return Part(asks, key, min(controllers, default=""))
 
     def _named(self, seen: Seen, node: Node, depth: int, *, text: str = "") -> tuple[Part, ...]:
@@ -235,6 +281,11 @@ class Triggers:
             call = Call(node.place, node, ())
             self.asked.add(node)
             if self.controller(seen.at(node.owner)) or functions_of(seen.at(call), self._names):
+                return self._call(seen.at(call), call, depth)
+        if isinstance(node, Name) and not text:  # a variable that holds a lambda, or a function
+            call = Call(node.place, node, ())
+            functions = functions_of(seen.at(call), self._names)
+            if len(functions) == 1 and functions[0][0] not in seen.scope.functions:
                 return self._call(seen.at(call), call, depth)
         word = last_name(node)
         owner = last_name(node.owner) if isinstance(node, Member) else ""
@@ -253,6 +304,11 @@ class Triggers:
         return any(isinstance(one.value, Parameter) for one in found)
 
 
+def _kept(part: Part) -> Part:
+    """A part that a variable holds: test mode is then what it was when the program started."""
+    return replace(part, asks=Asks.ONCE) if part.asks is Asks.TEST_MODE else part
+
+
 def _sign(node: Operation | Opaque) -> str:
     """``and``, ``or``, ``not`` or a sign; Python's own words stand in the text only."""
     first, *more = node.parts or (node,)
@@ -263,4 +319,10 @@ def _sign(node: Operation | Opaque) -> str:
         said = source[node.place.start : first.place.start].decode("utf-8", errors="replace")
         return "not" if said.strip(" (") in {"not", "~"} else ""
     said = source[first.place.end : more[0].place.start].decode("utf-8", errors="replace")
-    return JOINING.get(said.strip(" ()\n\t\\"), "")
+    said = " ".join(said.strip(" ()\n\t\\").split())
+    return said if said in COMPARING else JOINING.get(said, "")
+
+
+def _truth(node: Node) -> bool | None:
+    """What a literal says; None for anything else."""
+    return {"true": True, "false": False}.get(node.place.text.lower())

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 
+from grader.robotcode.readings import Reading
 from grader.robotcode.scope import Scope
 from grader.robotcode.syntax import Node
 
@@ -40,6 +41,8 @@ class Value:
         factor: what the parameter was multiplied with; CHANGED, or None if it cannot be told.
         closed: whether a feedback controller made it.
         marks: its sources.
+        readings: the numbers of devices in it.
+        scale: what a reading was multiplied with; None if it cannot be told.
         unit: the unit it was wrapped in, as written.
         log: set if it is the routine's log, or the part of it for one motor.
         captured: for a lambda, the variables around it.
@@ -52,6 +55,8 @@ class Value:
     factor: float | None = 1.0
     closed: bool = False
     marks: frozenset[Mark] = frozenset()
+    readings: frozenset[Reading] = frozenset()
+    scale: float | None = 1.0
     unit: str = ""
     log: MotorLog | None = None
     captured: "dict[str, Value]" = field(default_factory=dict)
@@ -71,7 +76,8 @@ class Value:
     def times(self, factor: float | None) -> "Value":
         """The value multiplied; None for a factor that cannot be told."""
         known = None if factor is None or self.factor is None else self.factor * factor
-        return replace(self, factor=known)
+        scale = None if factor is None or self.scale is None else self.scale * factor
+        return replace(self, factor=known, scale=scale)
 
 
 def joined(values: Sequence[Value], *, at: Value) -> Value:
@@ -82,12 +88,15 @@ def joined(values: Sequence[Value], *, at: Value) -> Value:
         at: where the one is: its origin, scope and object are kept.
     """
     factors = {value.factor for value in values if value.carries is not False}
+    scales = {value.scale for value in values if value.readings}
     return replace(
         at,
         carries=_any(value.carries for value in values),
         factor=1.0 if not factors else factors.pop() if len(factors) == 1 else None,
         closed=any(value.closed for value in values),
         marks=frozenset().union(*(value.marks for value in values)),
+        readings=frozenset().union(*(value.readings for value in values)),
+        scale=1.0 if not scales else scales.pop() if len(scales) == 1 else None,
         unit=next((value.unit for value in values if value.unit), ""),
         log=next((value.log for value in values if value.log is not None), None),
     )

@@ -236,6 +236,13 @@ BUS_VOLTAGE = frozenset(
         "getInputVoltage",
     }
 )
+# In which unit a device reports its position, and per second its velocity.
+ROTATIONS = re.compile(r"(Core)?TalonFXS?|(Core)?CANcoder|(Core)?CANdi")  # Phoenix 6
+SPARKS = re.compile(  # rotations and rpm, unless a conversion factor is set
+    r"(CAN)?Spark(Max|Flex|Base|LowLevel)|RelativeEncoder|SparkRelativeEncoder"
+    r"|AbsoluteEncoder|SparkAbsoluteEncoder|SparkMaxRelativeEncoder"
+)
+PULSES = re.compile(r"Encoder")  # WPILib's: pulses, until a distance per pulse is set
 MEASURED = re.compile(  # position, velocity, acceleration and current of encoders and motors
     r"get\w*(Position|Velocity|Distance|Rate|Angle|Acceleration|Current|Speed)\w*|get"
 )

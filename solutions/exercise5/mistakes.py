@@ -216,6 +216,25 @@ MISTAKES = (
         JAVA,
         replacing(("RobotModeTriggers.test()", "RobotModeTriggers.teleop()")),
         "guard",
-        "Ask for something a driver never does",
+        "a mode other than test mode",
+    ),
+    Mistake(
+        "the guard inverted",
+        JAVA,
+        replacing(("RobotModeTriggers.test()", "RobotModeTriggers.test().negate()")),
+        "guard",
+        "Ask for test mode itself",
+    ),
+    Mistake(
+        "the guard inverted, Python",
+        PYTHON,
+        replacing(
+            (
+                "testing = wpilib.DriverStation.isTest\n",
+                "testing = lambda: not wpilib.DriverStation.isTest()\n",
+            )
+        ),
+        "guard",
+        "a mode other than test mode",
     ),
 )

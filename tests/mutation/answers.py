@@ -87,6 +87,8 @@ def judge(mutant: Mutant, folder: Path, *, run: bool = False) -> Verdict:
         grade = graded(mutant.exercise, file, mutant.text, folder, run=run)
     except Refusal as refusal:
         return Verdict(bool(refusal.advice), 0.0, str(refusal))
+    if grade.status == "ungradable" and not grade.reached:
+        return Verdict(killed=bool(grade.reason), score=0.0, said=grade.reason)
     failed = [one for one in grade.checks if one.status is Status.FAILED]
     broken = [one for one in grade.checks if one.status is Status.ERROR]
     if broken:

@@ -1,0 +1,229 @@
+"""What would keep a Java file from being compiled, as far as text can tell."""
+
+import re
+from collections.abc import Iterator
+
+from grader.robotcode.compiling.java_types import type_errors
+from grader.robotcode.compiling.season import (
+    HOME,
+    INHERITED,
+    METHODS,
+    PLAIN,
+    SEASON,
+    nearly,
+)
+from grader.robotcode.facts import Problem
+from grader.robotcode.meaning import called, class_of, methods, simple
+from grader.robotcode.names import Names
+from grader.robotcode.scope import Scope, walk
+from grader.robotcode.syntax import (
+    Assign,
+    Call,
+    Cast,
+    Class,
+    Function,
+    Import,
+    Member,
+    Name,
+    Node,
+    Parameter,
+    Reference,
+    Self,
+)
+from grader.robotcode.vocabulary import UNITS
+
+LANG = frozenset(
+    {
+        *("String", "Object", "Math", "Double", "Integer", "Boolean", "Float", "Long", "Short"),
+        *("Byte", "Character", "Number", "System", "Override", "Deprecated", "SuppressWarnings"),
+        *("FunctionalInterface", "SafeVarargs", "Void", "Runnable", "Thread", "Iterable"),
+        *("Comparable", "AutoCloseable", "Exception", "RuntimeException", "Error", "Throwable"),
+        *("Record", "Enum", "IllegalArgumentException", "IllegalStateException"),
+        *("NullPointerException", "StringBuilder", "Class", "UnsupportedOperationException"),
+        *("InterruptedException", "StackOverflowError", "CharSequence"),
+    }
+)
+PACKAGE = re.compile(r"(edu|com|org|java|javax|frc|swervelib|choreo)$")
+
+
+def errors(names: Names) -> Iterator[Problem]:
+    """What a compiler would stop at; nothing for a file without a package, a part of a program."""
+    module = names.main
+    if not module.package:
+        return
+    yield from _imports(names)
+    yield from type_errors(names)
+    yield from _file_name(names)
+    every = list(walk(module.body, Scope(module)))
+    open_ = any(one.name == "*" and not _static(one) for one in module.imports)
+    declared = {node.name for node, _ in every if isinstance(node, Class)}
+    targets = {node.target for node, _ in every if isinstance(node, Call)}
+    for node, scope in every:
+        line = node.place.line
+        for name in _types(node):
+            if not open_ and not _is_type(name, declared, scope, names):
+                yield Problem(_undeclared(name), line)
+        method = node in targets and not getattr(node, "name", "")[:1].isupper()
+        if isinstance(node, Name) and name_is_value(node) and not method:
+            yield from _variable(node, declared, scope, names, open_=open_)
+        elif isinstance(node, Call):
+            yield from _method(node, scope, names)
+
+
+def _file_name(names: Names) -> Iterator[Problem]:
+    """A public class whose name is nearly its file's: Java wants both to be the same."""
+    stem = names.main.path.stem
+    for node in names.main.body:
+        public = isinstance(node, Class) and node.place.text.startswith("public")
+        if public and isinstance(node, Class) and nearly(node.name, frozenset({stem})):
+            said = f"the class is {node.name}, and its file {stem}: both need one name"
+            yield Problem(said, node.place.line)
+
+
+def name_is_value(node: Name) -> bool:
+    """Whether a name can be a variable, a constant or a class."""
+    return node.name not in {"super", "this", "_", "length"} and node.name.isidentifier()
+
+
+def _static(one: Import) -> bool:
+    """Whether an import brings in members of a class: ``Units.*``."""
+    return one.path.rpartition(".")[2][:1].isupper()
+
+
+def _imports(names: Names) -> Iterator[Problem]:
+    source = names.main.source.decode("utf-8", errors="replace").split("\n")
+    for one in names.main.imports:
+        line = next((at for at, text in enumerate(source, 1) if _imports_it(text, one)), 1)
+        owner, _, name = one.path.rpartition(".")
+        if owner.rpartition(".")[2] == "Units" and name[:1].isupper() and "units" in owner:
+            if name not in UNITS and nearly(name, frozenset(UNITS)):
+                yield Problem(f"there is no unit {name}", line)
+            continue
+        if one.name == "*" or not one.path.startswith(SEASON):
+            continue
+        meant = nearly(name, HOME)
+        if meant:
+            yield Problem(f"there is no class {name}: {meant} is meant?", line)
+        elif name in HOME and not HOME[name].startswith(owner):
+            yield Problem(f"{name} is not in {owner}: it is in {HOME[name]}", line)
+
+
+def _imports_it(text: str, one: Import) -> bool:
+    path = one.path if one.name != "*" else f"{one.path}.*"
+    return bool(re.match(rf"\s*import\s+(static\s+)?{re.escape(path)}\s*;", text))
+
+
+def _types(node: Node) -> Iterator[str]:
+    """The classes that a declaration names, without those that stand behind a dot."""
+    written = ""
+    if isinstance(node, Assign | Parameter | Function | Cast):
+        written = node.type
+    elif isinstance(node, Class):
+        written = " ".join(base for base in node.bases if base[:1].isupper())
+    yield from re.findall(r"(?<![\w.])[A-Z]\w+", written)
+
+
+def _is_type(name: str, declared: set[str], scope: Scope, names: Names) -> bool:
+    if name in declared or name in LANG or any(one.name == name for one in scope.module.imports):
+        return True
+    source = scope.module.source.decode("utf-8", errors="replace")
+    if re.search(rf"(?<=\.){name}\b", source) and any(
+        one.name == "*" or one.name[:1].isupper() for one in scope.module.imports
+    ):
+        inherited = re.search(rf"[A-Z]\w*\.{name}\b", source)
+        if inherited and not scope.classes:
+            return True
+    return names.named(name, scope) is not None
+
+
+def _undeclared(name: str) -> str:
+    if name in HOME:
+        return f"{name} is not imported: import {HOME[name]}.{name};"
+    meant = nearly(name, HOME)
+    return f"there is no class {name}: {meant} is meant?" if meant else f"{name} is not imported"
+
+
+def _variable(
+    node: Name, declared: set[str], scope: Scope, names: Names, *, open_: bool
+) -> Iterator[Problem]:
+    name = node.name
+    if names.local(name, scope) or names.definitions(node, scope) or PACKAGE.match(name):
+        return
+    imported = any(one.name == name for one in scope.module.imports)
+    if imported or name in declared or _is_field(name, scope, names):
+        return
+    wide = any(one.name == "*" and _static(one) for one in scope.module.imports)
+    if name in UNITS:
+        if not wide:
+            yield Problem(f"the unit {name} is not imported", node.place.line)
+    elif name[:1].isupper() and not re.fullmatch(r"[A-Z][A-Z0-9_]*", name):
+        if not open_ and not _is_type(name, declared, scope, names):
+            yield Problem(_undeclared(name), node.place.line)
+    elif not wide and _closed(scope, names) and _is_plain(node, scope):
+        yield Problem(f"nothing declares {name}", node.place.line)
+
+
+def _is_plain(node: Name, scope: Scope) -> bool:
+    """Whether a name stands where only a variable can: not a method's name, nor a label."""
+    source, end = node.place.source, node.place.end
+    after = source[end : end + 40].lstrip()[:2]
+    before = source[max(node.place.start - 40, 0) : node.place.start].rstrip()
+    label = before.endswith((b"case", b"@", b"enum", b"::")) or after.startswith(b"->")
+    return bool(scope.functions or scope.classes) and not label and not after.startswith(b"(")
+
+
+def _is_field(name: str, scope: Scope, names: Names) -> bool:
+    for count in range(len(scope.classes), 0, -1):
+        home = Scope(scope.module, scope.classes[:count])
+        if any(name in names.fields(place) for place in names.lineage(home)):
+            return True
+        body = home.classes[-1].place.text if count else ""
+        if "enum" in body:
+            return True
+    return False
+
+
+def _closed(scope: Scope, names: Names) -> bool:
+    """Whether all that the classes around inherit is known."""
+    for count in range(len(scope.classes), 0, -1):
+        for place in names.lineage(Scope(scope.module, scope.classes[:count])):
+            for base in place.classes[-1].bases:
+                if simple(base) not in PLAIN and names.named(simple(base), place) is None:
+                    return False
+    return True
+
+
+def _method(call: Call, scope: Scope, names: Names) -> Iterator[Problem]:
+    target = call.target
+    line = target.place.line
+    if isinstance(target, Member) and not isinstance(target, Reference):
+        if called(call, scope, names) or isinstance(target.owner, Self):
+            return
+        home = class_of(target.owner, scope, names)
+        if home is not None and home.classes and _closed(home, names):
+            there = methods(target.name, home, names) or target.name in INHERITED
+            record = home.classes[-1].place.text.split("{")[0]
+            if not there and "enum" not in record and "record" not in record:
+                where = home.classes[-1].name
+                yield Problem(f"{where} has no method {target.name}()", line)
+            return
+        if _defined(target.name, names):
+            return
+        meant = nearly(target.name, METHODS)
+        if meant and target.name[:1].islower():
+            yield Problem(f"there is no method {target.name}(): {meant}() is meant?", line)
+    elif isinstance(target, Name) and target.name[:1].islower():
+        static = any(
+            one.name == target.name or (one.name == "*" and _static(one))
+            for one in scope.module.imports
+        )
+        if called(call, scope, names) or target.name in INHERITED or _defined(target.name, names):
+            return
+        if not static and _closed(scope, names) and scope.classes:
+            yield Problem(f"nothing declares the method {target.name}()", line)
+
+
+def _defined(name: str, names: Names) -> bool:
+    """Whether some class of the main file has a method of a name."""
+    every = walk(names.main.body, Scope(names.main))
+    return any(isinstance(node, Function) and node.name == name for node, _ in every)

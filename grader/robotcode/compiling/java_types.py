@@ -1,0 +1,221 @@
+"""Types of Java expressions around units and measures, and arguments that do not fit them."""
+
+import re
+from collections.abc import Iterator
+
+from grader.robotcode.facts import Problem
+from grader.robotcode.meaning import called, constructed, last_name, methods, simple
+from grader.robotcode.names import Names
+from grader.robotcode.readings import device_of, quantity_of
+from grader.robotcode.scope import Scope, walk
+from grader.robotcode.syntax import (
+    Call,
+    Cast,
+    Choice,
+    Function,
+    Member,
+    Name,
+    Node,
+    Number,
+    Operation,
+    Parameter,
+    Reference,
+    Self,
+)
+from grader.robotcode.vocabulary import ROTATIONS, UNITS, is_motor
+
+DEEPEST = 12
+NUMBER, SIGNAL = "double", "StatusSignal"
+WANTED = {  # of the methods of WPILib's MotorLog
+    "voltage": "Voltage",
+    "current": "Current",
+    "linearPosition": "Distance",
+    "linearVelocity": "LinearVelocity",
+    "linearAcceleration": "LinearAcceleration",
+    "angularPosition": "Angle",
+    "angularVelocity": "AngularVelocity",
+    "angularAcceleration": "AngularAcceleration",
+}
+MEASURES = frozenset(WANTED.values()) | {"Time"}
+VALUES = {"position": "Angle", "velocity": "AngularVelocity", "voltage": "Voltage"}
+PARAMETERS = ({"Voltage", "Measure", ""}, {"SysIdRoutineLog", ""})  # of the two callbacks
+NUMBERS = frozenset({"double", "float", "int", "long", "Double", "Float", "Integer"})
+MAKES = frozenset({"of", "ofBaseUnits", "mutable", "one", "zero"})
+ARITHMETIC = frozenset({"+", "-", "*", "/", "%"})
+PLAIN_NUMBERS = frozenset(
+    {"in", "getValueAsDouble", "baseUnitMagnitude", "magnitude", "getAsDouble"}
+)
+KEEPS = re.compile(r"mut_?\w+|plus|minus|copy|mutableCopy|unaryMinus|negate")
+
+
+def type_errors(names: Names) -> Iterator[Problem]:
+    """Arguments of the SysId log, of units and of the callbacks that are of another type."""
+    for node, scope in walk(names.main.body, Scope(names.main)):
+        if isinstance(node, Operation) and node.sign in ARITHMETIC:
+            yield from _operands(node, scope, names)
+        if not isinstance(node, Call):
+            continue
+        name = last_name(node.target)
+        if isinstance(node.target, Member) and node.args:
+            yield from _argument(node, node.target, name, scope, names)
+        if constructed(node, scope, names) == "Mechanism":
+            yield from _callbacks(node, scope, names)
+
+
+def _operands(node: Operation, scope: Scope, names: Names) -> Iterator[Problem]:
+    """Arithmetic with what is no number: Java has no operators for measures and signals."""
+    for part in (node.left, node.right):
+        given = "" if part is None else type_of_expression(part, scope, names)
+        if given == SIGNAL or given in MEASURES:
+            what = "a signal: add getValueAsDouble()" if given == SIGNAL else f"a {given}"
+            yield Problem(f"{node.sign} takes numbers, and this is {what}", node.place.line)
+
+
+def _argument(
+    call: Call, target: Member, name: str, scope: Scope, names: Names
+) -> Iterator[Problem]:
+    given = type_of_expression(call.args[0], scope, names)
+    wanted = WANTED.get(name, "")
+    line = target.place.line
+    if (
+        wanted
+        and given
+        and given != wanted
+        and (name not in {"voltage", "current"} or _logs(target))
+    ):
+        kinds = {NUMBER: "a plain number", SIGNAL: "a signal"}
+        said = kinds.get(given, f"a {given}")
+        yield Problem(f"{name}() takes a {wanted}, and this is {said}", line)
+    unit = dimension(last_name(target.owner)) if name == "of" else ""
+    if unit and (given in MEASURES or given == SIGNAL):
+        what = "a signal: add getValueAsDouble()" if given == SIGNAL else f"a {given}"
+        yield Problem(f"{last_name(target.owner)}.of() takes a number, and this is {what}", line)
+    owner = type_of_expression(target.owner, scope, names) if name == "in" else ""
+    asked = dimension(last_name(call.args[0])) if name == "in" else ""
+    if owner in MEASURES and asked and asked != owner:
+        yield Problem(f"a {owner} is not in {last_name(call.args[0])}", line)
+    if name == "setVoltage" and given in {SIGNAL, *MEASURES} - {"Voltage"}:
+        yield Problem(f"setVoltage() takes volts, and this is a {given}", line)
+
+
+def _logs(target: Member) -> bool:
+    """Whether a method belongs to a chain that begins with ``log.motor(...)``."""
+    node: Node = target.owner
+    while isinstance(node, Call | Member):
+        if isinstance(node, Call) and last_name(node.target) == "motor":
+            return True
+        node = node.target if isinstance(node, Call) else node.owner
+    return False
+
+
+def _callbacks(call: Call, scope: Scope, names: Names) -> Iterator[Problem]:
+    for given, allowed in zip(call.args, PARAMETERS, strict=False):
+        if not isinstance(given, Reference) or not isinstance(given.owner, Self):
+            continue
+        found = methods(given.name, scope.home, names) if scope.classes else []
+        if scope.classes and not found and len(names.lineage(scope.home)) == 1:
+            yield Problem(f"nothing declares the method {given.name}()", given.place.line)
+        fits = [
+            one
+            for one, _ in found
+            if len(one.parameters) == 1 and simple(one.parameters[0].type) in allowed
+        ]
+        if found and not fits:
+            wanted = max(allowed, key=len)
+            wanted = "Voltage" if "Voltage" in allowed else wanted
+            said = f"{given.name}() has to take one {wanted} to be a callback in this place"
+            yield Problem(said, given.place.line)
+
+
+def dimension(unit: str) -> str:
+    """The measure that a unit's name stands for: ``LinearVelocity`` of ``MetersPerSecond``."""
+    found = UNITS.get(unit)
+    if found is None:
+        return ""
+    rate = unit.count("PerSecond") + (unit == "RPM")
+    kinds = {
+        "linear": ("Distance", "LinearVelocity", "LinearAcceleration"),
+        "angular": ("Angle", "AngularVelocity", "AngularAcceleration"),
+    }
+    if found.family:
+        return kinds[found.family][rate]
+    if found.volts == 1 and not found.seconds:
+        return "Voltage"
+    if found.seconds == 1:
+        return "Time"
+    return "Current" if "amp" in unit.lower() else ""
+
+
+def type_of_expression(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> str:
+    """The type of an expression: ``double``, a measure or ``StatusSignal``; empty if not told."""
+    depth += 1
+    found = ""
+    if depth > DEEPEST:
+        return found
+    if isinstance(node, Number):
+        found = NUMBER
+    elif isinstance(node, Operation):
+        found = NUMBER if node.sign in ARITHMETIC else ""
+    elif isinstance(node, Cast):
+        found = _named(node.type)
+    elif isinstance(node, Choice):
+        found = type_of_expression(node.one, scope, names, depth=depth)
+    elif isinstance(node, Call):
+        found = _of_call(node, scope, names, depth)
+    elif isinstance(node, Name | Member) and not isinstance(node, Reference):
+        found = _of_variable(node, scope, names, depth)
+    return found
+
+
+def _named(type_: str) -> str:
+    name = simple(type_).removeprefix("Mut")
+    if name in NUMBERS:
+        return NUMBER
+    return name if name in MEASURES | {SIGNAL} else ""
+
+
+def _of_variable(node: Node, scope: Scope, names: Names, depth: int) -> str:
+    for one in names.definitions(node, scope):
+        if isinstance(one.value, Parameter):
+            return _named(one.value.type)
+        if one.type and one.type != "var":
+            return _named(one.type)
+        if one.value is not None and not isinstance(one.value, Function):
+            return type_of_expression(one.value, one.scope, names, depth=depth)
+    return ""
+
+
+def _of_call(call: Call, scope: Scope, names: Names, depth: int) -> str:
+    functions = called(call, scope, names)
+    if functions:
+        return _named(functions[0][0].type)
+    target = call.target
+    if not isinstance(target, Member):
+        return ""
+    name = target.name
+    unit = dimension(last_name(target.owner)) if isinstance(target.owner, Name | Member) else ""
+    if name in MAKES and unit:
+        return unit
+    if name in PLAIN_NUMBERS or last_name(target.owner) == "Math":
+        return NUMBER
+    return _of_device(target, scope, names) or _of_measure(target, scope, names, depth)
+
+
+def _of_device(target: Member, scope: Scope, names: Names) -> str:
+    """What a method of a motor controller or an encoder gives; empty if it is none."""
+    device, type_ = device_of(target.owner, scope, names)
+    if not device or not quantity_of(target.name, motor=is_motor(type_)):
+        return ""
+    return SIGNAL if ROTATIONS.fullmatch(type_) else NUMBER
+
+
+def _of_measure(target: Member, scope: Scope, names: Names, depth: int) -> str:
+    """What a method of a measure or of a signal gives; empty if it cannot be told."""
+    name, inner = target.name, target.owner
+    owner = type_of_expression(inner, scope, names, depth=depth)
+    if owner == SIGNAL and name == "getValue":
+        asked = last_name(inner.target) if isinstance(inner, Call) else ""
+        return VALUES.get(quantity_of(asked, motor=True), "")
+    if owner == SIGNAL:
+        return SIGNAL if name == "refresh" else ""
+    return owner if owner in MEASURES and KEEPS.fullmatch(name) else ""

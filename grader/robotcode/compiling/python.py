@@ -1,0 +1,149 @@
+"""What would stop a RobotPy file with an error as soon as that line runs."""
+
+import ast
+import builtins
+from collections.abc import Iterator
+
+from grader.robotcode.compiling.season import (
+    CLASSES,
+    INHERITED,
+    METHODS,
+    MODULE_OF,
+    PLAIN,
+    ROBOTPY,
+    nearly,
+)
+from grader.robotcode.facts import Problem
+from grader.robotcode.names import Names
+from grader.robotcode.vocabulary import plain
+
+ALWAYS = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__", "__annotations__"}
+OPEN = frozenset({"setattr", "vars", "__getattr__"})  # set attributes by a name nobody can read
+
+
+def errors(names: Names) -> Iterator[Problem]:
+    """Names that nothing defines, imports that do not exist, attributes that nobody sets."""
+    try:
+        tree = ast.parse(names.main.source.decode("utf-8", errors="replace"))
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return
+    every = list(ast.walk(tree))
+    yield from _imports(every)
+    wide = any(isinstance(one, ast.ImportFrom) and one.names[0].name == "*" for one in every)
+    bound = _bound(every)
+    if not wide:
+        for one in every:
+            if isinstance(one, ast.Name) and isinstance(one.ctx, ast.Load) and one.id not in bound:
+                yield Problem(f"nothing defines or imports {one.id}", one.lineno)
+    yield from _attributes(every)
+
+
+def _imports(every: list[ast.AST]) -> Iterator[Problem]:
+    modules: dict[str, str] = {}
+    for node in every:
+        if isinstance(node, ast.Import):
+            modules |= {one.asname or one.name: one.name for one in node.names}
+        if not isinstance(node, ast.ImportFrom) or node.level:
+            continue
+        module = node.module or ""
+        if module.partition(".")[0] not in ROBOTPY:
+            continue
+        for one in node.names:
+            yield from _imported(one.name, module, node.lineno)
+    for node in every:
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            module = modules.get(node.value.id, "")
+            if module.partition(".")[0] in ROBOTPY and node.attr[:1].isupper():
+                yield from _imported(node.attr, module, node.lineno)
+
+
+def _imported(name: str, module: str, line: int) -> Iterator[Problem]:
+    meant = nearly(name, CLASSES) if name[:1].isupper() else ""
+    home = MODULE_OF.get(name, "")
+    if meant and name not in CLASSES:
+        yield Problem(f"there is no {name} in {module}: {meant} is meant?", line)
+    elif home and module in {*MODULE_OF.values()} and home != module:
+        yield Problem(f"{name} is not in {module}: it is in {home}", line)
+
+
+def _bound(every: list[ast.AST]) -> set[str]:
+    """Every name that gets a value anywhere in the file."""
+    bound = set(ALWAYS)
+    for one in every:
+        if isinstance(one, ast.Name) and not isinstance(one.ctx, ast.Load):
+            bound.add(one.id)
+        elif isinstance(one, ast.Import | ast.ImportFrom):
+            bound |= {(alias.asname or alias.name).partition(".")[0] for alias in one.names}
+        elif isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            bound.add(one.name)
+        elif isinstance(one, ast.arg):
+            bound.add(one.arg)
+        elif isinstance(one, ast.ExceptHandler | ast.MatchAs | ast.MatchStar) and one.name:
+            bound.add(one.name)
+        elif isinstance(one, ast.MatchMapping) and one.rest:
+            bound.add(one.rest)
+        elif isinstance(one, ast.Global | ast.Nonlocal):
+            bound |= {*one.names}
+        bound |= {word.name for word in getattr(one, "type_params", ())}
+    return bound
+
+
+def _attributes(every: list[ast.AST]) -> Iterator[Problem]:
+    classes = {one.name: one for one in every if isinstance(one, ast.ClassDef)}
+    for one in classes.values():
+        known = _members(one, classes)
+        if known is None:
+            continue
+        for node in ast.walk(one):
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+                used = isinstance(node.ctx, ast.Load) and node.value.id == "self"
+                if used and node.attr not in known and not node.attr.startswith("__"):
+                    yield Problem(f"nothing sets self.{node.attr}", node.lineno)
+    own = {one.name for one in every if isinstance(one, ast.FunctionDef)}
+    own |= {one.attr for one in every if isinstance(one, ast.Attribute) and _is_set(one)}
+    for node in every:
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            meant = nearly(node.func.attr, METHODS)
+            line = node.func.end_lineno or node.lineno
+            if meant and node.func.attr not in own and plain(node.func.attr) not in METHODS:
+                said = f"there is no method {node.func.attr}(): {meant}() is meant?"
+                yield Problem(said, line)
+
+
+def _is_set(node: ast.Attribute) -> bool:
+    return not isinstance(node.ctx, ast.Load)
+
+
+def _members(one: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> set[str] | None:
+    """All attributes of a class; None where it inherits from a class out of sight."""
+    known = set(INHERITED) | {plain(name) for name in INHERITED}
+    known |= {"".join(f"_{a.lower()}" if a.isupper() else a for a in name) for name in INHERITED}
+    waiting, seen = [one], set()
+    while waiting:
+        place = waiting.pop()
+        seen.add(place.name)
+        if any("dataclass" not in ast.unparse(word) for word in place.decorator_list):
+            return None
+        bases = {ast.unparse(base).rpartition(".")[2] for base in place.bases} - seen
+        if not bases <= PLAIN | classes.keys():
+            return None
+        waiting += [classes[name] for name in bases & classes.keys()]
+        known |= {name for node in ast.walk(place) for name in _sets(node)}
+        known |= {
+            target.id
+            for node in place.body
+            for target in ast.walk(node)
+            if isinstance(node, ast.Assign | ast.AnnAssign)
+            if isinstance(target, ast.Name) and not isinstance(target.ctx, ast.Load)
+        }
+    return None if known & OPEN else known
+
+
+def _sets(node: ast.AST) -> Iterator[str]:
+    """The attributes that a piece of a class's code may set or define."""
+    if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        yield node.name
+    elif isinstance(node, ast.Attribute) and _is_set(node):
+        yield node.attr
+    elif isinstance(node, ast.Name) and node.id in OPEN:
+        yield node.id

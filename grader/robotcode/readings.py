@@ -1,0 +1,264 @@
+"""Numbers that a device reports: which device, which quantity, and in which unit.
+
+A unit follows the source of a number. ``Meters.of(x)`` converts nothing: if ``x`` is a TalonFX's
+position, the number is still in rotations.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from grader.robotcode.meaning import last_name, resolve, simple, type_from, type_of
+from grader.robotcode.measure import Measures
+from grader.robotcode.motors import label
+from grader.robotcode.names import Names
+from grader.robotcode.scope import Scope, bindings, walk
+from grader.robotcode.syntax import Assign, Call, Member, Name, Node, Self, Text
+from grader.robotcode.vocabulary import (
+    APPLIED_DUTY,
+    APPLIED_VOLTAGE,
+    BUS_VOLTAGE,
+    PULSES,
+    ROTATIONS,
+    SPARKS,
+    is_motor,
+    plain,
+)
+
+PARTS = {  # methods of a motor controller that hand out its encoder
+    "getEncoder": "RelativeEncoder",
+    "getAlternateEncoder": "RelativeEncoder",
+    "getAbsoluteEncoder": "AbsoluteEncoder",
+}
+QUANTITIES = (
+    ("velocity", re.compile(r"get\w*(Velocity|Rate|Speed)\w*")),
+    ("acceleration", re.compile(r"get\w*Acceleration\w*")),
+    ("current", re.compile(r"get\w*Current\w*")),
+    ("position", re.compile(r"get\w*(Position|Distance|Angle|Raw)\w*|get")),
+)
+ENCODER = re.compile(r"\w*(Encoder|CANcoder|CANCoder|Cancoder)")
+MOST_IDS = 62  # on a CAN bus
+PULSE_COUNT = "pulse count"  # the type of a reading by one of ...
+COUNTS = frozenset({"get", "getRaw"})  # methods of WPILib's Encoder that know of no distance
+ANY = "*"  # a setting of a device that cannot be told apart
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One number asked of a device.
+
+    Args:
+        device: the variable that is asked, ``m_left``; an encoder of a motor controller counts as
+            the motor controller.
+        type: its class: ``TalonFX``, ``RelativeEncoder``.
+        quantity: ``position``, ``velocity``, ``acceleration``, ``current``, ``voltage``, ``duty``
+            or ``bus``.
+    """
+
+    device: str
+    type: str
+    quantity: str
+
+
+@dataclass
+class Settings:
+    """What the program sets its devices to.
+
+    Args:
+        per_pulse: encoder -> what it counts per pulse; None if that cannot be told.
+        position, velocity: the conversion factors of Spark encoders; None if one cannot be told.
+        ratios: the source text of every sensor-to-mechanism ratio.
+        inverted: the motors that are set to turn the other way round.
+        elsewhere: whether settings come from code that is not in these files.
+    """
+
+    per_pulse: dict[str, float | None] = field(default_factory=dict)
+    position: list[float | None] = field(default_factory=list)
+    velocity: list[float | None] = field(default_factory=list)
+    ratios: list[str] = field(default_factory=list)
+    inverted: set[str] = field(default_factory=set)
+    elsewhere: bool = False
+
+
+def quantity_of(method: str, *, motor: bool) -> str:
+    """The quantity that a method of a device reports; empty if it is none of these."""
+    if method in APPLIED_VOLTAGE or (motor and method == "getVoltage"):
+        return "voltage"
+    if method in BUS_VOLTAGE:
+        return "bus"
+    if method in APPLIED_DUTY and (motor or method != "get"):
+        return "duty"
+    return next((name for name, form in QUANTITIES if form.fullmatch(method)), "")
+
+
+def device_of(node: Node, scope: Scope, names: Names) -> tuple[str, str]:
+    """The name and the class of a motor controller or encoder; two empty texts for other nodes."""
+    type_ = simple(type_of(node, scope, names))
+    value, _ = resolve(node, scope, names)
+    if isinstance(value, Call) and isinstance(value.target, Member):
+        made = PARTS.get(plain(value.target.name), "")
+        if made and not value.target.name[:1].isupper():
+            return label(value.target.owner), made
+    known = is_motor(type_) or bool(ENCODER.fullmatch(type_))
+    return (label(node), type_) if known else ("", "")
+
+
+def native_unit(reading: Reading, settings: Settings) -> tuple[str, float | None]:
+    """The unit in which a device reports a position or a velocity, and a factor it is set to.
+
+    Returns:
+        ``rotation``, ``rotation per second``, ``rpm``, ``pulse`` or ``set`` (whatever the program
+        set the device to), or empty if it cannot be told; and the factor that the program set,
+        None if it cannot be told.
+    """
+    moves = reading.quantity == "velocity"
+    found: tuple[str, float | None] = ("", None)
+    if reading.quantity not in {"position", "velocity"}:
+        return found
+    if ROTATIONS.fullmatch(reading.type):
+        if not any("meter" in ratio.lower() for ratio in settings.ratios):
+            found = ("rotation per second" if moves else "rotation"), 1.0
+    elif SPARKS.fullmatch(reading.type):
+        factors = set(settings.velocity if moves else settings.position)
+        if factors or not settings.elsewhere:
+            factor = 1.0 if not factors else factors.pop() if len(factors) == 1 else None
+            found = ("rpm" if moves else "rotation"), factor
+    elif reading.type == PULSE_COUNT:
+        found = "pulse", 1.0
+    elif PULSES.fullmatch(reading.type):
+        if ANY in settings.per_pulse:
+            found = "set", None
+        elif reading.device in settings.per_pulse:
+            found = "set", settings.per_pulse[reading.device]
+        else:
+            found = "pulse", 1.0
+    return found
+
+
+def settings_of(home: Scope, names: Names, measures: Measures) -> Settings:
+    """What a class, and the file it is in, sets its devices to."""
+    return _SettingsReader(names, measures).read(home)
+
+
+class _SettingsReader:
+    """Goes through the code for what sets a device."""
+
+    def __init__(self, names: Names, measures: Measures) -> None:
+        self._names = names
+        self._measures = measures
+        self._found = Settings()
+
+    def read(self, home: Scope) -> Settings:
+        """All settings in the files of a class and of those above it."""
+        above = self._names.lineage(home) if home.classes else []
+        for module in dict.fromkeys((self._names.main, *(place.module for place in above))):
+            for node, scope in walk(module.body, Scope(module)):
+                if isinstance(node, Assign) and node.value is not None:
+                    self._assigned(last_name(node.target), node.value)
+                elif isinstance(node, Call) and isinstance(node.target, Member):
+                    args = [*node.args, *(value for _, value in node.named)]
+                    if args:
+                        self._called(node.target, args[0], scope)
+        return self._found
+
+    def _assigned(self, name: str, value: Node) -> None:
+        if _is_ratio(name):
+            self._found.ratios.append(value.place.text)
+        elif plain(name).lower() == "inverted":
+            self._found.inverted.add(ANY)
+
+    def _called(self, target: Member, first: Node, scope: Scope) -> None:
+        name = plain(target.name).removeprefix("set").removeprefix("with")
+        name = name[:1].lower() + name[1:]
+        device = ANY if _is_open(target.owner, scope, self._names) else label(target.owner)
+        measure = self._measures.of(first, scope)
+        amount = None if measure is None else measure.value
+        if name == "distancePerPulse":
+            self._found.per_pulse[device] = amount
+        elif name == "positionConversionFactor":
+            self._found.position.append(amount)
+        elif name == "velocityConversionFactor":
+            self._found.velocity.append(amount)
+        elif _is_ratio(target.name):
+            self._found.ratios.append(first.place.text)
+        elif name == "inverted" and first.place.text.lower() != "false":
+            self._found.inverted.add(device)
+        elif name in {"configure", "apply"}:
+            value, where = resolve(first, scope, self._names)
+            if isinstance(value, Name | Member) and not self._names.definitions(value, where):
+                self._found.elsewhere = True
+
+
+def _is_ratio(name: str) -> bool:
+    return plain(name).lower().endswith(("sensortomechanismratio", "rotortosensorratio"))
+
+
+def _is_open(node: Node, scope: Scope, names: Names) -> bool:
+    """Whether a device is a parameter, an element of a list, or another object's."""
+    if isinstance(node, Member) and isinstance(node.owner, Self):
+        return False
+    if not isinstance(node, Name):
+        return True
+    if names.field_name(node, scope):
+        return False
+    return bool(names.local(node.name, scope))
+
+
+def impossible_numbers(home: Scope, names: Names, measures: Measures) -> list[tuple[str, float]]:
+    """A class's devices that are made with what can be no port and no CAN ID."""
+    found = []
+    for name, value in _made(home, names):
+        several = (measures.of(arg, home) for arg in value.args)
+        amounts = [one.value for one in several if one is not None]
+        wrong = [one for one in amounts if one != int(one) or not 0 <= one <= MOST_IDS]
+        twice = len(amounts) > 1 and amounts[0] == amounts[1]
+        if wrong or (twice and last_name(value.target) == "Encoder"):
+            found.append((name, (wrong or amounts)[0]))
+    return found
+
+
+def _made(home: Scope, names: Names) -> Iterator[tuple[str, Call]]:
+    """The motor controllers and encoders of a class that are made with a number."""
+    for name, definitions in (names.fields(home) if home.classes else {}).items():
+        value = next((one.value for one in definitions if isinstance(one.value, Call)), None)
+        if isinstance(value, Call) and value.args:
+            type_ = simple(type_of(value, home, names))
+            if is_motor(type_) or type_ == "Encoder":
+                yield name, value
+
+
+def same_numbers(home: Scope, names: Names, measures: Measures) -> list[tuple[str, str]]:
+    """Pairs of a class's devices that are made with the same number of a port or a CAN ID."""
+    made: dict[tuple[object, ...], str] = {}
+    found: list[tuple[str, str]] = []
+    for name, value in _made(home, names):
+        kind = simple(type_of(value, home, names))
+        amounts = [measures.of(arg, home) for arg in value.args]
+        known = [one.value for one in amounts if one is not None]
+        texts = [arg.value for arg in value.args if isinstance(arg, Text)]
+        keys: list[tuple[object, ...]] = [(kind, *known, *texts)] if known else []
+        if kind == "Encoder":  # each of its two channels is a port of its own
+            keys = [(kind, channel) for channel in dict.fromkeys(known[:2])]
+        found += [(made[key], name) for key in keys if made.setdefault(key, name) != name]
+    return list(dict.fromkeys(found))
+
+
+def devices(home: Scope, names: Names) -> Iterator[tuple[str, str]]:
+    """The motor controllers and encoders that a class owns: name and class."""
+    for place in names.lineage(home) if home.classes else ():
+        for name, definitions in names.fields(place).items():
+            type_ = simple(type_from(definitions, names))
+            if is_motor(type_) or ENCODER.fullmatch(type_):
+                yield name, type_
+
+
+def numbers(home: Scope, names: Names, measures: Measures) -> Iterator[tuple[str, float]]:
+    """The numbers among a class's fields, and in Python among those of its file: name and value."""
+    at_top = bindings(home.module.body, Scope(home.module))
+    for several in (names.fields(home) if home.classes else {}, at_top):
+        for name, definitions in several.items():
+            valued = [one for one in definitions if one.value is not None]
+            if len(valued) == 1 and valued[0].value is not None:
+                amount = measures.of(valued[0].value, valued[0].scope)
+                if amount is not None and amount.dimension == "number":
+                    yield name, amount.value

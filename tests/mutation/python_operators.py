@@ -1,0 +1,135 @@
+"""Mistakes that are made in RobotPy code: some forty operators, each used at every place."""
+
+import re
+from collections.abc import Iterator
+
+from mutation.text_operators import Rule, all_changes, either, times, without_a_letter
+
+COMMENT = re.compile(r'#[^\n]*|"""(?:.|\n)*?"""')
+NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?![\w.])"
+SENT = r"setVoltage\(voltage\)"
+ASKS = r"(?:wpilib\.)?DriverStation\.isTest"
+
+RULES = (
+    # Guards and buttons.
+    Rule("negate-guard", rf"= {ASKS}\n", "= lambda: not wpilib.DriverStation.isTest()\n"),
+    Rule("negate-guard", r"and_\(testing\)", "and_(lambda: not testing())"),
+    Rule("drop-guard", r"\.and_\(testing\)", ""),
+    Rule("guard-by-or", r"\.and_\(testing\)", ".or_(testing)"),
+    Rule("guard-other-mode", r"(?<=DriverStation\.)isTest", "isTeleop"),
+    Rule("guard-other-mode", r"(?<=DriverStation\.)isTest", "isAutonomous"),
+    Rule("guard-other-mode", r"(?<=DriverStation\.)isTest", "isEnabled"),
+    Rule("guard-called-once", rf"= {ASKS}\n", "= wpilib.DriverStation.isTest()\n"),
+    Rule("on-true", r"whileTrue", "onTrue"),
+    Rule("toggle", r"whileTrue", "toggleOnTrue"),
+    Rule("while-false", r"whileTrue", "whileFalse"),
+    Rule("on-false", r"whileTrue", "onFalse"),
+    Rule("other-button", r"(?<=driver)\.[abxy]\(\)", ".a()"),
+    Rule("other-button", r"(?<=driver)\.[abxy]\(\)", ".b()"),
+    Rule("other-test", r"(?<=\.)quasistatic\(", "dynamic("),
+    Rule("other-test", r"(?<=\.)dynamic\(", "quasistatic("),
+    Rule("other-direction", r"kForward|kReverse", either("kForward", "kReverse")),
+    Rule("fixed-direction", r"(?<=c\()direction\)", "SysIdRoutine.Direction.kForward)"),
+    Rule("hide-method", r"(?<=def )(?=quasistatic|dynamic)", "_"),
+    Rule("never-bind", r"^ +self\.configure_bindings\(\)\n", ""),
+    Rule("wrong-comment", r"(?<=# )Quasistatic", "Dynamic", comments=True),
+    Rule("wrong-comment", r"(?<=# )Dynamic", "Quasistatic", comments=True),
+    Rule("wrong-comment", r"kS and kV", "kA", comments=True),
+    Rule("wrong-comment", r"\bkA\b", "kV", comments=True),
+    Rule("drop-comment", r"# (?:Quasistatic|Dynamic)[^\n]*", "#", comments=True),
+    # Copied and not changed, left for right.
+    Rule("swap-sides", r"\b(?:left|right)(?=\.|_|\b)", either("left", "right")),
+    # Numbers that follow their unit, or do not.
+    Rule("drop-conversion", r"^ +self\.\w+\.setDistancePerPulse\([^\n]*\n", ""),
+    Rule("drop-conversion", r" \* METERS_PER_\w+", ""),
+    Rule("double-conversion", r"(?<=getDistance\(\))|(?<=getRate\(\))", " * METERS_PER_PULSE"),
+    Rule("double-conversion", r" \* (METERS_PER_\w+)", r"\g<0> * \1"),
+    Rule("invert-conversion", r"(?<=PerPulse\()(?=\w)", "1 / "),
+    Rule("invert-conversion", r" \* (METERS_PER_\w+)", r" / \1"),
+    Rule("drop-seconds", r" / 60(?:\.0)?", ""),
+    Rule("times-seconds", r" / 60(?:\.0)?", " * 60.0"),
+    Rule("diameter-for-radius", r"math\.pi", "2 * math.pi"),
+    Rule("angular-for-linear", r"(?<=\.)(?:position|velocity)(?=\()", lambda m: f"angular{m[0].title()}"),
+    Rule("minutes-for-seconds", r"getRate\(\)", "getRate() * 60"),
+    Rule("feet-for-meters", r"getDistance\(\)|getRate\(\)", r"\g<0> * 3.28084"),
+    Rule("raw-pulses", r"getDistance", "getRaw"),
+    Rule("raw-pulses", r"getDistance", "get"),
+    # Signs, quantities, sources.
+    Rule("flip-sign", r"(?<=setVoltage\()(?=\w)", "-"),
+    Rule("flip-sign", r"(?<=\.voltage\()(?=self)", "-"),
+    Rule("flip-sign", r"(?<=[ (])(?=self\.\w+_encoder\.get)", "-"),
+    Rule("flip-sign", r"(?<=PerPulse\()", "-"),
+    Rule("position-for-velocity", r"getDistance|getRate", either("getDistance", "getRate")),
+    Rule("position-for-velocity", r"(?<=\.)(?:position|velocity)(?=\()", either("position", "velocity")),
+    Rule("duty-for-voltage", r"(?<=voltage\(self\.)(\w+)\.getVoltage", r"\1.get"),
+    Rule("nominal-battery", r"(?<=voltage\()self\.(\w+)\.getVoltage\(\)", r"self.\1.get() * 12.0"),
+    Rule("velocity-for-voltage", r"(?<=voltage\()self\.(left|right)\.getVoltage", r"self.\1_encoder.getRate"),
+    Rule("asked-voltage", r"(?<=voltage\()self\.\w+\.getVoltage\(\)", "self.asked"),
+    # The voltage on its way.
+    Rule("duty-cycle", SENT, "set(voltage / 12)"),
+    Rule("duty-cycle", SENT, "set(voltage)"),
+    Rule("scaled-voltage", SENT, "setVoltage(voltage / 12)"),
+    Rule("scaled-voltage", SENT, "setVoltage(voltage * 2)"),
+    Rule("scaled-voltage", SENT, "setVoltage(voltage + 0.2)"),
+    Rule("constant-voltage", SENT, "setVoltage(3.5)"),
+    Rule("constant-voltage", SENT, "setVoltage(0)"),
+    Rule("closed-loop", r"(?<=setVoltage\()voltage", "self.controller.calculate(0, voltage)"),
+    Rule("stop-motor", SENT, "stopMotor()"),
+    # Constants and arguments.
+    Rule("other-constant", NUMBER, times(2.0)),
+    Rule("other-constant", NUMBER, times(0.5)),
+    Rule("other-constant", NUMBER, times(10.0)),
+    Rule("other-constant", NUMBER, times(1 / 12)),
+    Rule("zero-constant", NUMBER, "0"),
+    Rule("negative-constant", NUMBER, r"-\g<0>"),
+    Rule("swap-config", r"rampRate=(0\.5), stepVoltage=(3\.5)", r"rampRate=\2, stepVoltage=\1"),
+    Rule("swap-config", r"stepVoltage=(3\.5), timeout=(10\.0)", r"stepVoltage=\2, timeout=\1"),
+    Rule("misspell-keyword", r"rampRate|stepVoltage|timeout", without_a_letter),
+    Rule("swap-callbacks", r"(self\.drive), (self\.record)", r"\2, \1"),
+    Rule("swap-callbacks", r"(self\.record), (self)\b", r"\2, \1"),
+    Rule("same-callback", r"self\.drive(?=,)", "self.record"),
+    Rule("same-callback", r"self\.record(?=,)", "self.drive"),
+    Rule("called-callback", r"(?<=Mechanism\()self\.drive", "self.drive()"),
+    Rule("swap-arguments", r"(\w+Constants\.k\w), (\w+Constants\.k\w)", r"\2, \1"),
+    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kS"),
+    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kV"),
+    Rule("other-gain", r"(?<=Constants\.)k[SVAG](?=[,)])", "kP"),
+    Rule("drop-argument", r", \w+Constants\.k\w(?=\))", ""),
+    Rule("other-feedforward", r"(?<=\.feedforward = )\w+(?=\()", "ArmFeedforward"),
+    Rule("null-argument", r"(?<=, )self(?=\))", "None"),
+    Rule("null-argument", r"self\.(?:drive|record)(?=,)", "None"),
+    Rule("null-argument", r"(?<=rampRate=)0\.5|(?<=stepVoltage=)3\.5", "None"),
+    Rule("drop-argument", r", self(?=\))", ""),
+    Rule("drop-argument", r"(?:rampRate|stepVoltage|timeout)=[\d.]+(?:, )?", ""),
+    # Statements and declarations.
+    Rule("drop-statement", r"^ {8,}self\.[^\n]*\n", lambda m: _indent(m[0]) + "pass\n"),
+    Rule("drop-link", r"\.voltage\(self\.\w+\.getVoltage\(\)\)", ""),
+    Rule("drop-link", r"\.(?:position|velocity)\(\s*self\.\w+\.get\w+\(\)\s*\)", ""),
+    Rule("drop-motor", r"^ +log\.motor\((?:.|\n)*?getRate\(\)\)\n", "        pass\n"),
+    Rule("drop-super", r"^ +super\(\)\.__init__\(\)\n", ""),
+    Rule("no-subsystem", r"\(Subsystem\)(?=:)", ""),
+    Rule("drop-self", r"(?<![\w.])self\.(?=left|right|driver\.|subsystem\.|routine\.)", ""),
+    Rule("drop-converted", r" \* CONVERSION", ""),
+    Rule("double-converted", r" \* CONVERSION", r"\g<0>\g<0>"),
+    Rule("invert-converted", r" \* CONVERSION", " / CONVERSION"),
+    Rule("duty-gain", r"(?<== )\d[\d.e-]*(?= \* CONVERSION)", r"\g<0> / 12"),
+    Rule("drop-unit", r"  # V[^\n]*", "", comments=True),
+    Rule("other-unit", r"(?<=# )V·s(?:²)?/\w+", "V", comments=True),
+    # Code that stops with an error.
+    Rule("drop-import", r"^(?:import|from) [^\n]*\n", ""),
+    Rule("misspell-import", r"^from [\w.]+ import \w{5,}", without_a_letter),
+    Rule("misspell-class", r"(?<![\w.\"])(?=[A-Z]\w{5,})(?![A-Z_]+\b)\w+", without_a_letter),
+    Rule("misspell-class", r"\bSysIdRoutine\b", "SysidRoutine"),
+    Rule("misspell-method", r"(?<=\.)[a-z]\w{6,}(?=\()", without_a_letter),
+    Rule("misspell-variable", r"(?<=self\.)\w{4,}(?=[.,)])", without_a_letter),
+    Rule("misspell-constant", r"(?<=\()[A-Z]+_PER_[A-Z]+\b", without_a_letter),
+)  # fmt: skip
+
+
+def _indent(line: str) -> str:
+    return line[: len(line) - len(line.lstrip())]
+
+
+def changes_of(text: str) -> Iterator[tuple[str, int, str]]:
+    """Operator, line and text of every mutant of a Python file."""
+    return all_changes(RULES, text, comment=COMMENT)

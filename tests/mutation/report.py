@@ -1,0 +1,147 @@
+"""Mutation testing of the graders, on a terminal.
+
+    python tests/mutation/report.py [--run] [PART]
+
+Prints how many mutants there are, how many lose points with advice, how many are legal variants of
+``legal.toml``, and every survivor. ``PART`` is a part of an exercise's, a file's or an operator's
+name. With ``--run`` RobotPy mutants that survive reading are run in WPILib's simulation as well.
+"""
+
+import fnmatch
+import importlib
+import re
+import sys
+import tempfile
+import tomllib
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+if __name__ == "__main__":
+    sys.path.insert(0, str(HERE.parent))
+
+from mutation.answers import Verdict, judge  # noqa: E402 - the path is set above
+from mutation.mutant import Mutant  # noqa: E402 - the same
+
+
+@dataclass(frozen=True)
+class Legal:
+    """A kind of mutant that is a right answer in another way.
+
+    Args:
+        exercise, file, operator: shell patterns.
+        line: a regular expression that is in the changed line.
+        reason: why it is right, or why no grader can tell.
+    """
+
+    exercise: str
+    file: str
+    operator: str
+    line: str
+    reason: str
+
+    def covers(self, mutant: Mutant) -> bool:
+        """Whether a mutant is of this kind."""
+        pairs = (
+            (mutant.exercise, self.exercise),
+            (mutant.file, self.file),
+            (mutant.operator, self.operator),
+        )
+        lines = mutant.text.splitlines()
+        changed = lines[mutant.line - 1] if mutant.line <= len(lines) else ""
+        fits = all(fnmatch.fnmatch(name, form) for name, form in pairs)
+        return fits and re.search(self.line, changed) is not None
+
+
+@dataclass
+class Report:
+    """What became of all mutants.
+
+    Args:
+        killed: how many lose points with advice, by operator.
+        legal: how many are right in another way, by operator.
+        survivors: those that are neither, with why.
+        stale: entries of the list of legal variants that cover nothing.
+    """
+
+    killed: Counter[str] = field(default_factory=Counter)
+    legal: Counter[str] = field(default_factory=Counter)
+    survivors: list[tuple[Mutant, Verdict]] = field(default_factory=list)
+    stale: list[Legal] = field(default_factory=list)
+
+    @property
+    def total(self) -> int:
+        """How many mutants there are."""
+        return self.killed.total() + self.legal.total() + len(self.survivors)
+
+
+def legal_variants() -> list[Legal]:
+    """The list of legal variants."""
+    table = tomllib.loads((HERE / "legal.toml").read_text(encoding="utf-8"))
+    return [Legal(**row) for row in table.get("legal", [])]
+
+
+def all_mutants() -> Iterator[Mutant]:
+    """The mutants of every module of this folder that makes some."""
+    for path in sorted(HERE.glob("*.py")):
+        module = importlib.import_module(f"mutation.{path.stem}") if path.stem != "report" else None
+        make = getattr(module, "mutants", None)
+        if make is not None:
+            yield from make()
+
+
+def survey(mutants: Iterator[Mutant], *, run: bool = False) -> Report:
+    """Grade mutants: by reading, and where ``run`` says so RobotPy's survivors by running."""
+    report, listed = Report(), legal_variants()
+    used: set[int] = set()
+    for mutant in mutants:
+        with tempfile.TemporaryDirectory() as place:
+            verdict = judge(mutant, Path(place))
+            if run and not verdict.killed and mutant.file.endswith(".py"):
+                verdict = judge(mutant, Path(place), run=True)
+        covering = [at for at, one in enumerate(listed) if one.covers(mutant)]
+        if verdict.killed:
+            report.killed[mutant.operator] += 1
+        elif covering:
+            used.update(covering)
+            report.legal[mutant.operator] += 1
+        else:
+            report.survivors.append((mutant, verdict))
+    report.stale = [one for at, one in enumerate(listed) if at not in used]
+    return report
+
+
+def lines(report: Report) -> Iterator[str]:
+    """The report in words."""
+    yield (
+        f"{report.total} mutants: {report.killed.total()} killed, {report.legal.total()} legal, "
+        f"{len(report.survivors)} survivors"
+    )
+    left = Counter(mutant.operator for mutant, _ in report.survivors)
+    for operator in sorted({*report.killed, *report.legal, *left}):
+        counts = (report.killed[operator], report.legal[operator], left[operator])
+        yield f"  {operator:24} {counts[0]:5} killed {counts[1]:4} legal {counts[2]:4} survivors"
+    for mutant, verdict in report.survivors:
+        text = mutant.text.splitlines()[mutant.line - 1 : mutant.line]
+        where = f"{mutant.exercise} {mutant.file}:{mutant.line} {mutant.operator}"
+        yield f"SURVIVOR {where}: {''.join(text).strip()} ({verdict.said})"
+    for one in report.stale:
+        yield f"STALE {one.exercise} {one.file} {one.operator} {one.line}: covers no survivor"
+
+
+def main(arguments: list[str]) -> int:
+    """Print the report; 1 if there is a survivor or a stale entry."""
+    part = next((one for one in arguments if not one.startswith("-")), "")
+    wanted = (one for one in all_mutants() if part in f"{one.exercise} {one.file} {one.operator}")
+    report = survey(wanted, run="--run" in arguments)
+    if part:
+        report.stale = []
+    for line in lines(report):
+        print(line)
+    return 1 if report.survivors or report.stale else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))
