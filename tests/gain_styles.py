@@ -61,6 +61,8 @@ STYLES = {
 }
 
 PYTHON_BODY = """import math
+from typing import Final
+from commands2 import Subsystem
 from wpimath.controller import SimpleMotorFeedforwardRadians
 
 class CharacterizationConstants:
@@ -83,8 +85,14 @@ PYTHON_STYLES = {
     "typed": [("    kS =", "    kS: float ="), ("    kV =", "    kV: Final[float] =")],
     "by word": [("C.kS, C.kV, C.kA", "kA=C.kA, kV=C.kV, kS=C.kS")],
     "from math": [("import math\n", "from math import pi\n"), ("math.tau", "(2 * pi)")],
-    "wpimath": [("{kV} / math.tau", "{kV} * radiansToRotations(1)")],
-    "2027": [("{kV} / math.tau", "{kV} * radians_to_rotations(1)")],
+    "wpimath": [
+        ("import math\n", "import math\nfrom wpimath.units import radiansToRotations\n"),
+        ("{kV} / math.tau", "{kV} * radiansToRotations(1)"),
+    ],
+    "2027": [
+        ("import math\n", "import math\nfrom wpimath.units import radians_to_rotations\n"),
+        ("{kV} / math.tau", "{kV} * radians_to_rotations(1)"),
+    ],
     "an object of it": [
         ("class Turret", "GAINS = CharacterizationConstants()\n\nclass Turret"),
         ("C.k", "GAINS.k"),

@@ -86,7 +86,9 @@ def written(student, *, language="java"):
     if language == "python":
         rows = "".join(f"    {n} = {v:.4g}  # {units[n]}\n" for n, v in gains.items())
         handed = ", ".join(f"CharacterizationConstants.{n}" for n in gains if n != "kP")
-        return f"class CharacterizationConstants:\n{rows}\n\nff = {variant.made}({handed})\n"
+        brought = f"from wpimath.controller import {variant.made}\n"
+        held = f"class CharacterizationConstants:\n{rows}\n"
+        return f"{brought}\n{held}\nff = {variant.made}({handed})\n"
     rows = "".join(
         f"    static final double {n} = {v:.4g}; // {units[n]}\n" for n, v in gains.items()
     )

@@ -49,13 +49,13 @@ def test_what_reading_cannot_tell_is_settled_by_the_run(tmp_path):
             id="per minute",
         ),
         pytest.param(
-            [("self.right_encoder.getRate()", "self.right_encoder.getRates()")],
+            [("self.right_encoder.getRate()", "[self.right_encoder.getRate()][1]")],
             "log",
-            "AttributeError",
+            "IndexError",
             id="a crash in the log callback",
         ),
         pytest.param(
-            [("self.right_encoder = Encoder(2, 3)", "self.right_encoder = Encoder(2, 1)")],
+            [("self.right_encoder = Encoder(2, 3)", "self.right_encoder = Encoder(2, len('a'))")],
             "assembled",
             "mine.py, line 23: RuntimeError: PWM or DIO 1 previously allocated",
             id="one channel twice",
@@ -73,11 +73,11 @@ def test_what_reading_lets_pass_the_run_may_not(tmp_path, changes, check, said):
 
 @needs_robot
 def test_a_question_that_the_run_cannot_settle_stays_one(tmp_path):
-    text = changed(("self.right.setVoltage(voltage)", "team.send(self.right, voltage)"))
+    text = changed(("self.right.setVoltage(voltage)", "{}['team'].send(self.right, voltage)"))
     checks = graded(tmp_path, text)
 
     assert checks["drive"].seen.startswith("I cannot tell")
-    assert "NameError: name 'team' is not defined" in checks["drive"].hint
+    assert "KeyError: 'team'" in checks["drive"].hint
 
 
 @needs_robot

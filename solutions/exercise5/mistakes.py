@@ -209,7 +209,7 @@ MISTAKES = (
             ),
         ),
         "guard",
-        "That if is asked once",
+        "asked once",
     ),
     Mistake(
         "a guard that a match opens",
