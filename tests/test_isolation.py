@@ -10,11 +10,14 @@ import time
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 
 from grader.isolation import Call, Limits, apart, landlock, level, run, seccomp
 from grader.isolation.scratch import remove_tree
 from grader.variant import of_class
+
+ROOT = Path(__file__).resolve().parents[1]
 
 SHORT = Limits(seconds=0.6)  # where the end of it is waited for
 LONG = Limits(seconds=10.0)  # where it is not, however busy the machine
@@ -114,6 +117,7 @@ NO_NUMBERS = [
 ]
 SLY = """
 import numpy as np
+import psutil
 class Sly(float):
     def __sub__(self, other): return Sly(0)
     def __abs__(self): return Sly(0)
@@ -640,3 +644,28 @@ def test_a_run_leaves_nothing_behind(apart_run, monkeypatch, tmp_path):
     apart_run("import os\ndef fit(number):\n    os.mkdir('a', 0)\n    open('b', 'w').write('c')\n")
 
     assert [file.name for file in tmp_path.iterdir()] == ["fit.py"]
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux tells a child")
+def test_a_child_ends_with_the_process_that_keeps_its_time(tmp_path):
+    source = tmp_path / "fit.py"
+    source.write_text("import time\ndef fit():\n    time.sleep(3600)\n", encoding="utf-8")
+    program = (
+        "import sys; from pathlib import Path; from grader.isolation import Call, Limits, run; "
+        "run(Path(sys.argv[1]), calls=[Call('fit')], limits=Limits(seconds=600))"
+    )
+    parent = psutil.Popen([sys.executable, "-c", program, str(source)], cwd=ROOT)
+    last = time.monotonic() + 60
+    while not (children := parent.children()) or not _waits(children[0]):
+        assert time.monotonic() < last
+        time.sleep(0.05)
+    time.sleep(1.0)
+    parent.kill()
+    parent.wait()
+
+    _, alive = psutil.wait_procs(children, timeout=20)
+    assert alive == []
+
+
+def _waits(process):
+    return process.status() == psutil.STATUS_SLEEPING

@@ -16,7 +16,7 @@ from types import ModuleType
 from typing import Any
 
 from grader.isolation.landlock import restrict
-from grader.isolation.limits import limit
+from grader.isolation.limits import end_with_parent, limit
 from grader.isolation.seccomp import forbid
 
 HERE = Path(__file__).resolve()
@@ -100,6 +100,7 @@ class Packages:
 
 def confine(orders: Mapping[str, Any]) -> dict[str, object]:
     """Give up what the learner's code does not need, and say what that was."""
+    end_with_parent()
     readable = [Path(orders["given"])]
     for folder in map(Path, orders["packages"].values()):
         readable += [folder, folder.with_name(f"{folder.name}.libs")]
