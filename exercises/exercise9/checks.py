@@ -15,7 +15,7 @@ from grader.variant import generator, seed
 
 from .outcome import outcome
 from .scene import columns, scene
-from .unseen import NAME, judge_function
+from .unseen import NAME, RAMP, STEPS, TIMEOUT, USUAL_STEP, judge_function
 
 if TYPE_CHECKING:
     from sim.fit import Fit
@@ -28,7 +28,7 @@ FILES_MADE = ("log.wpilog", "log.csv")
 HERE = Path(__file__).resolve().parent
 
 KINDS = ("drivetrain", "shooter")
-RAMP, STEP, TIMEOUT, PERIOD = 0.5, 3.5, 10.0, 0.02  # [V/s], [V], [s], [s]
+PERIOD = 0.02  # [s]
 REMEMBERED = 32  # learners whose logs are kept while this runs: it takes time to draw one
 MOST_DRAWS = 100  # so many mechanisms in a row that cannot be fitted would be our fault
 
@@ -71,10 +71,11 @@ def _drawn(student: str, _seed: int) -> Variant:
     from sim.simulate import simulate  # noqa: PLC0415 - the same
     from sim.units import gains_per, unit  # noqa: PLC0415 - the same
 
-    routine = Routine(ramp=RAMP, step=STEP, timeout=TIMEOUT)
     for attempt in range(MOST_DRAWS):
         rng = generator(student, "exercise9", draw=attempt)
-        mechanism = MECHANISMS[KINDS[int(rng.integers(len(KINDS)))]].draw(rng)
+        kind = KINDS[int(rng.integers(len(KINDS)))]
+        mechanism = MECHANISMS[kind].draw(rng)
+        routine = Routine(ramp=RAMP, step=STEPS.get(kind, USUAL_STEP), timeout=TIMEOUT)
         log = simulate(mechanism, routine, rng=rng, period=PERIOD)
         found = fit(log, type=mechanism.type, method="sysid").in_units(mechanism.units)
         per = unit(mechanism.units)
