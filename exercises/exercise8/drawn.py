@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from sim.mechanism import Mechanism
 
 RAMP, STEP, TIMEOUT, PERIOD = 0.5, 4.0, 8.0, 0.02  # [V/s], [V], [s], [s]
+STEPS = {"drivetrain": 2.0}  # [V] other than usual: four Krakens spin the wheels above 2.2 V
 TREMBLES = {  # [severity] of the noise at rest; a shooter's kS is too small to be told from it
     "drivetrain": (0.8, 1.2),  # 5 to 7 % of the top speed
     "turret": (0.35, 0.6),  # 2 to 4 %; it stands longer before it moves, so that less does as much
@@ -84,7 +85,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     from sim.units import gains_per, unit  # noqa: PLC0415 - the same
 
     mechanism = MECHANISMS[kind].draw(rng)
-    routine = Routine(ramp=RAMP, step=STEP, timeout=TIMEOUT)
+    routine = Routine(ramp=RAMP, step=STEPS.get(kind, STEP), timeout=TIMEOUT)
     severity = float(rng.uniform(*TREMBLES[kind]))
     try:
         log, impacts = stopped(simulate(mechanism, routine, rng=rng, period=PERIOD), rng=rng)
