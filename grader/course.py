@@ -3,14 +3,17 @@
 import math
 import os
 import tomllib
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
+from importlib import import_module
+from itertools import chain, count
 from pathlib import Path
 
 from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
 from grader.issued import PLACE as ISSUED
 from grader.variant import student_name
+from sim.atomic_file import write_atomically
 from sim.errors import BadRequest, Refusal
 
 NOBODY = "me"  # who is learning, until they say otherwise
@@ -101,20 +104,27 @@ class Progress:
         new = replace(old, score=best, max_score=max_score)
         return self.with_standing(student, exercise, new)
 
+    def with_hints(self, student: str, exercise: str, hints: int) -> "Progress":
+        """The same, with so many hints shown; more from before are kept."""
+        old = self.of(student, exercise)
+        return self.with_standing(student, exercise, replace(old, hints=max(hints, old.hints)))
+
 
 def load(course: Path) -> tuple[Progress, str]:
     """Read the progress kept in a course folder.
 
     Returns:
-        The progress, and what is to be said about it: a damaged file is set aside as ``.bak``.
+        The progress, and what is to be said about it: a damaged file is set aside, the first as
+        ``progress.toml.bak``, the next as ``progress.toml.2.bak``.
     """
     path = course / PLACE
     try:
-        return _parsed(tomllib.loads(path.read_text(encoding="utf-8"))), ""
+        text = path.read_text(encoding="utf-8")
+        return _parsed(tomllib.loads(text)), ""
     except FileNotFoundError:
         return Progress(), ""
-    except (OSError, ValueError, TypeError, LookupError, AttributeError, Refusal):
-        aside = path.with_suffix(".toml.bak")
+    except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError, Refusal):
+        aside = _free_name(path)
         said = f"your progress in {path} could not be read; it starts anew"
         try:
             path.replace(aside)
@@ -123,8 +133,17 @@ def load(course: Path) -> tuple[Progress, str]:
         return Progress(), f"{said}, and the damaged file is now {aside.name}."
 
 
+def _free_name(path: Path) -> Path:
+    """Where a damaged file is set aside: nothing lies there yet."""
+    first = path.with_name(f"{path.name}.bak")
+    later = (path.with_name(f"{path.name}.{number}.bak") for number in count(2))
+    return next(one for one in chain((first,), later) if not one.exists())
+
+
 def _parsed(raw: dict[str, object]) -> Progress:
     """Progress from its file's content; whatever does not fit raises."""
+    if not raw:  # a disk that was full, or a machine that lost its power
+        raise ValueError
     standings: dict[str, dict[str, Standing]] = {}
     tables = raw.get("progress", {})
     if not isinstance(tables, dict):
@@ -143,8 +162,30 @@ def _standing(one: Mapping[str, object]) -> Standing:
     return Standing(float(score), float(most), hints)
 
 
-def save(progress: Progress, course: Path) -> str:
-    """Write the progress; what is to be said if that fails, else nothing."""
+def update_progress(course: Path, change: Callable[[Progress], Progress]) -> str:
+    """Change the progress kept in a course folder, whoever else changes it at the same time.
+
+    Args:
+        course: the course folder.
+        change: from the progress as it stands on the disk to what it is to be.
+
+    Returns:
+        What is to be said: that it could not be saved, or that it was damaged before; else nothing.
+    """
+    path = course / PLACE
+    try:
+        path.parent.mkdir(exist_ok=True)
+        with _locked(path.with_name("progress.lock")):
+            before, said = load(course)
+            after = change(before)
+            if after != before or said:
+                write_atomically(path, _text(after))
+    except OSError as error:
+        return f"your progress could not be saved to {path}: {error.strerror or error}."
+    return said
+
+
+def _text(progress: Progress) -> str:
     import tomlkit  # noqa: PLC0415 - reading needs no writer
 
     tables = {
@@ -154,15 +195,22 @@ def save(progress: Progress, course: Path) -> str:
         }
         for student, exercises in progress.standings.items()
     }
-    path = course / PLACE
-    part = path.with_suffix(f".{os.getpid()}.part")
-    try:
-        path.parent.mkdir(exist_ok=True)
-        text = tomlkit.dumps({"student": progress.student, "progress": tables})
-        part.write_text(text, encoding="utf-8", newline="")
-        part.replace(path)
-    except OSError as error:
-        with suppress(OSError):
-            part.unlink(missing_ok=True)
-        return f"your progress could not be saved to {path}: {error.strerror or error}."
-    return ""
+    return tomlkit.dumps({"student": progress.student, "progress": tables})
+
+
+@contextmanager
+def _locked(path: Path) -> Iterator[None]:
+    """Be the only process in here; the others wait.
+
+    Where a file system knows no locks, nobody waits.
+    """
+    with path.open("a+b") as stream:
+        if os.name == "nt":
+            msvcrt = import_module("msvcrt")
+            with suppress(OSError):  # after ten seconds it gives up
+                msvcrt.locking(stream.fileno(), msvcrt.LK_LOCK, 1)
+        else:
+            fcntl = import_module("fcntl")
+            with suppress(OSError):
+                fcntl.flock(stream.fileno(), fcntl.LOCK_EX)
+        yield  # closing the file ends the lock

@@ -104,12 +104,14 @@ def _seals(folder: Path, names: Iterable[str]) -> bytes:
 def _put(made: Made, path: Path) -> bool:
     """Write one file; whether it is new, or was not as it was made."""
     part = path.with_name(f"{os.getpid()}.part{path.suffix}")
-    if callable(made):
-        made(part)
-    else:
-        part.write_bytes(made.encode() if isinstance(made, str) else made)
-    if path.is_file() and path.read_bytes() == part.read_bytes():
-        part.unlink()
-        return False
-    part.replace(path)
+    try:
+        if callable(made):
+            made(part)
+        else:
+            part.write_bytes(made.encode() if isinstance(made, str) else made)
+        if path.is_file() and path.read_bytes() == part.read_bytes():
+            return False
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)  # it is there where nothing was to be replaced, or it failed
     return True

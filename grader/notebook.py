@@ -1,20 +1,28 @@
 """Answers from a notebook: written into the exercise's file, and graded as the command does it."""
 
+import html
 from collections.abc import Mapping
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 from typing import Any
 
 from grader.check import Result, Status
 from grader.consequence import Consequence
-from grader.course import find_course, load, save
+from grader.course import find_course, load, update_progress
 from grader.exercise import Exercise, Grade, find
 from grader.issued import issued, learner, only_there
 from grader.report import MARKS, SPOKEN, received, to_lines, told_of
 from grader.submission import read_answers
 from grader.terminal import Line, complain, line
+from sim.atomic_file import write_atomically
 from sim.errors import BadRequest, Refusal
+from sim.printable import printable
+
+
+def escape(text: str) -> str:
+    """A text as HTML shows it, with nothing in it that commands."""
+    return html.escape(printable(text))
+
 
 STYLE = {  # of the line that leads a check; colors that are legible on light and on dark pages
     Status.PASSED: "#1f9d61",
@@ -41,7 +49,8 @@ class Shown:
 
     def __str__(self) -> str:
         """As on a terminal."""
-        return "\n".join("".join(span.text for span in row).rstrip() for row in self.lines)
+        rows = ("".join(span.text for span in row).rstrip() for row in self.lines)
+        return printable("\n".join(rows))
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         return {"text/plain": str(self), "text/html": self.html}
@@ -85,8 +94,8 @@ def submit(
         return _refused(str(refusal))
     if grade.status == "ungradable":
         return _refused(grade.reason)
-    noted = progress.with_score(who, one.name, score=grade.score, max_score=grade.max_score)
-    if said := save(noted, folder):
+    points = {"score": grade.score, "max_score": grade.max_score}
+    if said := update_progress(folder, lambda now: now.with_score(who, one.name, **points)):
         complain(said)
     then = one.consequence(grade)
     lines = to_lines(
@@ -131,9 +140,7 @@ def write(exercise: Exercise, answers: Mapping[str, object]) -> None:
                 f"{name} = {value!r} cannot be written down ({error})",
                 advice="Give a number, or a text in quotes.",
             ) from None
-    part = path.with_name(f"{path.name}.part")
-    part.write_text(tomlkit.dumps(document), encoding="utf-8", newline="\n")
-    part.replace(path)
+    write_atomically(path, tomlkit.dumps(document))
 
 
 def _plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from sim import command
+from sim.printable import printable
 
 WIDEST = 80  # [columns] longer lines are harder to read
 NARROWEST = 40  # [columns] below this, words would stand alone
@@ -57,14 +58,15 @@ def show(lines: Iterable[Line]) -> None:
     """Print lines to standard output."""
     if not sys.stdout.isatty() or "NO_COLOR" in os.environ:
         for spans in lines:
-            print("".join(span.text for span in spans).rstrip())  # noqa: T201 - a command prints
+            text = printable("".join(span.text for span in spans))
+            print(text.rstrip())  # noqa: T201 - a command prints
         return
     from rich.console import Console  # noqa: PLC0415 - a pipe needs no colors, and starts sooner
     from rich.text import Text  # noqa: PLC0415 - the same
 
     console = Console(highlight=False, soft_wrap=True)
     for spans in lines:
-        console.print(Text.assemble(*((span.text, span.style) for span in spans)))
+        console.print(Text.assemble(*((printable(span.text), span.style) for span in spans)))
 
 
 def complain(said: str) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import click
 
 from sim.errors import Refusal
+from sim.printable import printable
 
 DONE, NOT_RIGHT, COULD_NOT = 0, 1, 2
 INTERRUPTED = 130  # what a shell reports for Ctrl+C
@@ -57,7 +58,7 @@ def complain(said: str, *, name: str) -> None:
         said: the line; line breaks in it become spaces.
         name: the command that says it.
     """
-    click.echo(f"{name}: {' '.join(said.split())}", err=True)
+    click.echo(f"{name}: {' '.join(printable(said).split())}", err=True)
 
 
 def _sentence(error: Exception, *, name: str) -> str:

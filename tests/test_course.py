@@ -1,5 +1,8 @@
 """The course on this machine: progress that is kept, and students who are told apart."""
 
+import os
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -9,8 +12,9 @@ from hypothesis import strategies as st
 from small_course import HALF, RIGHT, answer, lay_out
 
 from grader.cli import run
-from grader.course import PLACE, Progress, Standing, find_course, load, save
+from grader.course import PLACE, Progress, Standing, find_course, load, update_progress
 from grader.variant import folder_name, generator, seed, student_name
+from sim.atomic_file import make_private_folder, write_atomically
 from sim.errors import BadRequest
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -34,7 +38,8 @@ def test_the_best_score_is_kept(course, capsys):
     assert "2.5 of 3" in capsys.readouterr().out
     kept = tomllib.loads((course / PLACE).read_text("utf-8"))
     assert kept["progress"]["me"]["exercise1"]["score"] == 2.5
-    assert [file.name for file in (course / ".course").iterdir()] == ["progress.toml"]
+    names = {file.name for file in (course / ".course").iterdir()}
+    assert names == {"progress.lock", "progress.toml"}
 
 
 @pytest.mark.parametrize(
@@ -87,8 +92,78 @@ def test_progress_is_read_back_as_it_was_written(tmp_path_factory, standings):
     folder = tmp_path_factory.mktemp("course")
     progress = Progress("ann", standings)
 
-    assert save(progress, folder) == ""
+    assert update_progress(folder, lambda _: progress) == ""
     assert load(folder) == (progress, "")
+
+
+NOTES = """
+import sys
+from pathlib import Path
+from grader.course import update_progress
+number = int(sys.argv[1])
+name = f"exercise{number}"
+for _ in range(5):
+    update_progress(Path(), lambda now: now.with_score("ann", name, score=1, max_score=1))
+"""
+
+
+def test_eight_that_grade_at_once_all_keep_their_scores(course):
+    running = [
+        subprocess.Popen(
+            [sys.executable, "-c", NOTES, str(number)],
+            cwd=course,
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+        )
+        for number in range(8)
+    ]
+    assert [one.wait(120) for one in running] == [0] * 8
+    standings = load(course)[0].standings["ann"]
+
+    assert {name for name, one in standings.items() if one.done} == {
+        f"exercise{number}" for number in range(8)
+    }
+    assert list((course / ".course").glob("*.part")) == []
+
+
+@pytest.mark.parametrize("content", ["", "\n", "student = ["], ids=["empty", "blank", "damaged"])
+def test_damaged_progress_is_said_and_each_is_set_aside(course, content, capsys):
+    answer(course, RIGHT)
+    path = course / PLACE
+    path.parent.mkdir()
+    for name in ("progress.toml.bak", "progress.toml.2.bak"):
+        path.write_text(content, encoding="utf-8")
+
+        assert run(["exercise1"]) == 0
+        assert f"could not be read; it starts anew, and the damaged file is now {name}" in (
+            capsys.readouterr().err
+        )
+        assert (path.parent / name).read_text(encoding="utf-8") == content
+        assert load(course)[0].of("me", "exercise1").done
+
+
+def test_a_disk_that_is_full_leaves_the_old_file_and_no_part(tmp_path, monkeypatch):
+    path = tmp_path / "gradebook.csv"
+    write_atomically(path, "old")
+    monkeypatch.setattr("sim.atomic_file.os.fsync", no_room)
+
+    with pytest.raises(OSError, match="No space left"):
+        write_atomically(path, "new")
+    assert [one.read_text(encoding="utf-8") for one in tmp_path.iterdir()] == ["old"]
+
+
+def no_room(_):
+    raise OSError(28, "No space left on device")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows knows no such rights")
+def test_a_private_file_and_folder_are_its_owners_from_the_beginning(tmp_path):
+    make_private_folder(tmp_path / "class" / "results")
+    write_atomically(tmp_path / "class" / "results" / "ann.json", "{}", private=True)
+    write_atomically(tmp_path / "class" / "page.html", "")
+
+    assert (tmp_path / "class").stat().st_mode & 0o777 == 0o700
+    assert (tmp_path / "class" / "results" / "ann.json").stat().st_mode & 0o777 == 0o600
+    assert (tmp_path / "class" / "page.html").stat().st_mode & 0o600 == 0o600
 
 
 def test_outside_a_course_it_uses_the_one_it_belongs_to(tmp_path):

@@ -1,5 +1,7 @@
 """Cells of a table that a spreadsheet must not take for a formula."""
 
+from sim.printable import printable
+
 FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
@@ -8,4 +10,5 @@ def safe(text: str) -> str:
 
     Source: OWASP, "CSV Injection".
     """
+    text = printable(text)
     return f"'{text}" if text.startswith(FORMULA) else text

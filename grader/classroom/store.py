@@ -3,13 +3,13 @@
 import hashlib
 import hmac
 import json
-import os
 from dataclasses import asdict
 from pathlib import Path
 
 from grader.classroom.grading import Graded
 from grader.classroom.handed_in import HandedIn
 from grader.variant import folder_name
+from sim.atomic_file import make_private_folder, write_atomically
 from sim.errors import BadRequest
 
 RESULTS = "results"
@@ -51,7 +51,7 @@ class Store:
             BadRequest: it cannot be made.
         """
         try:
-            (self.folder / RESULTS).mkdir(parents=True, exist_ok=True)
+            make_private_folder(self.folder / RESULTS)
         except OSError as error:
             raise BadRequest(
                 f"the results cannot be written: {error.strerror}",
@@ -75,11 +75,9 @@ class Store:
             BadRequest: they cannot be written.
         """
         path = self._path(graded.student)
-        part = path.with_suffix(f".{os.getpid()}.part")
         try:
             text = json.dumps(asdict(graded), ensure_ascii=False, indent=1, allow_nan=False)
-            part.write_text(text + "\n", encoding="utf-8", newline="\n")
-            part.replace(path)
+            write_atomically(path, text + "\n", private=True)
         except OSError as error:
             raise BadRequest(
                 f"the results cannot be written: {error.strerror}",

@@ -4,15 +4,16 @@ from collections.abc import Mapping
 from typing import Any
 
 from grader.misconception import MISCONCEPTIONS
+from sim.printable import printable
 
 
 def feedback(check: Mapping[str, Any]) -> str:
     """What was given, the likely cause and the next step, and why; empty where all is said."""
     if check["status"] == "passed":
-        return str(check["hint"])
+        return printable(str(check["hint"]))
     if check["status"] != "failed":
-        return str(check["seen"])
+        return printable(str(check["seen"]))
     known = MISCONCEPTIONS.get(str(check["misconception"]))
     why = (known.says, f"see {known.where}") if known else ()
     lines = (f"got {check['seen']}", str(check["hint"]), *why)
-    return "\n".join(line for line in lines if line)
+    return printable("\n".join(line for line in lines if line))

@@ -2,23 +2,24 @@
 
 from pathlib import Path
 
+from sim.atomic_file import make_private_folder
 from sim.errors import BadRequest
 from sim.report.written import write_whole
 
 
 def written(path: Path, text: str) -> Path:
-    """Write a file, and the folder it stands in, and give back its path.
+    """Write a file for its owner alone, and the folder it stands in; its path.
 
     Raises:
         BadRequest: it cannot be written.
     """
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_private_folder(path.parent)
     except OSError as error:
         raise BadRequest(
             f"cannot be made: {error.strerror}",
             where=str(path.parent),
             advice="Name another folder with -o.",
         ) from None
-    write_whole(text, path)
+    write_whole(text, path, private=True)
     return path

@@ -127,7 +127,7 @@ def exercise(
 @click.option("--student", metavar="NAME", help="Who you are, from now on.")
 def start(student: str | None, *, no_lab: bool) -> int:
     """Show where you stand, make your data, open the first lesson."""
-    from grader.course import save  # noqa: PLC0415 - --help has to start at once
+    from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.issued import issued  # noqa: PLC0415 - the same
     from grader.start import start as begin  # noqa: PLC0415 - the same
 
@@ -135,7 +135,7 @@ def start(student: str | None, *, no_lab: bool) -> int:
     of_class = issued(folder)
     if who != progress.student and (of_class is None or of_class.is_for(who)):
         progress = replace(progress, student=who)
-        _tell(save(progress, folder))
+        _tell(update_progress(folder, lambda now: replace(now, student=who)))
     return begin(folder, progress, student=who, lab=not no_lab)
 
 
@@ -167,7 +167,7 @@ def grade_file(
     picture: Path | None = None,
 ) -> int:
     """Grade an answer, note the score, and show the result; the exit code."""
-    from grader.course import save  # noqa: PLC0415 - --help has to start at once
+    from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.issued import issued, only_there  # noqa: PLC0415 - the same
     from grader.kept import keeping  # noqa: PLC0415 - the same
     from grader.report import received, to_json, to_lines  # noqa: PLC0415 - the same
@@ -180,9 +180,9 @@ def grade_file(
         one.prepare(who, say=complain)
         result = one.grade(file, student=who)
     gradable = result.status != "ungradable"
-    noted = progress.with_score(who, one.name, score=result.score, max_score=result.max_score)
-    if gradable and noted != progress:  # kept before anything is shown: a reader may stop reading
-        _tell(save(noted, folder))
+    if gradable:  # kept before anything is shown: a reader may stop reading
+        points = {"score": result.score, "max_score": result.max_score}
+        _tell(update_progress(folder, lambda now: now.with_score(who, one.name, **points)))
     then = None if as_json and picture is None else one.consequence(result)
     if as_json:
         click.echo(to_json(result))
@@ -209,14 +209,14 @@ def _draw(then: "Consequence | None", picture: Path) -> None:
 
 
 def _hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:
-    from grader.course import save  # noqa: PLC0415 - --help has to start at once
+    from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.report import hint_lines  # noqa: PLC0415 - the same
 
     standing = progress.of(who, one.name)
     show(hint_lines(one, shown=standing.hints))
     if standing.hints < len(one.hints):
-        seen = replace(standing, hints=standing.hints + 1)
-        _tell(save(progress.with_standing(who, one.name, seen), folder))
+        shown = standing.hints + 1
+        _tell(update_progress(folder, lambda now: now.with_hints(who, one.name, shown)))
     return 0
 
 

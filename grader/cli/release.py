@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from grader.terminal import complain, line, show
+from sim.atomic_file import make_private_folder, write_atomically
 from sim.command import DONE, NOT_RIGHT
 from sim.errors import BadRequest
 
@@ -145,11 +146,9 @@ def put(path: Path, content: bytes) -> None:
     Raises:
         BadRequest: it cannot be written.
     """
-    part = path.with_name(f"{path.name}.part")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        part.write_bytes(content)
-        part.replace(path)
+        make_private_folder(path.parent)
+        write_atomically(path, content, private=True)
     except OSError as error:
         raise BadRequest(
             f"cannot be written: {error.strerror}",

@@ -6,9 +6,10 @@ import io
 import secrets
 import zipfile
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
-from grader.course import Progress, load, save
+from grader.course import update_progress
 from grader.variant import folder_name, same
 from sim.errors import BadRequest
 from sim.report.written import write_whole
@@ -77,8 +78,7 @@ def home(folder: Path, student: str, *, packages: Iterable[bytes]) -> Path:
             where=str(place),
             advice="Make room there, or name another folder.",
         ) from None
-    progress, _ = load(course)
-    if said := save(Progress(student, progress.standings), course):
+    if said := update_progress(course, lambda now: replace(now, student=student)):
         raise BadRequest(said, where=str(course), advice="Allow writing there.")
     return course
 

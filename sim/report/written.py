@@ -1,14 +1,14 @@
 """Pages: how they are filled in, and how they are written, whole or not at all."""
 
 import os
-from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from uuid import uuid4
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from sim.atomic_file import write_atomically
 from sim.errors import BadRequest
+from sim.printable import printable
 
 PAGES = (".html", ".htm")
 FOLDER = Path(__file__).parent
@@ -25,6 +25,9 @@ def templates(folder: Path | None = None) -> Environment:
         loader=FileSystemLoader([folder or FOLDER, FOLDER], encoding="utf-8"),
         autoescape=True,
         undefined=StrictUndefined,
+        finalize=lambda value: (
+            printable(value) if type(value) is str else value
+        ),  # not our own HTML
         trim_blocks=True,
         lstrip_blocks=True,
     )
@@ -46,22 +49,22 @@ def page_at(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def write_whole(text: str, target: Path) -> None:
+def write_whole(text: str, target: Path, *, private: bool = False) -> None:
     """Write a file, whole or not at all.
+
+    Args:
+        text: its content.
+        target: the file.
+        private: whether only its owner may read it.
 
     Raises:
         BadRequest: it cannot be written.
     """
-    part = target.with_name(f".{uuid4().hex}.part")
     try:
-        part.write_text(text, encoding="utf-8", newline="\n")
-        part.replace(target)
+        write_atomically(target, text, private=private)
     except OSError as error:
         raise BadRequest(
             f"cannot be written ({error.strerror or error})",
             where=str(target),
             advice="Choose a folder that exists and that you may write to.",
         ) from None
-    finally:
-        with suppress(OSError):  # nothing is left to remove when all went well
-            part.unlink()

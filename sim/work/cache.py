@@ -4,9 +4,10 @@ import os
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
-from uuid import uuid4
 
 import platformdirs
+
+from sim.atomic_file import write_atomically
 
 CACHE = "SYSID_CACHE"  # environment variable: another folder
 
@@ -32,9 +33,7 @@ def keep(path: Path, content: bytes) -> None:
         OSError: there is no place for it.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.{uuid4().hex}.part")
-    part.write_bytes(content)
-    part.replace(path)
+    write_atomically(path, content)
 
 
 def older(paths: Iterable[Path], *, than: int) -> list[Path]:

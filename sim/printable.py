@@ -1,0 +1,29 @@
+"""Text of strangers, made safe to be shown."""
+
+import unicodedata
+
+KEPT = "\n\t"
+DIRECTIONS = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+INSTEAD = "\ufffd"  # the sign for a sign that cannot be shown
+
+
+def printable(text: str) -> str:
+    """The same text, with a visible sign for each that commands a terminal or turns text around.
+
+    Control characters (C0 and C1, but for line break and tab) can recolor, move and rename a
+    terminal; the signs that set a direction of writing can make a line read as another one; half of
+    a pair (a surrogate) cannot be written at all. Source: Unicode Standard Annex 9 and Technical
+    Report 36.
+
+    Args:
+        text: what a learner, a file or its name holds.
+    """
+    if text.isprintable():
+        return text
+    return "".join(INSTEAD if _commands(sign) else sign for sign in text)
+
+
+def _commands(sign: str) -> bool:
+    if sign in KEPT:
+        return False
+    return sign in DIRECTIONS or unicodedata.category(sign) in {"Cc", "Cs"}
