@@ -55,7 +55,8 @@ def test_an_answer_reaches_neither_terminal_nor_notebook_as_a_command(course, ca
         assert not COMMANDS.search(whole)
 
 
-def test_a_page_of_a_class_and_its_exports_hold_no_command(course, tmp_path):
+@pytest.mark.usefixtures("course")
+def test_a_page_of_a_class_and_its_exports_hold_no_command(tmp_path):
     place = tmp_path / "in" / "ann" / "exercise1"
     place.mkdir(parents=True)
     quoted = "".join(f"\\U{ord(sign):08x}" for sign in NASTY)

@@ -25,12 +25,15 @@ def templates(folder: Path | None = None) -> Environment:
         loader=FileSystemLoader([folder or FOLDER, FOLDER], encoding="utf-8"),
         autoescape=True,
         undefined=StrictUndefined,
-        finalize=lambda value: (
-            printable(value) if type(value) is str else value
-        ),  # not our own HTML
+        finalize=_shown,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+
+
+def _shown(value: object) -> object:
+    """What a template shows; our own HTML, which is marked as such, stays as it is."""
+    return printable(value) if type(value) is str else value
 
 
 def page_at(path: str | os.PathLike[str]) -> Path:
