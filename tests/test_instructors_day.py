@@ -276,6 +276,16 @@ def test_datasets_and_pages_are_made_as_the_guide_says(course):
     assert (course.parent / "pages" / "handout.html").is_file()
 
 
+def test_the_exports_of_the_guide_are_written(course, packages):
+    assert packages.is_dir()
+    for words in commands("A class"):
+        if words[1] == "export":
+            say(words, cwd=course)
+
+    assert zipfile.is_zipfile(course.parent / "autograder.zip")
+    assert "grade class" in (course.parent / "grade.yml").read_text(encoding="utf-8")
+
+
 def test_the_autograder_line_gives_gradescopes_result(course, handed_in, tmp_path):
     guide = (ROOT / "INSTRUCTORS.md").read_text(encoding="utf-8")
     line = re.search(r"`(grade class SUBMISSION [^`]+)`", guide)
