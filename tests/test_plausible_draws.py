@@ -62,6 +62,53 @@ def test_exercise_2_has_a_ks_that_goes_with_what_the_mechanic_noticed():
             )  # [m/s] as the log, or its wrong wheel, has it
 
 
+GRIP = 1.2 * GRAVITY  # [m/s²] of good wheels on carpet
+MOVED = ("exercise8", "exercise9")  # a mechanism of the learner's own, and its log
+
+
+def check_log(log, mechanism, student):
+    """A log is one that such a mechanism can leave, with wheels that grip and a real battery."""
+    gains = mechanism.gains
+    assert KS["least"] <= gains["kS"] <= KS["most"], student
+    for run in log.runs:
+        most = float(abs(run.voltage).max())
+        assert most < BATTERY, student
+        assert float(abs(run.velocity).max()) < BATTERY / gains["kV"], student
+        if mechanism.name == "drivetrain" and run.test.startswith("dynamic"):
+            assert (most - gains["kS"]) / gains["kA"] < GRIP, student
+
+
+@pytest.mark.parametrize("name", MOVED)
+def test_a_learners_own_log_is_one_that_a_robot_can_leave(name):
+    for student, variant in drawn(name):
+        check_log(variant.log, variant.mechanism, student)
+
+
+def test_exercise_3_has_mechanisms_that_weigh_more_than_they_rub():
+    for student, variant in drawn("exercise3"):
+        for kind in ("elevator", "arm"):
+            kg, ks = (variant.asked[f"{kind}_{gain}"].expected for gain in ("kG", "kS"))
+            assert KS["least"] <= ks <= KS["most"], student
+            assert ks < kg < BATTERY / 3, student
+
+
+def test_exercise_6_has_machines_within_their_motors_and_their_grip():
+    for student, variant in drawn("exercise6"):
+        for machine in variant.machines.values():
+            assert KS["least"] <= machine.ks <= KS["most"], student
+            assert machine.limit <= machine.stall, student
+            assert machine.kg < BATTERY / 3, student
+            assert machine.travel is None or machine.travel > 0.0, student
+
+
+def test_exercise_10_shows_gains_of_real_mechanisms():
+    for student, variant in drawn("exercise10"):
+        assert KS["least"] <= variant.shown["kS"] <= KS["most"], student
+        assert variant.shown.get("kG", 0.0) < BATTERY / 3, student
+        assert variant.shown["kV"] > 0.0, student
+        assert variant.shown["kA"] > 0.0, student
+
+
 @pytest.mark.parametrize("name", ANSWERED)
 def test_the_authored_way_earns_full_marks_for_every_student(name, tmp_path):
     own = ROOT / "exercises" / name

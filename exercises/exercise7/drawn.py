@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 LOGS = 12
 SOUND = (2, 3)  # this many of them are sound: two or three, so that nobody can count them off
 RAMP, STEP, TIMEOUT, PERIOD = 1.0, 4.0, 5.0, 0.02  # [V/s], [V], [s], [s]: short logs
-GENTLE = 2.0  # [V] a drivetrain's step: four Krakens spin the wheels above 2.2 V
+GENTLE = 1.8  # [V] a drivetrain's step: four Krakens spin the wheels above 2.2 V
 TICKS = 1e6  # [1/s] a .wpilog counts microseconds
 SEVERITY = (0.6, 2.0)  # [1] 1 is an ordinary bad day; equally likely per factor
 KINDS = ("drivetrain", "shooter", "intake", "turret")  # gravity would look like a fault to many

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from sim.mechanism import Mechanism
 
 RAMP, STEP, TIMEOUT, PERIOD = 0.5, 4.0, 8.0, 0.02  # [V/s], [V], [s], [s]
-STEPS = {"drivetrain": 2.0}  # [V] other than usual: four Krakens spin the wheels above 2.2 V
+STEPS = {"drivetrain": 1.8}  # [V] other than usual: four Krakens spin the wheels above 2.2 V
 TREMBLES = {  # [severity] of the noise at rest; a shooter's kS is too small to be told from it
     "drivetrain": (0.8, 1.2),  # 5 to 7 % of the top speed
     "turret": (0.35, 0.6),  # 2 to 4 %; it stands longer before it moves, so that less does as much
