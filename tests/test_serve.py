@@ -1,5 +1,6 @@
 """One laptop, many browsers: each student has a home, a code, and a Jupyter server of their own."""
 
+import asyncio
 import contextlib
 import os
 import re
@@ -7,6 +8,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import urlopen
@@ -46,13 +49,26 @@ class NoRooms:
         return Room()
 
 
+class SlowRooms(NoRooms):
+    """Rooms where some take until they are let go."""
+
+    free = threading.Event()
+
+    def open(self, student, course):
+        """Wait for those called slow."""
+        if student.startswith("slow"):
+            self.free.wait(20)
+        return super().open(student, course)
+
+
 class TestDoor(AsyncHTTPTestCase):
     """The page in front of the servers."""
 
     def get_app(self):
         """The door to a house of three."""
-        known = {"Ann": "ABC234", "bob": "XYZ567", "<Eve>": "EVE222"}
-        return application(House(known, lambda _: None, NoRooms(), "lessons/00.ipynb", wait=0.01))
+        known = {"Ann": "ABC234", "bob": "XYZ567", "<Eve>": "EVE222",
+                 "slow1": "AAA222", "slow2": "BBB222", "slow3": "CCC222"}  # fmt: skip
+        return application(House(known, lambda _: None, SlowRooms(), "lessons/00.ipynb", wait=0.01))
 
     def ask(self, student, code):
         """Say who one is."""
@@ -90,6 +106,52 @@ class TestDoor(AsyncHTTPTestCase):
     def test_a_server_that_does_not_start_is_said(self):
         """To somebody who can tell the instructor."""
         assert b"Tell your instructor" in self.ask("bob", "XYZ567").body
+
+    def test_a_form_that_is_too_long_is_refused(self):
+        """With its length said or not."""
+        assert self.ask("Ann", "A" * 5000).code == 413
+
+        async def parts(write):
+            for _ in range(3):
+                await write(b"A" * 2000)
+
+        answer = self.fetch("/", method="POST", body_producer=parts, raise_error=False)
+        assert answer.code == 413
+
+    def test_wrong_codes_of_one_student_wait_for_each_other(self):
+        """However many are tried at the same time: 0 + 10 + 20 + 40 + 80 ms."""
+
+        async def at_once():
+            return await asyncio.gather(*[
+                self.http_client.fetch(
+                    self.get_url("/"), method="POST", body="student=Ann&code=x", raise_error=False
+                )
+                for _ in range(5)
+            ])  # fmt: skip
+
+        begun = time.monotonic()
+        answers = self.io_loop.run_sync(at_once)
+        assert {one.code for one in answers} == {403}
+        assert time.monotonic() - begun >= 0.15
+
+    def test_who_waits_is_told_their_place_and_led_in(self):
+        """Two start at once; the third is told so, and the page looks again by itself."""
+        SlowRooms.free.clear()
+        for name, code in (("slow1", "AAA222"), ("slow2", "BBB222"), ("slow3", "CCC222")):
+            came = self.ask(name, code)
+            assert came.code == 303
+        where = came.headers["Location"]
+        page = self.fetch(where, follow_redirects=False)
+        assert b"Your place in the queue: 3" in page.body
+        assert b'http-equiv="refresh"' in page.body
+        SlowRooms.free.set()
+        for _ in range(100):
+            page = self.fetch(where, follow_redirects=False)
+            if page.code == 303:
+                break
+            time.sleep(0.02)
+        assert urlsplit(page.headers["Location"]).port == 9999
+        assert self.fetch("/wait?ticket=other", follow_redirects=False).headers["Location"] == "/"
 
     def test_a_name_is_shown_as_text(self):
         """Whatever it holds."""

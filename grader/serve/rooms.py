@@ -55,6 +55,7 @@ class Rooms:
         self.host = host
         self.separate = separate
         self._rooms: dict[str, Room] = {}
+        self._closed = False
 
     def open(self, student: str, course: Path) -> Room:
         """The student's server; started if it does not run.
@@ -67,6 +68,8 @@ class Rooms:
         course = course.absolute()  # a link that the student made is not followed
         account = assign_account(course.parent) if self.separate else None
         self._rooms[student] = room = _start(student, course, host=self.host, account=account)
+        if self._closed:  # ended while this one started
+            room.process.terminate()
         return room
 
     def find(self, student: str) -> Room | None:
@@ -75,10 +78,11 @@ class Rooms:
         return there if there and there.alive() else None
 
     def close(self) -> None:
-        """End them all."""
-        for room in self._rooms.values():
+        """End them all, and those that still start as soon as they have."""
+        self._closed = True
+        for room in tuple(self._rooms.values()):
             room.process.terminate()
-        for room in self._rooms.values():
+        for room in tuple(self._rooms.values()):
             with contextlib.suppress(subprocess.TimeoutExpired):
                 room.process.wait(timeout=10)
                 continue
