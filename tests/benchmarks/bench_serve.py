@@ -1,4 +1,4 @@
-"""Students who all come to ``grade serve`` at once: seconds to a place in the queue and a JupyterLab.
+"""Students who come to ``grade serve`` at once: seconds to a place in the queue and to JupyterLab.
 
     python tests/benchmarks/bench_serve.py [STUDENTS] [PATIENCE in s]
 
