@@ -24,7 +24,9 @@ import pytest
 from authored import authored_answer, mistakes_of
 
 from grader.exercise import exercises
+from grader.serve.homes import can_separate, prepare_separation
 from grader.variant import folder_name, of_class
+from sim.errors import BadRequest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -249,7 +251,15 @@ def test_without_the_secret_nothing_is_graded_on_other_numbers(course, at_home, 
 def test_the_class_is_served_as_the_guide_says(course, packages):
     assert packages.is_dir()
     (serve,) = (words for words in commands("A class") if words[1] == "serve")
-    running = start([*serve, "--port", "0", "--host", "127.0.0.1"], cwd=course)
+    apart = []
+    try:
+        if not can_separate():
+            apart = ["--unprotected"]
+        else:
+            prepare_separation(course.parent / "homes")
+    except BadRequest:  # Python or the folder is root's alone
+        apart = ["--unprotected"]
+    running = start([*serve, *apart, "--port", "0", "--host", "127.0.0.1"], cwd=course)
     try:
         assert running.stdout is not None
         line = next(row for row in running.stdout if "http://" in row)

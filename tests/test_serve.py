@@ -1,12 +1,18 @@
 """One laptop, many browsers: each student has a home, a code, and a Jupyter server of their own."""
 
+import asyncio
 import contextlib
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
 from urllib.parse import urlsplit
+from urllib.request import urlopen
 
 import psutil
 import pytest
@@ -16,7 +22,8 @@ from grader.cli import run
 from grader.course import load
 from grader.release import common
 from grader.serve.door import House, application
-from grader.serve.homes import codes, find, home, right
+from grader.serve.homes import can_separate, codes, find, home, prepare_separation, right
+from grader.serve.rooms import Rooms, room_environment
 from sim.errors import BadRequest
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -42,13 +49,26 @@ class NoRooms:
         return Room()
 
 
+class SlowRooms(NoRooms):
+    """Rooms where some take until they are let go."""
+
+    free = threading.Event()
+
+    def open(self, student, course):
+        """Wait for those called slow."""
+        if student.startswith("slow"):
+            self.free.wait(20)
+        return super().open(student, course)
+
+
 class TestDoor(AsyncHTTPTestCase):
     """The page in front of the servers."""
 
     def get_app(self):
         """The door to a house of three."""
-        known = {"Ann": "ABC234", "bob": "XYZ567", "<Eve>": "EVE222"}
-        return application(House(known, lambda _: None, NoRooms(), "lessons/00.ipynb", wait=0.01))
+        known = {"Ann": "ABC234", "bob": "XYZ567", "<Eve>": "EVE222",
+                 "slow1": "AAA222", "slow2": "BBB222", "slow3": "CCC222"}  # fmt: skip
+        return application(House(known, lambda _: None, SlowRooms(), "lessons/00.ipynb", wait=0.01))
 
     def ask(self, student, code):
         """Say who one is."""
@@ -86,6 +106,52 @@ class TestDoor(AsyncHTTPTestCase):
     def test_a_server_that_does_not_start_is_said(self):
         """To somebody who can tell the instructor."""
         assert b"Tell your instructor" in self.ask("bob", "XYZ567").body
+
+    def test_a_form_that_is_too_long_is_refused(self):
+        """With its length said or not."""
+        assert self.ask("Ann", "A" * 5000).code == 413
+
+        async def parts(write):
+            for _ in range(3):
+                await write(b"A" * 2000)
+
+        answer = self.fetch("/", method="POST", body_producer=parts, raise_error=False)
+        assert answer.code == 413
+
+    def test_wrong_codes_of_one_student_wait_for_each_other(self):
+        """However many are tried at the same time: 0 + 10 + 20 + 40 + 80 ms."""
+
+        async def at_once():
+            return await asyncio.gather(*[
+                self.http_client.fetch(
+                    self.get_url("/"), method="POST", body="student=Ann&code=x", raise_error=False
+                )
+                for _ in range(5)
+            ])  # fmt: skip
+
+        begun = time.monotonic()
+        answers = self.io_loop.run_sync(at_once)
+        assert {one.code for one in answers} == {403}
+        assert time.monotonic() - begun >= 0.15
+
+    def test_who_waits_is_told_their_place_and_led_in(self):
+        """Two start at once; the third is told so, and the page looks again by itself."""
+        SlowRooms.free.clear()
+        for name, code in (("slow1", "AAA222"), ("slow2", "BBB222"), ("slow3", "CCC222")):
+            came = self.ask(name, code)
+            assert came.code == 303
+        where = came.headers["Location"]
+        page = self.fetch(where, follow_redirects=False)
+        assert b"Your place in the queue: 3" in page.body
+        assert b'http-equiv="refresh"' in page.body
+        SlowRooms.free.set()
+        for _ in range(100):
+            page = self.fetch(where, follow_redirects=False)
+            if page.code == 303:
+                break
+            time.sleep(0.02)
+        assert urlsplit(page.headers["Location"]).port == 9999
+        assert self.fetch("/wait?ticket=other", follow_redirects=False).headers["Location"] == "/"
 
     def test_a_name_is_shown_as_text(self):
         """Whatever it holds."""
@@ -134,9 +200,122 @@ def test_a_port_that_is_taken_is_one_line(root, tmp_path, monkeypatch, capsys):
         taken.listen()
         port = str(taken.getsockname()[1])
         command = ["serve", str(tmp_path / "homes"), "--roster", str(tmp_path / "r.csv"),
-                   "--host", "127.0.0.1", "--port", port]  # fmt: skip
+                   "--host", "127.0.0.1", "--port", port, "--unprotected"]  # fmt: skip
         assert run(command) == 2
     assert f"port {port} cannot be had" in capsys.readouterr().err
+
+
+def test_personal_packages_are_not_served_unprotected_unasked(root, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(root)
+    monkeypatch.setattr("grader.serve.homes.can_separate", lambda: False)
+    (tmp_path / "r.csv").write_text("student\nann\n", encoding="utf-8")
+    command = ["serve", str(tmp_path / "homes"), "--roster", str(tmp_path / "r.csv"),
+               "--packages", str(tmp_path)]  # fmt: skip
+    assert run(command) == 2
+    assert "--unprotected" in capsys.readouterr().err
+    assert not (tmp_path / "homes").exists()
+
+
+def test_jupyter_starts_in_a_home_named_by_a_relative_path(root, tmp_path, monkeypatch):
+    (tmp_path / "Robotik für alle").mkdir()
+    monkeypatch.chdir(tmp_path / "Robotik für alle")
+    course = home(Path("homes"), "Zoë B", packages=[common(root)])
+    rooms = Rooms("127.0.0.1")
+    try:
+        room = rooms.open("Zoë B", course)
+        url = f"http://127.0.0.1:{room.port}/api/contents/exercises?token={room.token}"
+        with urlopen(url, timeout=20) as answer:
+            assert b"exercise1" in answer.read()
+        assert not [word for word in psutil.Process(room.process.pid).cmdline()
+                    if room.token in word]  # fmt: skip
+    finally:
+        rooms.close()
+
+
+@pytest.fixture
+def separate_homes():
+    """A folder that other users may pass through, on a machine where students can be separated."""
+    if not can_separate():
+        pytest.skip("only root can give each student a system user")
+    folder = Path(tempfile.mkdtemp())
+    folder.chmod(0o711)
+    try:
+        prepare_separation(folder / "homes")
+    except BadRequest as refusal:
+        pytest.skip(str(refusal))
+    else:
+        yield folder / "homes"
+    finally:
+        shutil.rmtree(folder)
+
+
+TRY = """
+import pathlib, sys
+for path in sys.argv[1:]:
+    for what in ("read", "write"):
+        try:
+            if pathlib.Path(path).is_dir():
+                list(pathlib.Path(path).iterdir()) if what == "read" else \
+                    pathlib.Path(path, "x").touch()
+            else:
+                pathlib.Path(path).open({"read": "rb", "write": "r+b"}[what]).read(1)
+        except OSError:
+            continue
+        print("CAN", what, path, flush=True)
+for every in pathlib.Path("/proc").glob("[0-9]*"):
+    for name in ("cmdline", "environ"):
+        try:
+            sys.stdout.buffer.write((every / name).read_bytes())
+        except OSError:
+            pass
+"""
+
+
+def test_two_students_cannot_reach_each_others_files(root, separate_homes, monkeypatch):
+    known = codes(separate_homes, ["ann", "ben"])
+    packages = [common(root)]
+    course = {who: home(separate_homes, who, packages=packages) for who in known}
+    monkeypatch.setenv("SYSID_SECRET", "class-secret-value")
+    rooms = Rooms("127.0.0.1", separate=True)
+    try:
+        room = {who: rooms.open(who, course[who]) for who in known}
+        url = f"http://127.0.0.1:{room['ann'].port}/api/contents/exercises?token="
+        with urlopen(url + room["ann"].token, timeout=20) as answer:  # noqa: S310 - our own
+            assert b"exercise1" in answer.read()
+        place = {who: path.parent for who, path in course.items()}
+        account = {who: one.stat().st_uid for who, one in place.items()}
+        assert account["ann"] != account["ben"]
+        assert psutil.Process(room["ben"].process.pid).uids().real == account["ben"]
+        theirs = [
+            "course/exercises/exercise1/answers.toml", "course/exercises", "jupyter/cache",
+            "jupyter/runtime", "server.log", ".",
+        ]  # fmt: skip
+
+        def attempt(who, victim):
+            paths = [str(place[victim] / one) for one in theirs]
+            return subprocess.run(
+                [sys.executable, "-c", TRY, *paths, str(separate_homes / "codes.csv")],
+                user=account[who], group=account[who], extra_groups=[], cwd=place[who],
+                env=room_environment(course[who], own=True),
+                capture_output=True, check=True, timeout=30,
+            ).stdout.decode("utf-8", "replace")  # fmt: skip
+
+        own, others = attempt("ben", "ben"), attempt("ben", "ann")
+        assert f"CAN write {place['ben']}/course/exercises" in own  # the attempt itself works
+        assert room["ben"].token in own
+        assert not re.findall(rf"CAN \w+ ({separate_homes}/(?:ann|codes)\S*)", own + others)
+        assert room["ann"].token not in others
+        assert "class-secret-value" not in own
+        assert (separate_homes / "codes.csv").stat().st_mode & 0o077 == 0
+        rooms.close()
+        again = Rooms("127.0.0.1", separate=True)
+        try:
+            again.open("ben", home(separate_homes, "ben", packages=packages))
+            assert place["ben"].stat().st_uid == account["ben"]
+        finally:
+            again.close()
+    finally:
+        rooms.close()
 
 
 @pytest.mark.browser
@@ -171,7 +350,8 @@ def test_two_students_work_at_the_same_time_each_in_a_home_of_their_own(root, tm
 def serving(root, homes, roster):
     """The command, running; the address of its door."""
     command = [sys.executable, "-c", "from grader.cli import main; main()", "serve", str(homes),
-               "--roster", str(roster), "--host", "127.0.0.1", "--port", "0"]  # fmt: skip
+               "--roster", str(roster), "--host", "127.0.0.1", "--port", "0",
+               "--unprotected"]  # fmt: skip
     environment = {**os.environ, "PYTHONPATH": str(root), "PYTHONUNBUFFERED": "1"}
     running = subprocess.Popen(
         command, cwd=root, env=environment, stdout=subprocess.PIPE, encoding="utf-8"

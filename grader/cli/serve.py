@@ -1,6 +1,7 @@
 """``grade serve``."""
 
 import asyncio
+import os
 import socket
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import click
 
 from grader.terminal import complain, line, show
 from sim.command import COULD_NOT, DONE
+from sim.dataset.secret import VARIABLE
 from sim.errors import BadRequest
 
 PATH = click.Path(path_type=Path)
@@ -20,11 +22,15 @@ EVERYWHERE = "0.0.0.0"  # noqa: S104 - a class's browsers are on other machines;
 @click.option("--packages", type=PATH, help="Folder that grade release made: each gets theirs.")
 @click.option("--host", default=EVERYWHERE, show_default=True, help="Address to listen on.")
 @click.option("--port", default=8000, show_default=True, help="Of the page where one comes in.")
-def serve(folder: Path, roster: Path, packages: Path | None, host: str, port: int) -> int:
+@click.option("--unprotected", is_flag=True, help="Serve though students can read each other.")
+def serve(
+    folder: Path, roster: Path, packages: Path | None, host: str, port: int, *, unprotected: bool
+) -> int:
     """Serve the course to browsers on this network: Chromebooks need nothing installed.
 
     FOLDER holds a home for each student, which stays from day to day, and codes.csv with the code
-    that each comes in with. Everything runs on this machine; two students take about 1 GB.
+    that each comes in with. Everything runs on this machine; two students take about 1 GB. Run by
+    root on Linux or macOS, each student's server has a system user of its own.
     """
     from grader.classroom.roster import members  # noqa: PLC0415 - --help must not wait for it
     from grader.course import find_course  # noqa: PLC0415 - the same
@@ -34,6 +40,9 @@ def serve(folder: Path, roster: Path, packages: Path | None, host: str, port: in
     from grader.serve.rooms import Rooms  # noqa: PLC0415 - the same
     from grader.variant import folder_name  # noqa: PLC0415 - the same
 
+    os.environ.pop(VARIABLE, None)  # neither this process nor a student's needs the secret
+    folder = folder.resolve()
+    separate = _separate(folder, packages, unprotected=unprotected)
     course = find_course(Path.cwd())
     students = tuple(members(roster).rows)
     shared = common(course)
@@ -51,7 +60,7 @@ def serve(folder: Path, roster: Path, packages: Path | None, host: str, port: in
         given = [shared, *([own.read_bytes()] if own else [])]
         return home(folder, student, packages=given)
 
-    house = House(codes(folder, students), at_home, Rooms(host), first)
+    house = House(codes(folder, students), at_home, Rooms(host, separate=separate), first)
 
     def ready(taken: int) -> None:
         address = _own_address() if host == EVERYWHERE else host
@@ -72,6 +81,26 @@ def serve(folder: Path, roster: Path, packages: Path | None, host: str, port: in
 
 
 COMMAND = serve
+
+
+def _separate(folder: Path, packages: Path | None, *, unprotected: bool) -> bool:
+    """Whether each student gets a system user of their own; else say what that means.
+
+    Raises:
+        BadRequest: personal packages would lie open, or Python does for nobody but root.
+    """
+    from grader.serve.homes import can_separate, prepare_separation  # noqa: PLC0415 - as above
+
+    if can_separate() and not unprotected:
+        prepare_separation(folder)
+        return True
+    if packages and not unprotected:
+        raise BadRequest(
+            "students could read and change each other's files, so no packages are served",
+            advice="Serve as root on Linux or macOS, or say --unprotected.",
+        )
+    show([line("Students can read and change each other's files: do not grade this work.", "bold")])
+    return False
 
 
 def _own_address() -> str:

@@ -4,6 +4,6 @@
     rooms.py     a Jupyter server for each student, started when they come, ended when they go
     door.py      the page where one says who one is
 
-Students share the laptop's account: they are kept apart by their codes and tokens, not by its
-operating system. Do not serve from a machine that holds a class's secret or its answers.
+Where root serves, each student's server runs under a user id of its own, which alone can read its
+home. Elsewhere students share one account and can read each other's files; `grade serve` says so.
 """

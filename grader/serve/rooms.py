@@ -11,8 +11,11 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from grader.serve.homes import assign_account
 from grader.start import QUIET, as_root
+from sim.dataset.secret import VARIABLE
 from sim.errors import BadRequest
+from sim.work.cache import CACHE
 
 PATIENCE = 60.0  # [s] until a server has to answer; a small laptop takes ten
 IDLE = 3600  # [s] without a word until a server ends: memory for those who are there
@@ -45,11 +48,14 @@ class Rooms:
 
     Args:
         host: the address they listen on.
+        separate: each under a user id of its own; needs root.
     """
 
-    def __init__(self, host: str) -> None:
+    def __init__(self, host: str, *, separate: bool = False) -> None:
         self.host = host
+        self.separate = separate
         self._rooms: dict[str, Room] = {}
+        self._closed = False
 
     def open(self, student: str, course: Path) -> Room:
         """The student's server; started if it does not run.
@@ -57,17 +63,26 @@ class Rooms:
         Raises:
             BadRequest: it does not start.
         """
-        there = self._rooms.get(student)
-        if there and there.alive():
+        if there := self.find(student):
             return there
-        self._rooms[student] = room = _start(student, course, host=self.host)
+        course = course.absolute()  # a link that the student made is not followed
+        account = assign_account(course.parent) if self.separate else None
+        self._rooms[student] = room = _start(student, course, host=self.host, account=account)
+        if self._closed:  # ended while this one started
+            room.process.terminate()
         return room
 
+    def find(self, student: str) -> Room | None:
+        """The student's server if it runs."""
+        there = self._rooms.get(student)
+        return there if there and there.alive() else None
+
     def close(self) -> None:
-        """End them all."""
-        for room in self._rooms.values():
+        """End them all, and those that still start as soon as they have."""
+        self._closed = True
+        for room in tuple(self._rooms.values()):
             room.process.terminate()
-        for room in self._rooms.values():
+        for room in tuple(self._rooms.values()):
             with contextlib.suppress(subprocess.TimeoutExpired):
                 room.process.wait(timeout=10)
                 continue
@@ -79,21 +94,24 @@ class Rooms:
         return sum(room.alive() for room in self._rooms.values())
 
 
-def _start(student: str, course: Path, *, host: str) -> Room:
+def _start(student: str, course: Path, *, host: str, account: int | None) -> Room:
     port, token = _free_port(host), secrets.token_hex(16)
     command = [
         sys.executable, "-m", "jupyterlab", *QUIET, *as_root(),
         "--no-browser", f"--ip={host}", f"--port={port}", "--ServerApp.port_retries=0",
-        f"--IdentityProvider.token={token}", f"--ServerApp.root_dir={course}",
+        f"--ServerApp.root_dir={course}",
         f"--ServerApp.shutdown_no_activity_timeout={IDLE}",
         f"--MappingKernelManager.cull_idle_timeout={IDLE}",
     ]  # fmt: skip
-    log = (course.parent / "server.log").open("wb")
-    with log:
-        process = subprocess.Popen(  # noqa: S603 - our own arguments, no shell
-            command, cwd=course, env=_environment(course), stdout=log, stderr=log,
-            start_new_session=True,
-        )  # fmt: skip
+    environment = {**room_environment(course, own=account is not None), "JUPYTER_TOKEN": token}
+    try:
+        process = _run(command, course.parent, environment, account)
+    except OSError as error:
+        raise BadRequest(
+            f"JupyterLab cannot be started: {error.strerror}",
+            where=str(course.parent),
+            advice="Is there memory and room on the disk?",
+        ) from None
     deadline = time.monotonic() + PATIENCE
     while time.monotonic() < deadline and process.poll() is None:
         with contextlib.suppress(OSError), socket.create_connection((_near(host), port), 1.0):
@@ -107,6 +125,25 @@ def _start(student: str, course: Path, *, host: str) -> Room:
     )
 
 
+def _run(
+    command: list[str], place: Path, environment: dict[str, str], account: int | None
+) -> "subprocess.Popen[bytes]":
+    """Start it in the home, whose name nobody but the operator can change."""
+    path = place / "server.log"
+    path.unlink(missing_ok=True)  # made anew: the student may have put a link there
+    with path.open("xb") as log:
+        if account is None:
+            return subprocess.Popen(  # noqa: S603 - our own arguments, no shell
+                command, cwd=place, env=environment, stdin=subprocess.DEVNULL, stdout=log,
+                stderr=log, start_new_session=True,
+            )  # fmt: skip
+        return subprocess.Popen(  # noqa: S603 - our own arguments, no shell
+            command, cwd=place, env=environment, stdin=subprocess.DEVNULL, stdout=log,
+            stderr=log, start_new_session=True, user=account, group=account, extra_groups=[],
+            umask=0o077,
+        )  # fmt: skip
+
+
 def _free_port(host: str) -> int:
     with socket.socket() as one:
         one.bind((host, 0))
@@ -118,18 +155,29 @@ def _near(host: str) -> str:
     return "127.0.0.1" if host in {"0.0.0.0", "::", ""} else host  # noqa: S104 - compared, not bound
 
 
-def _environment(course: Path) -> dict[str, str]:
-    """Everything Jupyter writes goes into the student's home; their own copy is what runs."""
-    own = course.parent / "jupyter"
+def room_environment(course: Path, *, own: bool) -> dict[str, str]:
+    """The environment of a student's server: what it writes and caches goes into their home.
+
+    Args:
+        course: the student's copy of the course, which is what runs.
+        own: whether the server has a user id of its own, and so a HOME of its own.
+    """
+    place = course.parent
     scripts = sysconfig.get_path("scripts")
     places = {
         "JUPYTER_CONFIG_DIR": "config", "JUPYTER_DATA_DIR": "data",
         "JUPYTER_RUNTIME_DIR": "runtime", "JUPYTERLAB_SETTINGS_DIR": "settings",
         "JUPYTERLAB_WORKSPACES_DIR": "workspaces", "IPYTHONDIR": "ipython",
+        "XDG_CACHE_HOME": "cache", "NUMBA_CACHE_DIR": "cache/numba",
+        "MPLCONFIGDIR": "cache/matplotlib", CACHE: "cache/sysid-course",
+        "PYTHONPYCACHEPREFIX": "cache/python",
     }  # fmt: skip
+    mine = {"HOME": str(place), "USER": "student", "LOGNAME": "student"} if own else {}
+    dropped = {VARIABLE, "XDG_RUNTIME_DIR", "TMPDIR"} if own else {VARIABLE}
     return {
-        **{name: value for name, value in os.environ.items() if name != "SYSID_SECRET"},
-        **{name: str(own / folder) for name, folder in places.items()},
+        **{name: value for name, value in os.environ.items() if name not in dropped},
+        **{name: str(place / "jupyter" / folder) for name, folder in places.items()},
+        **mine,
         "PYTHONPATH": str(course),
         "PATH": os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part),
     }
