@@ -20,6 +20,8 @@ UNITS_OF = {
     "rpm": "rotations per minute",
     "pulse": "pulses",
 }
+DIVIDES_BY_ZERO = re.compile(r"/\s*0(?:\.0*)?(?![\w.])")
+SIZE = re.compile(r"gear|ratio|diameter|radius|circumference", re.IGNORECASE)
 CLOSE = 1e-6  # relative
 LONGEST = 2.0  # [m] no wheel or drum lays so much behind it in one rotation of its motor
 SHARE = 1 / 6  # of the log's points: one wrong signal
@@ -143,10 +145,10 @@ def check_all_logged(facts: RoutineFacts, *, demanded: int, points: float) -> No
     """
     names = list(dict.fromkeys(one.motor for one in facts.logged))
     driven = list(dict.fromkeys(call.motor for call in facts.drive))
-    for pair in SIDES[:1]:
+    for pair in SIDES:
         sides = {_side(name, pair) for name in driven} - {""}
         logged = {_side(text, pair) for one in facts.logged for text in (one.motor, one.device)}
-        if len(sides) > 1 and logged & sides and sides - logged and _apart(facts.class_name):
+        if len(sides) > 1 and logged & sides and sides - logged and _apart(facts, pair):
             missing = min(sides - logged)
             _raise_missing(f"no {missing} motor in the log", 1 / 2, points)
     if len(names) < min(demanded, len(driven)):
@@ -163,10 +165,11 @@ def _raise_missing(seen: str, share: float, points: float) -> None:
     )
 
 
-def _apart(name: str) -> bool:
+def _apart(facts: RoutineFacts, pair: tuple[str, str]) -> bool:
     """Whether the motors of a class turn on their own, and not one shaft together."""
-    coupled = r"elevator|lift|climb|telescop|slide|arm|wrist|pivot|shooter|flywheel|hood|turret"
-    return not re.search(coupled, name, re.IGNORECASE)
+    coupled = r"elevator|lift|climb|telescop|slide|arm|wrist|pivot|hood|turret"
+    one_shaft = coupled if pair == ("top", "bottom") else rf"{coupled}|shooter|flywheel"
+    return not re.search(one_shaft, facts.class_name, re.IGNORECASE)
 
 
 def check_signs(facts: RoutineFacts, *, points: float, mirrored: bool) -> str | None:
@@ -234,16 +237,30 @@ def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
             )
 
 
-def check_sources(signals: Sequence[LoggedSignal]) -> None:
+def check_sources(signals: Sequence[LoggedSignal], *, geared: frozenset[str]) -> None:
     """Whether the number in each unit's wrapper is in that unit, judged by the device it is from.
 
     Args:
         signals: the positions and velocities that are recorded.
+        geared: the motors that are set to report rotations of the mechanism.
 
     Raises:
         Wrong: one is not.
     """
     for one in signals:
+        if DIVIDES_BY_ZERO.search(one.text):
+            raise Wrong(
+                f"{_at(one)}: a number divided by 0",
+                hint="It has no end. Divide by the gear ratio, or not at all.",
+                misconception="M-UNITS",
+            )
+        if geared and one.native.startswith("rotation") and not geared & {one.device, "*"}:
+            raise Wrong(
+                f"{_at(one)}: {one.device} gets no configuration, so it reports rotations of the "
+                f"motor; {min(geared)} reports those of the mechanism",
+                hint="Apply the configuration with the gear ratio to every motor.",
+                misconception="M-UNITS",
+            )
         hint = _slip(one)
         if hint:
             raise Wrong(
@@ -374,11 +391,18 @@ def check_constants(facts: RoutineFacts, given: dict[str, float]) -> None:
 
 
 def check_numbers(facts: RoutineFacts) -> None:
-    """Whether no two devices are made with one port or CAN ID.
+    """Whether no two devices are made with one port or CAN ID, and gears and wheels have a size.
 
     Raises:
-        Wrong: two are.
+        Wrong: two are, or one has none.
     """
+    for name, value in facts.constants:
+        if SIZE.search(name) and not value > 0.0:
+            raise Wrong(
+                f"{name} is {value:g}",
+                hint="No gear ratio and no wheel is zero or less. Write what is built in.",
+                misconception="M-UNITS",
+            )
     for name, number in facts.impossible_numbers:
         raise Wrong(
             f"{name} is made with {number:g}",

@@ -263,7 +263,7 @@ def _units(facts: RoutineFacts) -> None:
         raise NotReached("looked at once position and velocity are recorded")
     task = facts.class_name == TASK
     check_units(signals, mechanism="Drivetrain" if task else facts.class_name)
-    check_sources(signals)
+    check_sources(signals, geared=facts.geared)
     if task:
         check_constants(facts, METERS)
 

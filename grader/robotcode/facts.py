@@ -147,6 +147,7 @@ class RoutineFacts:
         config_argument, mechanism_argument: positions of the two in the constructor call (0 and 1
             when right), -1 if absent.
         problems: syntax errors; when there are any, the other facts may be incomplete.
+        geared: motors that get a configuration, where one has a sensor-to-mechanism ratio.
         inverted: motors that the code sets to turn the other way round; ``*`` is one that cannot
             be told apart.
         impossible_numbers: devices that are made with what can be no port and no CAN ID.
@@ -180,6 +181,7 @@ class RoutineFacts:
     unread: tuple[Problem, ...] = ()
     compile_errors: tuple[Problem, ...] = ()
     inverted: frozenset[str] = frozenset()
+    geared: frozenset[str] = frozenset()
     impossible_numbers: tuple[tuple[str, float], ...] = ()
     same_numbers: tuple[tuple[str, str], ...] = ()
     devices: tuple[tuple[str, str], ...] = ()

@@ -69,6 +69,7 @@ class Settings:
         position, velocity: the conversion factors of Spark encoders; None if one cannot be told.
         ratios: the source text of every sensor-to-mechanism ratio.
         inverted: the motors that are set to turn the other way round.
+        configured: the devices that get a configuration.
         elsewhere: whether settings come from code that is not in these files.
     """
 
@@ -77,6 +78,7 @@ class Settings:
     velocity: list[float | None] = field(default_factory=list)
     ratios: list[str] = field(default_factory=list)
     inverted: set[str] = field(default_factory=set)
+    configured: set[str] = field(default_factory=set)
     elsewhere: bool = False
 
 
@@ -184,9 +186,18 @@ class _SettingsReader:
         elif name == "inverted" and first.place.text.lower() != "false":
             self._found.inverted.add(device)
         elif name in {"configure", "apply"}:
+            self._found.configured.add(_configured(target.owner))
             value, where = resolve(first, scope, self._names)
             if isinstance(value, Name | Member) and not self._names.definitions(value, where):
                 self._found.elsewhere = True
+
+
+def _configured(node: Node) -> str:
+    """The device of ``m_top.configure(…)`` and of ``m_top.getConfigurator().apply(…)``."""
+    inner = node.target if isinstance(node, Call) else node
+    if isinstance(inner, Member) and isinstance(node, Call):
+        inner = inner.owner
+    return label(inner)
 
 
 def _is_ratio(name: str) -> bool:

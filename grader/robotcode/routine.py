@@ -235,6 +235,7 @@ def _with_mechanism(
         log_is_null=given.get(1) is not None and callback is None,
         unread=(*drive.unread.values(), *log.unread.values()),
         inverted=frozenset(settings.inverted),
+        geared=frozenset(settings.configured if settings.ratios else ()),
     )
 
 

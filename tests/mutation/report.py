@@ -78,9 +78,9 @@ class Report:
 
 
 def legal_variants() -> list[Legal]:
-    """The list of legal variants."""
-    table = tomllib.loads((HERE / "legal.toml").read_text(encoding="utf-8"))
-    return [Legal(**row) for row in table.get("legal", [])]
+    """The lists of legal variants: of robot code, and of answers in TOML."""
+    tables = [tomllib.loads(path.read_text(encoding="utf-8")) for path in HERE.glob("legal*.toml")]
+    return [Legal(**row) for table in tables for row in table["legal"]]
 
 
 def all_mutants() -> Iterator[Mutant]:

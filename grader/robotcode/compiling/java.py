@@ -13,7 +13,7 @@ from grader.robotcode.compiling.season import (
     nearly,
 )
 from grader.robotcode.facts import Problem
-from grader.robotcode.meaning import called, class_of, methods, simple
+from grader.robotcode.meaning import called, class_of, last_name, methods, simple
 from grader.robotcode.names import Names
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.syntax import (
@@ -43,6 +43,16 @@ LANG = frozenset(
         *("InterruptedException", "StackOverflowError", "CharSequence"),
     }
 )
+CONSTRUCTOR = re.compile(
+    r"^[ \t]*(?:public|protected|private)\s+(?P<name>[A-Z]\w*)\s*\([^;{}]*\)\s*"
+    r"(?:throws\s[\w\s,.]+)?\{",
+    re.MULTILINE,
+)
+BLANK_FINAL = re.compile(
+    r"^[ \t]*(?:(?:public|protected|private|static)\s+)*"
+    r"final\s+[\w.<>\[\], ]+?\s+(?P<name>\w+)\s*;",
+    re.MULTILINE,
+)
 PACKAGE = re.compile(r"(edu|com|org|java|javax|frc|swervelib|choreo)$")
 
 
@@ -54,12 +64,20 @@ def errors(names: Names) -> Iterator[Problem]:
     yield from _imports(names)
     yield from type_errors(names)
     yield from _file_name(names)
+    yield from _constructors(names)
+    yield from _never_set(names)
     every = list(walk(module.body, Scope(module)))
     open_ = any(one.name == "*" and not _static(one) for one in module.imports)
     declared = {node.name for node, _ in every if isinstance(node, Class)}
     targets = {node.target for node, _ in every if isinstance(node, Call)}
+    made = [one for one, _ in every if isinstance(one, Assign) and one.declares]
+    brought = {last_name(one.target) for one in made}
+    brought |= {one.name for one, _ in every if isinstance(one, Parameter)}
     for node, scope in every:
         line = node.place.line
+        target = node.target if isinstance(node, Assign) and not node.declares else None
+        if isinstance(target, Name) and target.name not in brought and _closed(scope, names):
+            yield Problem(f"nothing declares {target.name}", line)
         for name in _types(node):
             if not open_ and not _is_type(name, declared, scope, names):
                 yield Problem(_undeclared(name), line)
@@ -78,6 +96,27 @@ def _file_name(names: Names) -> Iterator[Problem]:
         if public and isinstance(node, Class) and nearly(node.name, frozenset({stem})):
             said = f"the class is {node.name}, and its file {stem}: both need one name"
             yield Problem(said, node.place.line)
+
+
+def _constructors(names: Names) -> Iterator[Problem]:
+    """What looks like a constructor, and is called unlike every class here."""
+    source = names.main.source.decode("utf-8", errors="replace")
+    classes = set(re.findall(r"\b(?:class|enum|record|interface)\s+(\w+)", source))
+    for found in CONSTRUCTOR.finditer(source):
+        if found["name"] not in classes:
+            line = source.count("\n", 0, found.start("name")) + 1
+            said = f"{found['name']}() has no return type, and no class is called so"
+            yield Problem(said, line)
+
+
+def _never_set(names: Names) -> Iterator[Problem]:
+    """Final fields that get no value."""
+    source = names.main.source.decode("utf-8", errors="replace")
+    for found in BLANK_FINAL.finditer(source):
+        name = found["name"]
+        if not re.search(rf"\b{name}\s*=(?!=)", source):
+            line = source.count("\n", 0, found.start("name")) + 1
+            yield Problem(f"{name} is final and never gets a value", line)
 
 
 def name_is_value(node: Name) -> bool:
