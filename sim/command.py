@@ -58,7 +58,8 @@ def complain(said: str, *, name: str) -> None:
         said: the line; line breaks in it become spaces.
         name: the command that says it.
     """
-    click.echo(f"{name}: {' '.join(printable(said).split())}", err=True)
+    plain = printable(click.unstyle(said))  # what other programs say may be colored
+    click.echo(f"{name}: {' '.join(plain.split())}", err=True)
 
 
 def _sentence(error: Exception, *, name: str) -> str:

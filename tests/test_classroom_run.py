@@ -119,7 +119,7 @@ def test_what_runs_a_learners_code_can_be_told_not_to(name):
 @pytest.mark.parametrize(("may", "status"), [(True, "failed"), (False, "passed")])
 def test_what_only_a_run_shows_is_not_held_against_code_that_is_only_read(tmp_path, may, status):
     path = tmp_path / "mine.py"
-    rate = ("self.left_encoder.getRate()", "60 * self.left_encoder.getRate()")
+    rate = ("self.left_encoder.getRate()", "[self.left_encoder.getRate()][1]")
     path.write_text(changed(rate), "utf-8")
     fourth = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 

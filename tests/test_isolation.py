@@ -117,7 +117,6 @@ NO_NUMBERS = [
 ]
 SLY = """
 import numpy as np
-import psutil
 class Sly(float):
     def __sub__(self, other): return Sly(0)
     def __abs__(self): return Sly(0)
