@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import json
 import os
 import re
 import shutil
@@ -16,7 +17,9 @@ from urllib.request import urlopen
 
 import psutil
 import pytest
+from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.testing import AsyncHTTPTestCase
+from tornado.websocket import websocket_connect
 
 from grader.cli import run
 from grader.course import load
@@ -271,11 +274,75 @@ for every in pathlib.Path("/proc").glob("[0-9]*"):
 """
 
 
+EAVESDROP = """
+import sys, zmq
+ear = zmq.Context().socket(zmq.SUB)
+ear.setsockopt(zmq.SUBSCRIBE, b"")
+ear.setsockopt(zmq.RCVTIMEO, 3000)
+for port in sys.argv[1:]:
+    ear.connect("tcp://127.0.0.1:" + port)
+print("ready", flush=True)
+sys.stdin.readline()
+try:
+    while True:
+        print(ear.recv())
+except zmq.Again:
+    pass
+"""
+
+
+def overheard(room, by):
+    """What another user hears on the ports of a room while its student works."""
+    assert calculate(room, "6 * 7") == "42"  # a kernel runs, and its ports are there
+    server = psutil.Process(room.process.pid)
+    ports = {str(one.laddr.port)
+             for process in (server, *server.children(recursive=True))
+             for one in process.net_connections("tcp")
+             if one.status == psutil.CONN_LISTEN and one.laddr.port != room.port}  # fmt: skip
+    with subprocess.Popen(
+        [sys.executable, "-c", EAVESDROP, *ports], user=by, group=by, extra_groups=[], cwd="/",
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8",
+    ) as ear:  # fmt: skip
+        assert ear.stdout.readline() == "ready\n"
+        kernel = max(room.runtime.glob("kernel-*.json"), key=lambda file: file.stat().st_mtime)
+        calculate(room, "'answer of ann'", kernel=kernel.stem.removeprefix("kernel-"))
+        return ear.communicate("\n", timeout=30)[0]
+
+
+def calculate(room, expression, kernel=""):
+    """What a kernel of a room's server answers; a new one unless it is named."""
+
+    async def ask():
+        address = f"http://127.0.0.1:{room.port}/api/kernels"
+        head = {"Authorization": f"token {room.token}"}
+        client = AsyncHTTPClient()
+        made = kernel or json.loads(
+            (await client.fetch(address, method="POST", headers=head, body="{}")).body
+        )["id"]
+        line = await websocket_connect(
+            HTTPRequest(f"ws{address[4:]}/{made}/channels", headers=head)
+        )
+        await line.write_message(json.dumps({
+            "header": {"msg_id": "1", "msg_type": "execute_request", "username": "",
+                       "session": "1", "version": "5.3"},
+            "parent_header": {}, "metadata": {}, "channel": "shell",
+            "content": {"code": expression, "silent": False},
+        }))  # fmt: skip
+        while True:
+            said = json.loads(await asyncio.wait_for(line.read_message(), 60))
+            if said["msg_type"] == "execute_result":
+                line.close()
+                return said["content"]["data"]["text/plain"]
+
+    return asyncio.run(ask())
+
+
 def test_two_students_cannot_reach_each_others_files(root, separate_homes, monkeypatch):
     known = codes(separate_homes, ["ann", "ben"])
     packages = [common(root)]
     course = {who: home(separate_homes, who, packages=packages) for who in known}
     monkeypatch.setenv("SYSID_SECRET", "class-secret-value")
+    monkeypatch.setenv("GITHUB_TOKEN", "of-the-operator")
     rooms = Rooms("127.0.0.1", separate=True)
     try:
         room = {who: rooms.open(who, course[who]) for who in known}
@@ -288,24 +355,29 @@ def test_two_students_cannot_reach_each_others_files(root, separate_homes, monke
         assert psutil.Process(room["ben"].process.pid).uids().real == account["ben"]
         theirs = [
             "course/exercises/exercise1/answers.toml", "course/exercises", "jupyter/cache",
-            "jupyter/runtime", "server.log", ".",
+            "server.log", ".",
         ]  # fmt: skip
 
         def attempt(who, victim):
             paths = [str(place[victim] / one) for one in theirs]
+            paths += [str(one) for one in (room[victim].runtime, *room[victim].runtime.iterdir())]
             return subprocess.run(
                 [sys.executable, "-c", TRY, *paths, str(separate_homes / "codes.csv")],
                 user=account[who], group=account[who], extra_groups=[], cwd=place[who],
-                env=room_environment(course[who], own=True),
+                env=room_environment(course[who], room[who].runtime, own=True),
                 capture_output=True, check=True, timeout=30,
             ).stdout.decode("utf-8", "replace")  # fmt: skip
 
+        assert "answer of ann" not in overheard(room["ann"], by=account["ben"])
         own, others = attempt("ben", "ben"), attempt("ben", "ann")
         assert f"CAN write {place['ben']}/course/exercises" in own  # the attempt itself works
         assert room["ben"].token in own
-        assert not re.findall(rf"CAN \w+ ({separate_homes}/(?:ann|codes)\S*)", own + others)
+        assert f"CAN read {room['ben'].runtime}" in own
+        kept = rf"{separate_homes}/(?:ann|codes)|{room['ann'].runtime}"
+        assert not re.findall(rf"CAN \w+ (?:{kept})\S*", own + others)
         assert room["ann"].token not in others
         assert "class-secret-value" not in own
+        assert "of-the-operator" not in own
         assert (separate_homes / "codes.csv").stat().st_mode & 0o077 == 0
         rooms.close()
         again = Rooms("127.0.0.1", separate=True)

@@ -3,10 +3,12 @@
 import contextlib
 import os
 import secrets
+import shutil
 import socket
 import subprocess
 import sys
 import sysconfig
+import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +22,7 @@ from sim.work.cache import CACHE
 PATIENCE = 60.0  # [s] until a server has to answer; a small laptop takes ten
 IDLE = 3600  # [s] without a word until a server ends: memory for those who are there
 PAUSE = 0.1  # [s] between two looks
+KEPT = {"PATH", "LANG", "LANGUAGE", "TZ", "LD_LIBRARY_PATH", "VIRTUAL_ENV"}  # of the operator's
 
 
 @dataclass(frozen=True)
@@ -31,12 +34,14 @@ class Room:
         port: where it listens.
         token: what its address needs.
         process: that it is.
+        runtime: the folder of its sockets and connection files.
     """
 
     student: str
     port: int
     token: str
     process: "subprocess.Popen[bytes]"
+    runtime: Path
 
     def alive(self) -> bool:
         """Whether it still runs."""
@@ -65,6 +70,8 @@ class Rooms:
         """
         if there := self.find(student):
             return there
+        if ended := self._rooms.pop(student, None):
+            shutil.rmtree(ended.runtime, ignore_errors=True)
         course = course.absolute()  # a link that the student made is not followed
         account = assign_account(course.parent) if self.separate else None
         self._rooms[student] = room = _start(student, course, host=self.host, account=account)
@@ -85,8 +92,9 @@ class Rooms:
         for room in tuple(self._rooms.values()):
             with contextlib.suppress(subprocess.TimeoutExpired):
                 room.process.wait(timeout=10)
-                continue
-            room.process.kill()
+            if room.alive():
+                room.process.kill()
+            shutil.rmtree(room.runtime, ignore_errors=True)
 
     @property
     def running(self) -> int:
@@ -103,7 +111,13 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Roo
         f"--ServerApp.shutdown_no_activity_timeout={IDLE}",
         f"--MappingKernelManager.cull_idle_timeout={IDLE}",
     ]  # fmt: skip
-    environment = {**room_environment(course, own=account is not None), "JUPYTER_TOKEN": token}
+    if account is not None:  # a port of this machine is open to every user of it, a socket is not
+        command.append("--KernelManager.transport=ipc")
+    runtime = _runtime_folder(account)
+    environment = {
+        **room_environment(course, runtime, own=account is not None),
+        "JUPYTER_TOKEN": token,
+    }
     try:
         process = _run(command, course.parent, environment, account)
     except OSError as error:
@@ -113,16 +127,29 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Roo
             advice="Is there memory and room on the disk?",
         ) from None
     deadline = time.monotonic() + PATIENCE
+    listening = runtime / f"jpserver-{process.pid}.json"  # written once the port is its own
     while time.monotonic() < deadline and process.poll() is None:
-        with contextlib.suppress(OSError), socket.create_connection((_near(host), port), 1.0):
-            return Room(student, port, token, process)
+        if listening.exists():
+            return Room(student, port, token, process, runtime)
         time.sleep(PAUSE)
     process.kill()
+    shutil.rmtree(runtime, ignore_errors=True)
     raise BadRequest(
         "JupyterLab did not start",
         where=str(course.parent / "server.log"),
         advice="Read what it says there; is there memory left?",
     )
+
+
+def _runtime_folder(account: int | None) -> Path:
+    """A folder that nobody but the student may enter.
+
+    It does not lie in the home, because a socket's path may not be longer than some 100 signs.
+    """
+    folder = Path(tempfile.mkdtemp(prefix="grade-"))
+    if account is not None:
+        os.chown(folder, account, account)
+    return folder
 
 
 def _run(
@@ -150,34 +177,34 @@ def _free_port(host: str) -> int:
         return int(one.getsockname()[1])
 
 
-def _near(host: str) -> str:
-    """Where this machine reaches what listens on all its addresses."""
-    return "127.0.0.1" if host in {"0.0.0.0", "::", ""} else host  # noqa: S104 - compared, not bound
-
-
-def room_environment(course: Path, *, own: bool) -> dict[str, str]:
+def room_environment(course: Path, runtime: Path, *, own: bool) -> dict[str, str]:
     """The environment of a student's server: what it writes and caches goes into their home.
 
     Args:
         course: the student's copy of the course, which is what runs.
-        own: whether the server has a user id of its own, and so a HOME of its own.
+        runtime: the folder for sockets and connection files.
+        own: whether the server has a user id of its own, and so a HOME of its own and nothing of
+            the operator's environment but the language, the time zone and where programs lie.
     """
     place = course.parent
     scripts = sysconfig.get_path("scripts")
     places = {
         "JUPYTER_CONFIG_DIR": "config", "JUPYTER_DATA_DIR": "data",
-        "JUPYTER_RUNTIME_DIR": "runtime", "JUPYTERLAB_SETTINGS_DIR": "settings",
-        "JUPYTERLAB_WORKSPACES_DIR": "workspaces", "IPYTHONDIR": "ipython",
+        "JUPYTERLAB_SETTINGS_DIR": "settings", "JUPYTERLAB_WORKSPACES_DIR": "workspaces", "IPYTHONDIR": "ipython",
         "XDG_CACHE_HOME": "cache", "NUMBA_CACHE_DIR": "cache/numba",
         "MPLCONFIGDIR": "cache/matplotlib", CACHE: "cache/sysid-course",
         "PYTHONPYCACHEPREFIX": "cache/python",
     }  # fmt: skip
     mine = {"HOME": str(place), "USER": "student", "LOGNAME": "student"} if own else {}
-    dropped = {VARIABLE, "XDG_RUNTIME_DIR", "TMPDIR"} if own else {VARIABLE}
     return {
-        **{name: value for name, value in os.environ.items() if name not in dropped},
+        **{
+            name: value
+            for name, value in os.environ.items()
+            if (name in KEPT or name.startswith("LC_") if own else name != VARIABLE)
+        },
         **{name: str(place / "jupyter" / folder) for name, folder in places.items()},
         **mine,
+        "JUPYTER_RUNTIME_DIR": str(runtime),
         "PYTHONPATH": str(course),
         "PATH": os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part),
     }
