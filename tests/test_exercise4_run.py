@@ -55,6 +55,16 @@ def test_what_reading_cannot_tell_is_settled_by_the_run(tmp_path):
             id="a crash in the log callback",
         ),
         pytest.param(
+            [
+                ('"right"', 'getattr(self, "name", "left")'),
+                ("self.right.getVoltage()", "self.left.getVoltage()"),
+                ("self.right_encoder.get", "self.left_encoder.get"),
+            ],
+            "log",
+            "in WPILib's simulation 2 motors are driven, and the log has 1 of them",
+            id="one side left out behind a name nobody can read",
+        ),
+        pytest.param(
             [("self.right_encoder = Encoder(2, 3)", "self.right_encoder = Encoder(2, len('a'))")],
             "assembled",
             "mine.py, line 23: RuntimeError: PWM or DIO 1 previously allocated",

@@ -215,8 +215,9 @@ def _followed(facts: RoutineFacts, *, whole: bool) -> None:
 @check(points=3, after=routine)
 def log(code: Code) -> str | None:
     """The log callback records the motor's name, position, velocity and applied voltage."""
-    running = _either("log", contradiction.recorded)
-    return settle(code, partial(_log, code.facts), running, points=3, answered=_held)
+    demanded = SIDES if code.facts.class_name == TASK else 0
+    running = _either("log", partial(contradiction.recorded, demanded=demanded))
+    return settle(code, partial(_log, code.facts, demanded), running, points=3, answered=_held)
 
 
 def _held(ran: Ran) -> bool:
@@ -224,7 +225,7 @@ def _held(ran: Ran) -> bool:
     return bool(ran.recorded) and all(one.voltage and one.lowered for one in ran.recorded)
 
 
-def _log(facts: RoutineFacts) -> None:
+def _log(facts: RoutineFacts, demanded: int) -> None:
     if facts.log_is_null:
         raise Wrong(
             "null in place of the log callback: then WPILib records nothing",
@@ -242,7 +243,7 @@ def _log(facts: RoutineFacts) -> None:
     for motor in motors:
         check_recorded(motor, [one for one in facts.logged if one.motor == motor], points=3)
     check_devices(facts, points=3)
-    check_all_logged(facts, demanded=SIDES if facts.class_name == TASK else 0, points=3)
+    check_all_logged(facts, demanded=demanded, points=3)
     check_logged_signs(facts.logged)
 
 

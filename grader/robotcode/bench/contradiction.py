@@ -99,10 +99,20 @@ def _driven(motor: Driven) -> tuple[str, str, str] | None:
     return seen, "The voltage is changed on its way. Send it as it comes: setVoltage(voltage).", ""
 
 
-def recorded(ran: Ran) -> Fault | None:
-    """What the log says of the motors' voltages, and of which motor it says it."""
+def recorded(ran: Ran, *, demanded: int = 0) -> Fault | None:
+    """What the log says of the motors' voltages, and of which motor it says it.
+
+    Args:
+        ran: the run.
+        demanded: how many of the motors that were driven have to be in the log.
+    """
     if ran.lacking:
         return Fault(f"{IN} the log cannot be read: {ran.lacking}", "Record all three signals.")
+    moved = sum(bool(motor.share) for motor in ran.motors)
+    if ran.recorded and len(ran.recorded) < min(demanded, moved):
+        seen = f"{IN} {moved} motors are driven, and the log has {len(ran.recorded)} of them"
+        hint = "Each side has its own friction: record every motor, each under its own name."
+        return Fault(seen, hint, "", 1 - len(ran.recorded) / moved)
     mirrored = any((motor.share or 0) < 0 for motor in ran.motors)  # whose sign is whose, who knows
     for one in ran.recorded:
         fault = _voltage(one) or (None if mirrored else _sign(one))
