@@ -190,7 +190,8 @@ def room_environment(course: Path, runtime: Path, *, own: bool) -> dict[str, str
     scripts = sysconfig.get_path("scripts")
     places = {
         "JUPYTER_CONFIG_DIR": "config", "JUPYTER_DATA_DIR": "data",
-        "JUPYTERLAB_SETTINGS_DIR": "settings", "JUPYTERLAB_WORKSPACES_DIR": "workspaces", "IPYTHONDIR": "ipython",
+        "JUPYTERLAB_SETTINGS_DIR": "settings", "JUPYTERLAB_WORKSPACES_DIR": "workspaces",
+        "IPYTHONDIR": "ipython",
         "XDG_CACHE_HOME": "cache", "NUMBA_CACHE_DIR": "cache/numba",
         "MPLCONFIGDIR": "cache/matplotlib", CACHE: "cache/sysid-course",
         "PYTHONPYCACHEPREFIX": "cache/python",

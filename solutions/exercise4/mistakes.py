@@ -8,6 +8,11 @@ CONFIG = "new SysIdRoutine.Config(Volts.of(0.5).per(Second), Volts.of(3.5), Seco
 MECHANISM = "new SysIdRoutine.Mechanism(this::drive, this::record, this)"
 LEFT, RIGHT = "m_left.setVoltage(voltage.in(Volts))", "m_right.setVoltage(voltage.in(Volts))"
 APPLIED_LEFT = "Volts.of(m_left.getMotorVoltage().getValueAsDouble())"
+LOGGED_RIGHT = (
+    '        log.motor("right").voltage(self.right.getVoltage()).position(\n',
+    "            self.right_encoder.getDistance()\n",
+    "        ).velocity(self.right_encoder.getRate())\n",
+)
 
 MISTAKES = (
     Mistake(
@@ -136,6 +141,13 @@ MISTAKES = (
         "m_right gets no voltage",
     ),
     Mistake(
+        "one motor driven backward, though nothing inverts it",
+        JAVA,
+        replacing((RIGHT, RIGHT.replace("voltage", "-voltage"))),
+        "drive",
+        "the sign of the voltage is changed",
+    ),
+    Mistake(
         "always the same voltage",
         PYTHON,
         replacing(("setVoltage(voltage)", "setVoltage(3.5)")),
@@ -170,6 +182,41 @@ MISTAKES = (
         replacing((".velocity(self.left_encoder.getRate())", "")),
         "log",
         "no velocity of left",
+    ),
+    Mistake(
+        "one side's numbers under both names",
+        JAVA,
+        replacing(
+            *((f"{part}m_right)", f"{part}m_left)") for part in ("Meters(", "Second(")),
+            ("m_right.getMotorVoltage", "m_left.getMotorVoltage"),
+        ),
+        "log",
+        "right gets the voltage of m_left",
+    ),
+    Mistake(
+        "the velocity in place of the position",
+        JAVA,
+        replacing(("Meters.of(getMeters(m_left))", "Meters.of(getMetersPerSecond(m_left))")),
+        "log",
+        "the position of left is the velocity of m_left",
+    ),
+    Mistake(
+        "one side is not in the log",
+        PYTHON,
+        replacing(*((line, "") for line in LOGGED_RIGHT)),
+        "log",
+        "no right motor in the log",
+    ),
+    Mistake(
+        "rotations under the name of meters",
+        JAVA,
+        replacing(
+            ("getMeters(m_left)", "m_left.getPosition().getValueAsDouble()"),
+            ("getMetersPerSecond(m_left)", "m_left.getVelocity().getValueAsDouble()"),
+        ),
+        "units",
+        "m_left reports rotations, and the log says Meters",
+        "M-UNITS",
     ),
     Mistake(
         "the position in meters, the velocity in rotations",
