@@ -316,9 +316,12 @@ def calculate(room, expression, kernel=""):
         address = f"http://127.0.0.1:{room.port}/api/kernels"
         head = {"Authorization": f"token {room.token}"}
         client = AsyncHTTPClient()
-        made = kernel or json.loads(
-            (await client.fetch(address, method="POST", headers=head, body="{}")).body
-        )["id"]
+        made = (
+            kernel
+            or json.loads(
+                (await client.fetch(address, method="POST", headers=head, body="{}")).body
+            )["id"]
+        )
         line = await websocket_connect(
             HTTPRequest(f"ws{address[4:]}/{made}/channels", headers=head)
         )
