@@ -27,7 +27,11 @@ INSTALLED = "SYSID_COURSE_INSTALLED"  # the same for an installation that does n
 SIZE, SIZE_TO_TEST = "750 MB", "1.1 GB"  # on the disk, measured on Linux
 LAST = 6  # lines of pip's complaint that are worth reading
 COULD_NOT = 2
-EVERYTHING = ("-n", "logical", "--dist", "loadscope")  # all tests, a file at a time on each core
+EVERYTHING = (  # all tests, a file at a time on each core, in the order of tests/conftest.py
+    *("-n", "logical"),
+    *("--dist", "loadscope"),
+    "--no-loadscope-reorder",
+)
 
 
 def main(arguments: list[str]) -> int:

@@ -12,6 +12,25 @@ settings.register_profile("course", deadline=None)
 settings.load_profile("course")
 
 ROOT = Path(__file__).resolve().parents[1]
+LONGEST = (  # files that take minutes; begun first, they keep no core waiting at the end
+    "test_lessons_in_browser",
+    "test_instructors_day",
+    "test_reconcile_real",
+    "test_engine",
+    "test_lessons",
+    "test_plausible_draws",
+    "test_exercises",
+    "test_faults",
+    "test_hostile_answers",
+    "test_adding_an_effect",
+    "test_mutation",
+)
+
+
+def pytest_collection_modifyitems(items):
+    """Put the tests of the files that take longest before all others."""
+    place = {name: number for number, name in enumerate(LONGEST)}
+    items.sort(key=lambda one: place.get(one.path.stem, len(LONGEST)))
 
 
 @pytest.fixture(scope="session")

@@ -106,7 +106,8 @@ def test_all_tests_run_on_all_cores(world):
 
     assert bootstrap.main(["test"]) == 0
     (command, *_), *_ = world.foreground
-    assert command[2:] == ["pytest", "-n", "logical", "--dist", "loadscope"]
+    assert command[2:4] == ["pytest", "-n"]
+    assert command[4:] == ["logical", "--dist", "loadscope", "--no-loadscope-reorder"]
 
 
 def test_a_fresh_clone_gets_an_environment_and_goes_on_in_it(world, capsys):

@@ -192,10 +192,10 @@ def test_a_lesson_uses_only_public_names_and_short_functions(text):
             assert node.end_lineno - node.lineno < SCREENFUL, node.name
 
 
-def program(text, *, folder, home, options=()):
+def program(text, *, folder, home):
     """What a lesson prints when it is run as a plain program."""
     done = subprocess.run(
-        [sys.executable, *options, str(text)],
+        [sys.executable, str(text)],
         cwd=folder,
         env=_environment(home),
         capture_output=True,
@@ -206,11 +206,6 @@ def program(text, *, folder, home, options=()):
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
-
-
-@each_lesson
-def test_a_lesson_runs_as_a_plain_program_with_warnings_as_errors(text, tmp_path):
-    assert program(text, folder=text.parent, home=tmp_path, options=("-W", "error"))
 
 
 def test_lesson_7_reads_the_log_that_exercise_9_made(tmp_path, root):

@@ -432,7 +432,7 @@ def serving(root, homes, roster):
         command, cwd=root, env=environment, stdout=subprocess.PIPE, encoding="utf-8"
     )
     try:
-        yield re.search(r"http://\S+", running.stdout.readline())[0]
+        yield next(re.search(r"http://\S+", line)[0] for line in running.stdout if "http" in line)
     finally:
         running.terminate()
         running.wait(timeout=30)

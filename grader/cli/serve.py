@@ -9,7 +9,6 @@ import click
 
 from grader.terminal import complain, line, show
 from sim.command import COULD_NOT, DONE
-from sim.dataset.secret import VARIABLE
 from sim.errors import BadRequest
 
 PATH = click.Path(path_type=Path)
@@ -38,6 +37,7 @@ def serve(
     from grader.serve.door import House, stand  # noqa: PLC0415 - the same
     from grader.serve.homes import codes, home  # noqa: PLC0415 - the same
     from grader.serve.rooms import Rooms  # noqa: PLC0415 - the same
+    from sim.dataset.secret import VARIABLE  # noqa: PLC0415 - the same
     from grader.variant import folder_name  # noqa: PLC0415 - the same
 
     os.environ.pop(VARIABLE, None)  # neither this process nor a student's needs the secret
