@@ -57,6 +57,8 @@ WRONG = {
     "sign": ("return churn *", "return -churn *", "test_a_term_never_pushes_harder_than"),
 }  # fmt: skip
 
+TESTS = ("--ramp", "1.5", "--step", "4", "--timeout", "2.5", "--seed", "3")
+
 
 @pytest.fixture(scope="module")
 def copy(root, tmp_path_factory):
@@ -107,6 +109,19 @@ def test_it_is_listed_hidden_and_contract(copy):
     assert made.returncode == 0, made.stderr
     assert checked.returncode == 0, checked.stdout
     assert "passed" in checked.stdout
+
+
+def test_it_is_a_suspect_and_is_named(copy):
+    made = sysid(copy, "simulate", "shooter", "--hide", "churn:2", *TESTS, "-o", "churns.csv")
+    found = sysid(copy, "reconcile", "churns.csv", "--json")
+
+    assert made.returncode == 0, made.stderr
+    assert found.returncode in {0, 1}, found.stderr
+    first, *_ = json.loads(found.stdout)["findings"]
+    assert (first["effect"], first["kind"]) == ("churn", "effect")
+    assert first["sentence"].startswith("Bearings that churn. What is missing rises fast")
+    assert first["inspect"] == "Bearings."
+    assert first["parameters"]["churn"]["value"] > 0.0
 
 
 @pytest.mark.parametrize("name", WRONG)

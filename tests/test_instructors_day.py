@@ -45,6 +45,7 @@ LEFT_OUT = (
 WHOLE = 218  # points of the twelve exercises and of practice
 PROGRAMS = {"grade": "grader.cli", "sysid": "sim.cli"}
 ALONE = ("Anna Bauer", "Diaz Cara", "week-3-ginah-2010")  # exercises in folders, whole courses
+FORMS = ("exercise2", "exercise4", "exercise5", "exercise9", "practice")  # one of each kind
 LESSONS_SHOWN = 1  # of the ten that `grade edition` runs: the others take minutes
 
 
@@ -202,6 +203,8 @@ def test_each_exercise_alone_earns_every_point_too(course, handed_in):
     for name in ALONE:
         shutil.copytree(handed_in / name, alone / name)
     for number, one in enumerate(exercises(course)):
+        if one.name not in FORMS:
+            continue
         out = handed_in.with_name(f"alone-{number}")
         words = ["grade", "class", f"../{alone.name}", "--roster", "../roster.csv", "--secret",
                  "../class.secret", "--exercise", one.name, "-o", f"../{out.name}"]  # fmt: skip

@@ -37,8 +37,8 @@ def serve(
     from grader.serve.door import House, stand  # noqa: PLC0415 - the same
     from grader.serve.homes import codes, home  # noqa: PLC0415 - the same
     from grader.serve.rooms import Rooms  # noqa: PLC0415 - the same
-    from sim.dataset.secret import VARIABLE  # noqa: PLC0415 - the same
     from grader.variant import folder_name  # noqa: PLC0415 - the same
+    from sim.dataset.secret import VARIABLE  # noqa: PLC0415 - the same
 
     os.environ.pop(VARIABLE, None)  # neither this process nor a student's needs the secret
     folder = folder.resolve()
