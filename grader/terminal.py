@@ -60,6 +60,7 @@ def show(lines: Iterable[Line]) -> None:
         for spans in lines:
             text = printable("".join(span.text for span in spans))
             print(text.rstrip())  # noqa: T201 - a command prints
+        sys.stdout.flush()  # a server's lines are read while it goes on
         return
     from rich.console import Console  # noqa: PLC0415 - a pipe needs no colors, and starts sooner
     from rich.text import Text  # noqa: PLC0415 - the same

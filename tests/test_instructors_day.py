@@ -108,7 +108,8 @@ def start(words: list[str], *, cwd: Path, **how: object) -> "subprocess.Popen[st
     """Start one of our commands as a terminal would."""
     code = f"from {PROGRAMS[words[0]]} import main; main()"
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "200", "PYTHONUTF8": "1"}
-    environment.pop("SYSID_SECRET", None)
+    for name in ("SYSID_SECRET", "PYTHONUNBUFFERED"):
+        environment.pop(name, None)
     return subprocess.Popen(
         [sys.executable, "-P", "-c", code, *words[1:]], cwd=cwd, env=environment, encoding="utf-8",
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **how,

@@ -427,7 +427,8 @@ def serving(root, homes, roster):
     command = [sys.executable, "-c", "from grader.cli import main; main()", "serve", str(homes),
                "--roster", str(roster), "--host", "127.0.0.1", "--port", "0",
                "--unprotected"]  # fmt: skip
-    environment = {**os.environ, "PYTHONPATH": str(root), "PYTHONUNBUFFERED": "1"}
+    environment = {**os.environ, "PYTHONPATH": str(root)}
+    environment.pop("PYTHONUNBUFFERED", None)
     running = subprocess.Popen(
         command, cwd=root, env=environment, stdout=subprocess.PIPE, encoding="utf-8"
     )
