@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from grader.notebook import submit
-    from grader.quick import Quick, QuickNumber
+    from grader.quick_check_widget import QuickCheck, QuickNumberCheck
 
-__all__ = ["Quick", "QuickNumber", "submit"]
+__all__ = ["QuickCheck", "QuickNumberCheck", "submit"]
 
-_WHERE = {"submit": "notebook", "Quick": "quick", "QuickNumber": "quick"}
+_WHERE = {
+    "submit": "notebook",
+    "QuickCheck": "quick_check_widget",
+    "QuickNumberCheck": "quick_check_widget",
+}
 
 
 def __getattr__(name: str) -> object:

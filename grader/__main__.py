@@ -18,7 +18,7 @@ from importlib.metadata import PackageNotFoundError, distribution
 from importlib.util import find_spec
 from pathlib import Path
 
-from grader.foreground import INTERRUPTED, run
+from grader.exec_process import INTERRUPTED, run
 
 OLDEST = (3, 11)
 ROOT = Path(__file__).resolve().parent.parent
@@ -49,10 +49,10 @@ def main(arguments: list[str]) -> int:
             "Get one from python.org, and start the course with it.",
         )
     try:
-        if not lacking(arguments[:1]):
+        if not missing_packages(arguments[:1]):
             return _go(arguments)
         if not (ROOT / "pyproject.toml").is_file():
-            names = ", ".join(lacking(arguments[:1]))
+            names = ", ".join(missing_packages(arguments[:1]))
             return _give_up(f"{names} not installed", "python -m pip install sysid-course[test]")
         if in_environment() or HOPPED in os.environ:
             return _install_and_go(arguments)
@@ -61,7 +61,7 @@ def main(arguments: list[str]) -> int:
         return INTERRUPTED
 
 
-def lacking(command: list[str]) -> list[str]:
+def missing_packages(command: list[str]) -> list[str]:
     """What has to be installed before a command can run: names of packages.
 
     Args:
@@ -138,7 +138,7 @@ def _make(folder: Path) -> tuple[str, str] | None:
 
 
 def _install_and_go(arguments: list[str]) -> int:
-    names = lacking(arguments[:1])
+    names = missing_packages(arguments[:1])
     if INSTALLED in os.environ:
         return _give_up(
             f"{', '.join(names)} is still missing after installing",

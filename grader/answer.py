@@ -7,9 +7,9 @@ never the distance, and never the key.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from grader.check import Wrong, shortened
-from grader.measure import NotAUnitError, read_number, read_unit
-from grader.slip import MANY, Scene, Slip, suspects
+from grader.check import Wrong, shorten
+from grader.quantity import NotAUnitError, read_number, read_unit
+from grader.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
 
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
 HALF = 0.5  # [share] of the points inside the wider band
@@ -94,7 +94,7 @@ def gains_asked(gains: Mapping[str, float], *, position: str) -> dict[str, Asked
     return {name: Asked(name, gains[name], units[name], bands[name]) for name in gains}
 
 
-def number(raw: object, asked: Asked) -> float:
+def read_answer_number(raw: object, asked: Asked) -> float:
     """An answer as a number in the unit asked for.
 
     Raises:
@@ -113,7 +113,7 @@ def number(raw: object, asked: Asked) -> float:
         raise Wrong(f"a {kind}, not one number", hint=ask)
     found = read_number(raw)
     if found is None:
-        raise Wrong(f'"{shortened(raw)}", which is not one number', hint=ask)
+        raise Wrong(f'"{shorten(raw)}", which is not one number', hint=ask)
     value, unit = found
     return _finite(value * _scale(unit, asked) if unit else value, asked)
 
@@ -147,7 +147,7 @@ def _scale(unit: str, asked: Asked) -> float:
     return given.factor / wanted.factor
 
 
-def judge(name: str, given: Mapping[str, object], key: Key, *, points: float) -> str | None:
+def judge_number(name: str, given: Mapping[str, object], key: Key, *, points: float) -> str | None:
     """Judge one of the numbers.
 
     Args:
@@ -163,7 +163,7 @@ def judge(name: str, given: Mapping[str, object], key: Key, *, points: float) ->
         Wrong: it is not right; with what it may have been.
     """
     asked, raw = key.asked[name], given.get(name)
-    value = number(raw, asked)
+    value = read_answer_number(raw, asked)
     shown = f"{value:.4g} {asked.unit}"
     converted = isinstance(raw, str) and bool((read_number(raw) or (0, ""))[1])
     if asked.right(value):
@@ -188,7 +188,7 @@ def judge(name: str, given: Mapping[str, object], key: Key, *, points: float) ->
     )
 
 
-def diagnose(name: str, given: Mapping[str, object], key: Key) -> tuple[Slip, ...]:
+def diagnose(name: str, given: Mapping[str, object], key: Key) -> tuple[WrongNumber, ...]:
     """The slips that would explain a wrong number; those another wrong number shares come alone."""
     found = _suspects(name, given, key)
     for other in key.asked:
@@ -199,29 +199,29 @@ def diagnose(name: str, given: Mapping[str, object], key: Key) -> tuple[Slip, ..
     return found if len(found) <= MANY else ()
 
 
-def _suspects(name: str, given: Mapping[str, object], key: Key) -> tuple[Slip, ...]:
+def _suspects(name: str, given: Mapping[str, object], key: Key) -> tuple[WrongNumber, ...]:
     value = _value(name, given, key)
     asked = key.asked[name]
     if value is None or asked.right(value):
         return ()
     numbers = {other: one.expected for other, one in key.asked.items()}
-    found = suspects(name, value, right=asked.right, key=numbers, scene=key.scene)
+    found = explain_wrong_number(name, value, right=asked.right, key=numbers, scene=key.scene)
     for other, one in key.asked.items():
         theirs = _value(other, given, key)
         if other != name and theirs is not None and one.right(value) and asked.right(theirs):
             says = f"it would be right for {other}, and yours for {other} for {name}: swapped?"
-            found += (Slip("swapped", says, "M-ARGORDER"),)
+            found += (WrongNumber("swapped", says, "M-ARGORDER"),)
     return found
 
 
 def _value(name: str, given: Mapping[str, object], key: Key) -> float | None:
     try:
-        return number(given.get(name), key.asked[name])
+        return read_answer_number(given.get(name), key.asked[name])
     except Wrong:
         return None
 
 
-def _said(name: str, value: float, slips: tuple[Slip, ...]) -> str:
+def _said(name: str, value: float, slips: tuple[WrongNumber, ...]) -> str:
     if slips:
         return "; or ".join(slip.says for slip in slips)
     if value < 0:

@@ -25,7 +25,7 @@ Subject = TypeVar("Subject")
 LONGEST_SHOWN = 40  # [characters] of an answer that is shown back
 
 
-def shortened(raw: object) -> str:
+def shorten(raw: object) -> str:
     """An answer as it is shown back: on one line, and not too much of it."""
     text = " ".join(str(raw).split())
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}…"
@@ -167,12 +167,12 @@ def run_all(checks: Sequence[Check[Subject]], subject: Subject) -> tuple[Result,
         blocked = [first for first in one.after if results[first.id].status is not Status.PASSED]
         if blocked:
             first = blocked[0].description
-            results[one.id] = skipped(one, f"looked at once this is right: {first}")
+            results[one.id] = skip_check(one, f"looked at once this is right: {first}")
         else:
             results[one.id] = one.run(subject)
     return tuple(results.values())
 
 
-def skipped(one: Check[Subject], reason: str) -> Result:
+def skip_check(one: Check[Subject], reason: str) -> Result:
     """The result of a check that was not run."""
     return Result(one.id, one.description, Status.NOT_REACHED, 0.0, one.points, reason)

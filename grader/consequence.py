@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sim.feedback.following import Followed
+    from sim.feedback.following import FollowedProfile
 
 
 class Drawn(Protocol):
@@ -47,7 +47,7 @@ class Consequence:
     draw: Callable[[], Drawn]
 
 
-def motions(followed: "Sequence[Followed]") -> Consequence:
+def follow_profiles(followed: "Sequence[FollowedProfile]") -> Consequence:
     """What becomes of profiles that mechanisms follow by a learner's feedforward alone.
 
     Args:
@@ -57,8 +57,10 @@ def motions(followed: "Sequence[Followed]") -> Consequence:
     words = f"Your numbers as feedforward, without feedback. {told}"
 
     def draw() -> Drawn:
-        from sim.plot.outcome import outcome, traces  # noqa: PLC0415 - only who draws waits for it
+        from sim.plot.consequence import consequence, profile_traces  # noqa: PLC0415 - only who draws waits for it
 
-        return outcome([trace for one in followed for trace in traces(one)], words=words)
+        return consequence(
+            [trace for one in followed for trace in profile_traces(one)], words=words
+        )
 
     return Consequence(words, draw)

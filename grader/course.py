@@ -10,8 +10,8 @@ from importlib import import_module
 from itertools import chain, count
 from pathlib import Path
 
+from grader.class_package import PLACE as ISSUED
 from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
-from grader.issued import PLACE as ISSUED
 from grader.variant import student_name
 from sim.atomic_file import write_atomically
 from sim.errors import BadRequest, Refusal
@@ -110,7 +110,7 @@ class Progress:
         return self.with_standing(student, exercise, replace(old, hints=max(hints, old.hints)))
 
 
-def load(course: Path) -> tuple[Progress, str]:
+def load_progress(course: Path) -> tuple[Progress, str]:
     """Read the progress kept in a course folder.
 
     Returns:
@@ -176,7 +176,7 @@ def update_progress(course: Path, change: Callable[[Progress], Progress]) -> str
     try:
         path.parent.mkdir(exist_ok=True)
         with _locked(path.with_name("progress.lock")):
-            before, said = load(course)
+            before, said = load_progress(course)
             after = change(before)
             if after != before or said:
                 write_atomically(path, _text(after))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from grader.isolation import level
+from grader.isolation import isolation_level
 
 OLDEST = (3, 11)
 NEEDED = ("numpy", "scipy", "matplotlib", "numba", "jupyterlab", "ipywidgets", "tree-sitter")
@@ -73,9 +73,9 @@ def _version(name: str) -> str | None:
 
 
 def _engine() -> Finding:
-    from sim.engine import compiled  # noqa: PLC0415 - it needs what may be missing
+    from sim.engine import engine_is_cached  # noqa: PLC0415 - it needs what may be missing
 
-    ready = compiled()
+    ready = engine_is_cached()
     found = "compiled" if ready else "not compiled yet; the first simulation takes ten seconds"
     return Finding("simulation", found, ready, needed=False, advice="grade start compiles it.")
 
@@ -94,7 +94,7 @@ def _terminal() -> Finding:
 
 
 def _isolation() -> Finding:
-    found = level()
+    found = isolation_level()
     right = found.startswith("isolated")
     advice = (
         "Fine for your own answers. Grade a class's code on Linux, where it can be shut in, or in "

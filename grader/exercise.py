@@ -32,7 +32,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.check import Check, Result, Status, run_all, skipped
+from grader.check import Check, Result, Status, run_all, skip_check
 from grader.consequence import Consequence
 from grader.submission import find_files, whole_answer
 from sim.errors import BadRequest, Refusal
@@ -86,7 +86,7 @@ class Exercise:
         """Its checks.py, loaded by path under a name of its own."""
         path = self.folder / "checks.py"
         own = hashlib.sha256(str(path).encode("utf-8", "surrogatepass")).hexdigest()[:12]
-        name = f"_checks_of_{self.name}_{own}"  # the same in each process: see grader.kept
+        name = f"_checks_of_{self.name}_{own}"  # the same in each process: see grader.draw_cache
         spec = importlib.util.spec_from_file_location(
             name, path, submodule_search_locations=[str(self.folder)]
         )
@@ -171,7 +171,7 @@ class Exercise:
             files = find_files(whole, folder=self.folder, names=self.files)
         except Refusal as refusal:
             return self._ungradable(str(refusal), student=student)
-        return best([self._grade_file(file, student=student, run=run) for file in files])
+        return best_grade([self._grade_file(file, student=student, run=run) for file in files])
 
     def consequence(self, grade: Grade) -> Consequence | None:
         """What an answer would do on the robot; None where it is all right, or nothing is to see.
@@ -212,7 +212,7 @@ class Exercise:
         return Grade(self.name, student, score, most, status, results, file, reason)
 
     def _ungradable(self, reason: str, *, student: str) -> Grade:
-        results = tuple(skipped(one, reason) for one in self.checks)
+        results = tuple(skip_check(one, reason) for one in self.checks)
         most = sum(one.points for one in self.checks)
         return Grade(self.name, student, 0.0, most, "ungradable", results, reason=reason)
 
@@ -221,7 +221,7 @@ def _points(results: Sequence[Result]) -> list[tuple[float, float]]:
     return [(result.points, result.max_points) for result in results] or [(0.0, 0.0)]
 
 
-def best(grades: Sequence[Grade]) -> Grade:
+def best_grade(grades: Sequence[Grade]) -> Grade:
     """The grade to show: the highest score; where nothing scored, one that could not be read.
 
     A file with a syntax error is more likely the one being worked on than an untouched starter.
@@ -247,7 +247,7 @@ def _number(name: str) -> int:
     return int(digits[0]) if digits else sys.maxsize
 
 
-def find(asked: str, course: Path) -> Exercise:
+def find_exercise(asked: str, course: Path) -> Exercise:
     """The exercise that is meant: ``exercise4``, ``ex4`` or ``4``.
 
     Raises:

@@ -17,13 +17,13 @@ def fingerprint_packages(tops: Iterable[Path]) -> str:
     """A text that changes with what an author wrote in these folders."""
     found = hashlib.sha256()
     for top in tops:
-        for path in files(top):
+        for path in authored_files(top):
             found.update(f"{top.name}/{path.relative_to(top).as_posix()}\0".encode())
             found.update(hashlib.sha256(path.read_bytes()).digest())
     return found.hexdigest()
 
 
-def files(top: Path) -> list[Path]:
+def authored_files(top: Path) -> list[Path]:
     """What an author wrote in a folder, in order."""
     return sorted(
         path

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from grader.check import Result, Status
+from grader.class_package import explain_no_grading, find_learner, read_class_package
 from grader.consequence import Consequence
-from grader.course import find_course, load, update_progress
-from grader.exercise import Exercise, Grade, find
-from grader.issued import issued, learner, only_there
-from grader.report import MARKS, SPOKEN, received, to_lines, told_of
+from grader.course import find_course, load_progress, update_progress
+from grader.exercise import Exercise, Grade, find_exercise
+from grader.report import MARKS, SPOKEN, check_feedback, to_lines, to_receipt
 from grader.submission import read_answers
 from grader.terminal import Line, complain, line
 from sim.atomic_file import write_atomically
@@ -77,17 +77,17 @@ def submit(
         The result, which a cell shows. What cannot be graded is shown in one line, too.
     """
     folder = find_course(Path.cwd()) if course is None else course
-    progress, said = load(folder)
+    progress, said = load_progress(folder)
     if said:
         complain(said)
     try:
-        who = learner(folder, known=progress.student, student=student)
-        one = find(str(exercise), folder)
+        who = find_learner(folder, known=progress.student, student=student)
+        one = find_exercise(str(exercise), folder)
         if answers:
             write(one, answers)
-        of_class = issued(folder)
+        of_class = read_class_package(folder)
         if of_class and one.personal and of_class.is_for(who):
-            return _received(one, only_there(one.name, of_class))
+            return _received(one, explain_no_grading(one.name, of_class))
         one.prepare(who, say=lambda _: None)
         grade = one.grade(None, student=who)
     except Refusal as refusal:
@@ -158,7 +158,7 @@ def _refused(said: str) -> Shown:
 
 
 def _received(exercise: Exercise, said: Refusal) -> Shown:
-    rows = received(exercise, None)
+    rows = to_receipt(exercise, None)
     text = "\n".join("".join(span.text for span in row) for row in rows)
     html = f"<pre>{escape(text)}</pre><p>{escape(str(said))}</p>"
     return Shown((*rows, line(str(said))), html)
@@ -186,7 +186,7 @@ def _check(result: Result) -> str:
     points = f"{result.points:g} of {result.max_points:g}"
     told = "".join(
         f"<div style='margin-left:1.6em'>{escape(word)}{escape(text)}</div>"
-        for word, text in told_of(result)
+        for word, text in check_feedback(result)
         if text
     )
     style = f"margin:0.35em 0;padding-left:0.6em;border-left:4px solid {STYLE[result.status]}"

@@ -13,12 +13,12 @@ from pathlib import Path
 
 import tomlkit
 
+from grader.class_package import PLACE, ClassPackage
 from grader.classroom.bundle import Bundle
 from grader.classroom.secret import identity_seal, seal
 from grader.exercise import exercises
-from grader.issued import PLACE, Issued
 from grader.package_files import select_package_files
-from grader.variant import folder_name, of_class
+from grader.variant import class_secret, folder_name
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Package:
         return f"Package({self.student!r})"
 
 
-def common(course: Path) -> bytes:
+def common_package(course: Path) -> bytes:
     """The zip file for everybody.
 
     Raises:
@@ -51,13 +51,13 @@ def common(course: Path) -> bytes:
     return zip_files(select_package_files(course).files)
 
 
-def own(package: Package) -> tuple[str, bytes]:
+def student_package(package: Package) -> tuple[str, bytes]:
     """One student's numbers: their name, and the zip file to unpack over the course."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as there:
         course = Path(there)
         with zipfile.ZipFile(io.BytesIO(package.course.content)) as archive:
             archive.extractall(course)
-        with of_class(package.secret):
+        with class_secret(package.secret):
             for one in exercises(course):
                 one.prepare(package.student, say=lambda _: None)
         made = {
@@ -91,7 +91,7 @@ def zip_files(files: Mapping[str, bytes]) -> bytes:
     return stream.getvalue()
 
 
-def broken_seals(course: Path, found: Issued, *, secret: bytes) -> list[str]:
+def find_broken_seals(course: Path, found: ClassPackage, *, secret: bytes) -> list[str]:
     """Files of a course folder that are not as the class gave them to this student."""
 
     def whole(path: Path, expected: str) -> bool:

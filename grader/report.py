@@ -72,7 +72,7 @@ def _spoken(lines: list[Line]) -> list[Line]:
     ]
 
 
-def received(exercise: Exercise, file: Path | None) -> list[Line]:
+def to_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
     """What can be read of an answer that somebody else will grade.
 
     Raises:
@@ -106,7 +106,7 @@ def _result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
         rows = [line(f"{mark} {result.description}, {points} points", style)]
     else:
         rows = _row(result.description, points, mark, style)
-    for word, text in told_of(result):
+    for word, text in check_feedback(result):
         if text and text not in said:
             rows += wrapped(text, lead=f"{INDENT}{word}")
         if word in ONCE:
@@ -122,7 +122,7 @@ def _row(description: str, points: str, mark: str, style: str) -> list[Line]:
     return rows
 
 
-def told_of(result: Result) -> list[tuple[str, str]]:
+def check_feedback(result: Result) -> list[tuple[str, str]]:
     """What stands under a check: a word that leads, and what is said."""
     if result.status is Status.PASSED:
         return [("note ", result.hint)]

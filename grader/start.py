@@ -8,13 +8,13 @@ import sysconfig
 from pathlib import Path
 
 from grader.course import Progress
+from grader.draw_cache import cached_draws
+from grader.exec_process import INTERRUPTED, run
 from grader.exercise import exercises
-from grader.foreground import INTERRUPTED, run
-from grader.kept import keeping
 from grader.report import overview
 from grader.terminal import line, show
-from sim.command import COULD_NOT, DONE
-from sim.engine import compiled, ready
+from sim.cli_support import COULD_NOT, DONE
+from sim.engine import engine_is_cached, load_engine
 from sim.errors import BadRequest
 
 # Nothing leaves the machine: no news, no look for updates, no catalogue of extensions. And no chat.
@@ -45,10 +45,10 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     show([line("Welcome to the SysId course.", "bold"), line()])
     show([*overview(course, found, progress, student=student), line()])
     sys.stdout.flush()
-    if not compiled():
+    if not engine_is_cached():
         _say("Compiling the simulation, once; this takes about ten seconds…")
-        ready()
-    with keeping():  # what is drawn now, the first answer need not wait for
+        load_engine()
+    with cached_draws():  # what is drawn now, the first answer need not wait for
         for one in found:
             one.prepare(student, say=_say)
     command = "grade"

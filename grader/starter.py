@@ -20,7 +20,7 @@ ANSWER = re.compile(
 )
 
 
-def blank(solution: str) -> str:
+def remove_answers(solution: str) -> str:
     """Take the answers out of a solution, and leave what is to be done in their place.
 
     A task may go on over several lines, each under ``# ---   ``.

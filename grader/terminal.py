@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from sim import command
+from sim import cli_support
 from sim.printable import printable
 
 WIDEST = 80  # [columns] longer lines are harder to read
@@ -72,4 +72,4 @@ def show(lines: Iterable[Line]) -> None:
 
 def complain(said: str) -> None:
     """One line to standard error."""
-    command.complain(said, name="grade")
+    cli_support.complain(said, name="grade")

@@ -20,8 +20,15 @@ if TYPE_CHECKING:
     import numpy as np
 
 __all__ = [
-    "SELF_STUDY", "alone", "folder_name", "generator", "of_class", "once_each", "same", "seed",
+    "SELF_STUDY",
+    "cache_draws",
+    "class_secret",
+    "folder_name",
+    "is_self_study",
+    "same",
     "student_name",
+    "student_rng",
+    "student_seed",
 ]  # fmt: skip
 
 Drawn = TypeVar("Drawn")
@@ -32,7 +39,7 @@ _SECRET = ContextVar("secret", default=SELF_STUDY)
 
 
 @contextmanager
-def of_class(secret: bytes) -> Iterator[None]:
+def class_secret(secret: bytes) -> Iterator[None]:
     """Draw the numbers of a class with this secret, as long as the block lasts."""
     token = _SECRET.set(secret)
     try:
@@ -41,12 +48,12 @@ def of_class(secret: bytes) -> Iterator[None]:
         _SECRET.reset(token)
 
 
-def alone() -> bool:
+def is_self_study() -> bool:
     """Whether numbers are drawn for self-study, and not for a class."""
     return _SECRET.get() == SELF_STUDY
 
 
-def seed(student: str, exercise: str, *, secret: bytes | None = None) -> int:
+def student_seed(student: str, exercise: str, *, secret: bytes | None = None) -> int:
     """The number everything of this student's exercise is drawn from.
 
     Args:
@@ -59,7 +66,7 @@ def seed(student: str, exercise: str, *, secret: bytes | None = None) -> int:
     return int.from_bytes(hmac.new(secret, message, hashlib.sha256).digest(), "big")
 
 
-def generator(
+def student_rng(
     student: str, exercise: str, *, draw: int = 0, secret: bytes | None = None
 ) -> "np.random.Generator":
     """A source of random numbers of this student's own, the same on every machine.
@@ -74,10 +81,10 @@ def generator(
     import numpy as np  # noqa: PLC0415 - most exercises draw nothing, and start at once
 
     name = f"{exercise}#{draw}" if draw else exercise
-    return np.random.Generator(np.random.PCG64(seed(student, name, secret=secret)))
+    return np.random.Generator(np.random.PCG64(student_seed(student, name, secret=secret)))
 
 
-def once_each(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
+def cache_draws(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
     """Remember what was drawn for the last few students, each class's apart.
 
     What a learner works on is drawn when it is handed out and again when it is graded.

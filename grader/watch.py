@@ -28,18 +28,18 @@ def watch(
         The exit code of the last grading.
     """
     while True:
-        seen = state(exercise)
+        seen = file_state(exercise)
         if sys.stdout.isatty():
             sys.stdout.write(CLEAR)
         code = grade()
         sys.stdout.flush()
         if code == 0:
             return code
-        while state(exercise) == seen:
+        while file_state(exercise) == seen:
             wait(PAUSE)
 
 
-def state(exercise: Exercise) -> tuple[tuple[str, int, int], ...]:
+def file_state(exercise: Exercise) -> tuple[tuple[str, int, int], ...]:
     """What changes when a file of the exercise is saved: names, times and sizes."""
     found = []
     for name in exercise.files:
@@ -51,11 +51,13 @@ def state(exercise: Exercise) -> tuple[tuple[str, int, int], ...]:
     return tuple(found)
 
 
-def first_open(exercises: tuple[Exercise, ...], done: Callable[[str], bool]) -> Exercise | None:
+def first_unfinished(
+    exercises: tuple[Exercise, ...], done: Callable[[str], bool]
+) -> Exercise | None:
     """The first exercise that is not done yet."""
     return next((one for one in exercises if not done(one.name)), None)
 
 
-def place(exercise: Exercise, course: Path) -> str:
+def display_path(exercise: Exercise, course: Path) -> str:
     """Where its files are, seen from the course folder."""
     return (exercise.folder / exercise.files[0]).relative_to(course).as_posix()

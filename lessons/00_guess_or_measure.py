@@ -62,11 +62,19 @@ from IPython.display import display
 
 import sim
 from sim.fit import fit
-from sim.guess import Guess
 from sim.mechanism import Mechanism
 from sim.mechanisms import MECHANISMS
-from sim.plot import Picture, Table, chase, live, miss, misses, time_series
-from sim.simulate import motion, simulate
+from sim.plot import (
+    Picture,
+    Table,
+    live,
+    measure_tracking_error,
+    misses,
+    time_series,
+    tracking_error,
+)
+from sim.simulate import move_gains_only, simulate
+from sim.teaching.prediction import Prediction
 
 # %% [markdown]
 # ## 2 Your robot
@@ -111,7 +119,7 @@ def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
     v = (TARGET[:-1] + TARGET[1:]) / 2  # the wished velocity, from one loop to the next
     a = np.diff(TARGET) / np.diff(TIME)  # the wished acceleration
     volts = gains["kS"] * np.sign(v) + gains["kV"] * v + gains["kA"] * a
-    _, velocity = motion(driven.gains, time=TIME, voltage=np.append(volts, 0.0))
+    _, velocity = move_gains_only(driven.gains, time=TIME, voltage=np.append(volts, 0.0))
     return velocity
 
 
@@ -132,7 +140,7 @@ def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
 # (No buttons on your screen? Type `guess_race.value = "the three lines"` in a cell.)
 
 # %%
-guess_race = Guess(
+guess_race = Prediction(
     "You have 90 seconds by hand, the other side has three lines of code. Who gets the smaller "
     "typical miss?",
     "me, clearly",
@@ -151,10 +159,10 @@ def attempt(ks: float, kv: float) -> Picture:
     """One try: drive with a guess, and see. The first move starts the clock."""
     velocity = drive(robot, {"kS": ks, "kV": kv, "kA": 0.0})
     if tries or (ks, kv) != START:
-        tries.append((monotonic(), ks, kv, miss(TARGET, velocity).typical))
+        tries.append((monotonic(), ks, kv, measure_tracking_error(TARGET, velocity).typical))
     left = SECONDS - (tries[-1][0] - tries[0][0] if tries else 0.0)
     title = f"try {len(tries)}: {left:.0f} s left" if left >= 0 else "time is up: this one is late"
-    return chase(TIME, TARGET, {"your robot": velocity}, title=title)
+    return tracking_error(TIME, TARGET, {"your robot": velocity}, title=title)
 
 
 live(
@@ -202,7 +210,7 @@ guessed = {"kS": best_ks, "kV": best_kv, "kA": 0.0}
 
 print(f"You said: {guess_race}.")
 print(f"You made {len(counted)} tries in time." if counted else "You have not tried yet.")
-chase(
+tracking_error(
     TIME, TARGET, {"your best try": drive(robot, guessed), "three lines": followed}, title="Finish"
 )
 
@@ -210,7 +218,7 @@ chase(
 # %%
 def row(who: str, gains: dict[str, float]) -> tuple[str | float, ...]:
     """Gains, and how well they drive the robot."""
-    off = miss(TARGET, drive(robot, gains))
+    off = measure_tracking_error(TARGET, drive(robot, gains))
     return (who, gains["kS"], gains["kV"], gains["kA"], off.typical)
 
 
@@ -218,7 +226,7 @@ def best_of_two_knobs() -> dict[str, float]:
     """Try every pair of kS and kV, as nobody has the time to."""
     pairs = [(ks, kv) for ks in np.arange(0.0, 0.61, 0.05) for kv in np.arange(2.0, 3.51, 0.05)]
     found = [{"kS": float(ks), "kV": float(kv), "kA": 0.0} for ks, kv in pairs]
-    return min(found, key=lambda gains: miss(TARGET, drive(robot, gains)).typical)
+    return min(found, key=lambda gains: measure_tracking_error(TARGET, drive(robot, gains)).typical)
 
 
 two_knobs = best_of_two_knobs()
@@ -273,7 +281,7 @@ print(f"The longest one drives {farthest:.1f} m. (It can be done with less: less
 # **Predict:**
 
 # %%
-guess_pencil = Guess(
+guess_pencil = Prediction(
     "How far is the pencil's kV from the truth?",
     "about 20 % off",
     "about 5 % off",
@@ -289,7 +297,7 @@ rng = np.random.default_rng(2)
 def steady_speed(volts: float) -> float:
     """The speed that somebody reads off the dashboard after a second, to two decimals."""
     time = np.arange(0.0, 1.5, 0.02)
-    _, velocity = motion(robot.gains, time=time, voltage=np.full(time.size, volts))
+    _, velocity = move_gains_only(robot.gains, time=time, voltage=np.full(time.size, volts))
     shaky = velocity[-25:] + robot.sensor.velocity_noise * rng.standard_normal(25)
     return round(float(np.mean(shaky)), 2)
 
@@ -381,8 +389,8 @@ Table(
 # **Predict**, twice:
 
 # %%
-guess_gain = Guess("Which gain of the robot moves?", "kS", "kV", "kA", "all three")
-guess_worse = Guess(
+guess_gain = Prediction("Which gain of the robot moves?", "kS", "kV", "kA", "all three")
+guess_worse = Prediction(
     "You keep the gains of your best try. Do you see that it drives worse?",
     "yes, clearly",
     "hardly",
@@ -407,7 +415,7 @@ def week_three(kg: float) -> Picture:
         "three lines, kept": drive(heavy, measured),
         "three lines, measured again": drive(heavy, again),
     }
-    return chase(TIME, TARGET, racers, title=f"+{kg:g} kg")
+    return tracking_error(TIME, TARGET, racers, title=f"+{kg:g} kg")
 
 
 live(
@@ -426,8 +434,8 @@ week_three(4.0)
 # %%
 BRACE = 4.0  # [kg]
 heavy, again = with_brace(BRACE)
-before = miss(TARGET, drive(robot, guessed)).typical
-after = miss(TARGET, drive(heavy, guessed)).typical
+before = measure_tracking_error(TARGET, drive(robot, guessed)).typical
+after = measure_tracking_error(TARGET, drive(heavy, guessed)).typical
 
 print(f"You said: {guess_gain}; {guess_worse}.")
 print(f"Your best try missed by {before:.3f} m/s before the brace, and by {after:.3f} m/s with it.")
@@ -631,9 +639,9 @@ else:
 # `quick.answer("kS")`, or another of the answers, in a cell.)
 
 # %%
-from grader import Quick
+from grader import QuickCheck
 
-quick = Quick(
+quick = QuickCheck(
     "Which gain moved when the 4 kg brace came on?",
     {
         "kS": "Friction sits in gears and bearings. Four kilograms more hardly change it.",

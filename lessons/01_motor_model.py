@@ -44,14 +44,14 @@ import numpy as np
 from IPython.display import display
 
 import sim
-from sim.duty_cycle import Battery, by_duty_cycle
+from sim.duty_cycle import Battery, simulate_duty_cycle
 from sim.fit import fit
-from sim.guess import Guess
 from sim.mechanism import Mechanism
 from sim.mechanisms import MECHANISMS
 from sim.motors import MOTORS, theoretical_kv
-from sim.plot import Picture, Table, budget, change, curves, gauge, live
-from sim.simulate import motion, simulate
+from sim.plot import Picture, Table, budget, curves, gauge, live, relative_change
+from sim.simulate import move_gains_only, simulate
+from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
 gains = drivetrain.gains
@@ -111,7 +111,7 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "together [V]"), tu
 # **Predict.** (No buttons? Type `guess_seven.value = "friction"` in a cell.)
 
 # %%
-guess_seven = Guess(
+guess_seven = Prediction(
     "Where do the other volts go?",
     "friction",
     "they turn into heat, and are lost",
@@ -147,10 +147,10 @@ print(f"A robot that is truly steady there has another kV: {(7.0 - gains['kS']) 
 # **Predict:**
 
 # %%
-guess_step = Guess(
+guess_step = Prediction(
     "Right after the sudden step, which term takes the most volts?", "kS·sgn(v)", "kV·v", "kA·a"
 )
-guess_ramp = Guess(
+guess_ramp = Prediction(
     "And halfway through the slow ramp?",
     "kS·sgn(v)",
     "kV·v",
@@ -178,7 +178,7 @@ def spent(which: str, mass: float, friction: float) -> tuple[np.ndarray, dict, n
     price = replace(drivetrain, load=mass, friction=friction).gains
     time = FINE * np.arange(round(DRIVES[which] / FINE) + 2)  # to the end, and one point more
     applied = voltage(which, time)
-    _, moved = motion(price, time=time, voltage=applied)
+    _, moved = move_gains_only(price, time=time, voltage=applied)
     v, a = (moved[:-1] + moved[1:]) / 2, np.diff(moved) / FINE  # from each point to the next
     shares = (price["kS"] * np.sign(v), price["kV"] * v, price["kA"] * a)
     return time[:-1], dict(zip(TERMS, shares, strict=True)), applied[:-1]
@@ -315,7 +315,7 @@ Table(
 # Now build another robot. **Predict:**
 
 # %%
-guess_gears = Guess(
+guess_gears = Prediction(
     "You swap the 6.75:1 gears for slower ones, 8.14:1. What happens to kV and kA?",
     "both grow",
     "kV grows, kA shrinks",
@@ -338,7 +338,7 @@ def built(mass: float, ratio: float, motors: int, wheel: float) -> dict[str, flo
 def other_parts(mass: float, ratio: float, motors: int, wheel: float) -> Picture:
     """The gains of another robot, divided by those of ours."""
     now = built(mass, ratio, motors, wheel)
-    return change({name: now[name] / gains[name] for name in gains})
+    return relative_change({name: now[name] / gains[name] for name in gains})
 
 
 live(
@@ -443,7 +443,7 @@ Table(
 # **Predict:**
 
 # %%
-guess_cause = Guess(
+guess_cause = Prediction(
     "Which of these can make kV much too large?",
     "10 kg more on the robot",
     "a part that rubs, with the same force at every speed",
@@ -478,7 +478,7 @@ def bench(robot: Mechanism, seed: int) -> sim.Log:
 
 
 tired = Battery(rest=11.0, resistance=0.02)
-sagging = by_duty_cycle(sound, quick, battery=tired, rng=np.random.default_rng(6))
+sagging = simulate_duty_cycle(sound, quick, battery=tired, rng=np.random.default_rng(6))
 STORIES = {
     "sound": bench(sound, 1),
     "10 kg more": bench(replace(sound, load=sound.load + 10), 2),
@@ -591,7 +591,7 @@ def rise(kind: str) -> Picture:
     """How a mechanism gets up to speed after a step of 4 V."""
     time = np.round(np.linspace(0.0, 5 * tau(kind), 251), 4)
     price = MECHANISMS[kind].gains
-    _, velocity = motion(price, time=time, voltage=np.full(time.size, 4.0))
+    _, velocity = move_gains_only(price, time=time, voltage=np.full(time.size, 4.0))
     share = 100 * velocity / ((4.0 - price["kS"]) / price["kV"])
     return curves(
         1000 * time,
@@ -613,7 +613,7 @@ rise("shooter")
 
 # %%
 wheel_time = np.arange(0.0, 3.0, 0.001)
-_, spun = motion(MECHANISMS["shooter"].gains, time=wheel_time, voltage=np.full(3000, 4.0))
+_, spun = move_gains_only(MECHANISMS["shooter"].gains, time=wheel_time, voltage=np.full(3000, 4.0))
 for count in (1, 2, 3):
     share = np.interp(count * tau("shooter"), wheel_time, spun) / spun[-1]
     print(f"The shooter after {count} τ: {100 * share:.0f} % of its final speed")
@@ -706,7 +706,7 @@ red_flag(left=0.15, right=0.45, typical=1.0)
 # %%
 shooter = MECHANISMS["shooter"].gains
 per_rotation = shooter["kV"] * TURN
-guess_unit = Guess(
+guess_unit = Prediction(
     f"A shooter has kV = {per_rotation:.3f} V·s/rot. What is it in V·s/rad?",
     "6.28 times larger",
     "the same",
@@ -770,9 +770,9 @@ print(f"A wheel with kV = 0.8 V·s/rot and 4 in: {0.8 / (math.pi * wheel):.3f} V
 # `quick.answer("0.5 V·s/rad")` in a cell.)
 
 # %%
-from grader import QuickNumber
+from grader import QuickNumberCheck
 
-quick = QuickNumber(
+quick = QuickNumberCheck(
     "A shooter's kV is 0.12 V·s/rot. How much is it per radian, in V·s/rad?",
     0.12 / (2 * math.pi),
     "V·s/rad",

@@ -47,13 +47,13 @@ import numpy as np
 import sim
 from sim.engine import State, move
 from sim.fit import fit
-from sim.fit.known import known
-from sim.guess import Guess
+from sim.fit.information_matrix import information_matrix
 from sim.mechanism import Mechanism
 from sim.mechanisms import MECHANISMS
 from sim.plot import Picture, Table, curves, ellipses, hold_angles, hold_window, live, time_series
-from sim.prepare import prepare
 from sim.simulate import simulate
+from sim.sysid_rows import prepare_rows
+from sim.teaching.prediction import Prediction
 
 elevator, arm = MECHANISMS["elevator"], MECHANISMS["arm"]
 truth = elevator.gains
@@ -90,7 +90,7 @@ print(f"0 V: after 0.4 s it does {let_go(0.0):.2f} m/s. Minus is down.")
 # **Predict** before you run on. (No buttons? Type `guess_load.value = "kG and kA"` in a cell.)
 
 # %%
-guess_load = Guess(
+guess_load = Prediction(
     "A game piece makes the carriage 1.5 times as heavy. Which gains change?",
     "kV and kA",
     "kG and kA",
@@ -145,7 +145,7 @@ print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the
 # **Predict:**
 
 # %%
-guess_hold = Guess(
+guess_hold = Prediction(
     f"Gravity takes {truth['kG']:.2f} V, friction {truth['kS']:.2f} V. You give it "
     f"{truth['kG'] - 0.15:.2f} V, a little less than gravity takes. What does it do?",
     "it sinks slowly",
@@ -288,7 +288,7 @@ edges_picture(0.25)
 # So gravity takes kG·cos(θ) volts. **Predict:**
 
 # %%
-guess_angle = Guess(
+guess_angle = Prediction(
     "The arm stands 60° above level. How much of kG does gravity take there?",
     "all of it",
     "about 9/10",
@@ -449,7 +449,7 @@ time_series(log)
 # **Predict:**
 
 # %%
-guess_type = Guess(
+guess_type = Prediction(
     "We fit this log as Simple, which has no kG. What comes out?",
     "kS takes up kG, the rest is right",
     "the same gains, only kG is missing",
@@ -517,7 +517,7 @@ Table(
 # again. So why not skip the reverse tests, and drive up only? **Predict:**
 
 # %%
-guess_up = Guess(
+guess_up = Prediction(
     "Fit an elevator that was only driven up. What can the fit tell?",
     "all four gains",
     "all but kA",
@@ -556,7 +556,7 @@ def quiet_rows(mechanism: Mechanism, routine: sim.Routine) -> dict:
     """The rows a fit sees of all four tests, as they would be without any noise."""
     sensor = replace(mechanism.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
     seen = simulate(replace(mechanism, sensor=sensor), routine, rng=np.random.default_rng(0))
-    return dict(prepare(seen).rows)
+    return dict(prepare_rows(seen).rows)
 
 
 def noise_of(mechanism: Mechanism) -> float:
@@ -572,7 +572,7 @@ down = all_rows["quasistatic-reverse"]
 def up_and(down_rows: int) -> Picture:
     """How well kS and kG are known from the way up and some rows of the way down."""
     used = {**forward, "quasistatic-reverse": down.where(slice(down_rows))}
-    told = known(used, type="elevator", noise=noise_of(elevator)).about(*SIDES)
+    told = information_matrix(used, type="elevator", noise=noise_of(elevator)).about(*SIDES)
     return ellipses(
         {f"the way up; rows of the way down: {down_rows}": told},
         names=("kS [V]", "kG [V]"),
@@ -610,7 +610,7 @@ for name, mechanism, tests in (
     every = quiet_rows(mechanism, tests)
     for which, ways in (("all four tests", ("forward", "reverse")), ("up only", ("forward",))):
         used = {test: part for test, part in every.items() if test.endswith(ways)}
-        errors = known(used, type=mechanism.type, noise=noise_of(mechanism)).errors
+        errors = information_matrix(used, type=mechanism.type, noise=noise_of(mechanism)).errors
         cells = (errors[gain] if np.isfinite(errors[gain]) else "anything" for gain in SIDES)
         rows.append((f"{name}, {which}", *cells))
 Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard error of each")
@@ -671,7 +671,7 @@ print(f"The slow ramp up had {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.
 # **Predict:** somebody writes `ElevatorFeedforward(kS, kV, kG, kA)`.
 
 # %%
-guess_order = Guess(
+guess_order = Prediction(
     "kV and kG have traded places. The code asks the elevator to stand still. What happens?",
     "it stands still",
     "it sinks",
@@ -712,9 +712,9 @@ print(f"{let_go(wrong, height=0.3):.2f} m/s.")
 # `quick.answer("kG")`, or another of the answers, in a cell.)
 
 # %%
-from grader import Quick
+from grader import QuickCheck
 
-quick = Quick(
+quick = QuickCheck(
     "You raise the voltage until the elevator just does not drop. Which edge is that?",
     {
         "kG − kS": "Friction helps you hold it, so less than kG is enough.",

@@ -43,8 +43,7 @@ from IPython.display import display
 
 import sim
 from sim.fit import fit
-from sim.fit.known import known
-from sim.guess import Guess
+from sim.fit.information_matrix import information_matrix
 from sim.mechanism import Mechanism
 from sim.mechanisms import MECHANISMS
 from sim.model import Part
@@ -59,8 +58,9 @@ from sim.plot import (
     time_series,
     voltage_velocity,
 )
-from sim.prepare import prepare
-from sim.simulate import motion, simulate
+from sim.simulate import move_gains_only, simulate
+from sim.sysid_rows import prepare_rows
+from sim.teaching.prediction import Prediction
 
 drivetrain, shooter = MECHANISMS["drivetrain"], MECHANISMS["shooter"]
 truth = drivetrain.gains
@@ -94,7 +94,7 @@ time_series(log, dynamic_seconds=1.0)
 # zoom in. (No buttons? Type `guess_rise.value = "…"` in a cell, with one of the answers.)
 
 # %%
-guess_rise = Guess(
+guess_rise = Prediction(
     "After the step, how does the speed rise to its top?",
     "evenly, then suddenly flat",
     "quickly first, then slower and slower",
@@ -104,7 +104,7 @@ guess_rise
 
 # %%
 since = np.round(np.arange(0.0, 0.5, 0.005), 3)
-_, speed = motion(truth, time=since, voltage=np.full(since.size, 2.0))
+_, speed = move_gains_only(truth, time=since, voltage=np.full(since.size, 2.0))
 top = (2.0 - truth["kS"]) / truth["kV"]
 tau = truth["kA"] / truth["kV"]
 at_tau = float(np.interp(tau, since, speed))
@@ -155,7 +155,7 @@ curves(
 # **Predict:**
 
 # %%
-guess_drift = Guess(
+guess_drift = Prediction(
     "Which kS, read off a ramp of 1 V/s, is further from the truth?",
     "the drivetrain's",
     "the flywheel's",
@@ -264,14 +264,14 @@ Table(
 # **Predict**, before you switch runs off:
 
 # %%
-guess_drop = Guess(
+guess_drop = Prediction(
     "We lose the dynamic reverse run of this drivetrain. What becomes unknown?",
     "kA",
     "kS",
     "kV",
     "nothing, the errors grow a little",
 )
-guess_ramps = Guess(
+guess_ramps = Prediction(
     "We lose both ramps instead, and keep both steps. What becomes unknown?",
     "kA only",
     "kS only",
@@ -287,7 +287,7 @@ display(guess_drop, guess_ramps)
 # %%
 sensor = replace(drivetrain.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
 quiet = simulate(replace(drivetrain, sensor=sensor), routine, rng=np.random.default_rng(0))
-all_rows = dict(prepare(quiet).rows)
+all_rows = dict(prepare_rows(quiet).rows)
 NOISE = truth["kA"] * drivetrain.sensor.velocity_noise / (np.sqrt(2) * 0.02)  # [V] of a row
 REACH = {"kS": 0.15, "kV": 0.02, "kA": 0.25}
 UNIT = {"kS": "kS [V]", "kV": "kV [V·s/m]", "kA": "kA [V·s²/m]"}
@@ -296,7 +296,7 @@ UNIT = {"kS": "kS [V]", "kV": "kV [V·s/m]", "kA": "kA [V·s²/m]"}
 def map_of(tests: list[str], pair: tuple[str, str]) -> Picture:
     """Where the rows of some runs lie, and how well two gains follow from them."""
     rows = {test: all_rows[test] for test in tests}
-    told = known(rows, type="simple", noise=NOISE).about(*pair)
+    told = information_matrix(rows, type="simple", noise=NOISE).about(*pair)
     return information_map(
         rows,
         told,
@@ -346,7 +346,9 @@ map_picture("all four", "kS and kA")
 # %%
 rows = []
 for name, tests in SETS.items():
-    errors = known({test: all_rows[test] for test in tests}, type="simple", noise=NOISE).errors
+    errors = information_matrix(
+        {test: all_rows[test] for test in tests}, type="simple", noise=NOISE
+    ).errors
     shares = (100 * errors[gain] / truth[gain] for gain in ("kS", "kV", "kA"))
     rows.append((name, *(share if share < 100 else "unknown" for share in shares)))
 print(f"1. You said: {guess_drop}.")
@@ -400,7 +402,7 @@ except sim.Refusal as refusal:
 # **Predict:**
 
 # %%
-guess_lean = Guess(
+guess_lean = Prediction(
     "We fit all four runs with one kS. Which gain suffers the most?",
     "kS",
     "kV",
@@ -454,7 +456,7 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # the robot to reach 1 m/s in the ramp. **Predict:**
 
 # %%
-guess_way = Guess(
+guess_way = Prediction(
     "We halve the ramp, from 1 V/s to 0.5 V/s. How far does the robot travel until it does 1 m/s?",
     "half as far",
     "just as far",
@@ -470,7 +472,7 @@ TEN_FEET = 3.05  # [m]
 def ramp_run(ramp: float, *, lasts: float = 30.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Time, position and speed of the drivetrain in a ramp, on a floor without an end."""
     time = np.arange(0.0, min(lasts, 12.0 / ramp), 0.01)
-    return time, *motion(truth, time=time, voltage=ramp * time)
+    return time, *move_gains_only(truth, time=time, voltage=ramp * time)
 
 
 rows = []
@@ -638,11 +640,11 @@ SLIP = truth["kS"] + truth["kA"] * 1.1 * 9.81
 
 def driven(volts: np.ndarray, *, time: np.ndarray, mark: float) -> tuple[np.ndarray, np.ndarray]:
     """Position and speed of a test that a thumb ends; then 0 V, in brake mode."""
-    place, _ = motion(truth, time=time, voltage=volts)
+    place, _ = move_gains_only(truth, time=time, voltage=volts)
     if place[-1] > mark:
         off = time[int(np.argmax(place > mark))] + REACTION
         volts = np.where(time < off, volts, 0.0)
-    return motion(truth, time=time, voltage=volts)
+    return move_gains_only(truth, time=time, voltage=volts)
 
 
 def plan(ramp: float, step: float, mark: float, room: float) -> Picture:
@@ -722,9 +724,9 @@ plan(ramp=0.5, step=3.5, mark=2.5, room=4.0)
 # `quick.answer("half as far")`, or another of the answers, in a cell.)
 
 # %%
-from grader import Quick
+from grader import QuickCheck
 
-quick = Quick(
+quick = QuickCheck(
     "You halve the ramp and go to the same speed. How far does the mechanism travel?",
     {
         "half as far": "It takes longer to get there. Does it stand still meanwhile?",

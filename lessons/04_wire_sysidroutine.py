@@ -48,12 +48,12 @@ import numpy as np
 from IPython.display import display
 
 import sim
-from sim.duty_cycle import Battery, by_duty_cycle
+from sim.duty_cycle import Battery, simulate_duty_cycle
 from sim.fit import fit
-from sim.guess import Guess
 from sim.mechanisms import MECHANISMS
 from sim.plot import Picture, Table, choices, live, time_series
 from sim.simulate import simulate
+from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
@@ -456,7 +456,7 @@ print(f"first voltage: {ramp.voltage[0]:.3f} V, two loops of 20 ms into a {routi
 # your guess again below. (No buttons on your screen? Type `guess_gain.value = "kA"` in a cell.)
 
 # %%
-guess_gain = Guess(
+guess_gain = Prediction(
     "1. The drive callback says motor.set(volts / 12), the log holds the volts that were asked "
     "for, and the battery is tired. Which gain is off the most?",
     "kS",
@@ -464,7 +464,7 @@ guess_gain = Guess(
     "kA",
     "none of them",
 )
-guess_factor = Guess(
+guess_factor = Prediction(
     "2. Somebody logs turns of the wheel and calls them meters. The wheel measures 4 inches "
     "across. What happens to kV?",
     "it is right anyway",
@@ -472,7 +472,7 @@ guess_factor = Guess(
     "6.3 times too small",
     "2 times too big",
 )
-guess_score = Guess(
+guess_score = Prediction(
     "3. Will the simulated velocity R² fall below 0.9, so that you notice?",
     "yes, for all of them",
     "for some",
@@ -516,7 +516,7 @@ def as_asked(log: sim.Log) -> sim.Log:
 
 
 rng = np.random.default_rng(40)
-sagging = by_duty_cycle(drivetrain, routine, battery=TIRED, rng=rng)
+sagging = simulate_duty_cycle(drivetrain, routine, battery=TIRED, rng=rng)
 # Half the motors need twice the volts for the same force, and friction is a force.
 half = replace(drivetrain, motor_count=2, friction=2 * drivetrain.friction)
 halved = simulate(half, routine, rng=rng)
@@ -685,9 +685,9 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # `quick.answer("none")`, or another of the answers, in a cell.)
 
 # %%
-from grader import Quick
+from grader import QuickCheck
 
-quick = Quick(
+quick = QuickCheck(
     (
         "A drive callback calls motor.set(volts / 12), and the log holds volts. Which gains are "
         "wrong when the battery gives 11 V all the time?"

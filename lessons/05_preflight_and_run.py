@@ -67,13 +67,13 @@ from IPython.display import display
 import sim
 from sim.battery import CONTROLLERS, Battery
 from sim.contaminate import contaminate
+from sim.detect_faults import inspect
 from sim.fit import fit
-from sim.guess import Guess
-from sim.inspection import inspect
 from sim.mechanisms import MECHANISMS
 from sim.plot import Picture, Table, live, runway, time_series
-from sim.runway import GRIP, THUMB, Floor, drive
 from sim.simulate import simulate
+from sim.teaching.prediction import Prediction
+from sim.teaching.runway import GRIP, THUMB, Floor, drive_test
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)  # nobody ends its tests but you
 TRUTH = ROBOT.gains
@@ -103,13 +103,13 @@ Table(
 # `guess_room.value = "more room"` in a cell.)
 
 # %%
-guess_room = Guess(
+guess_room = Prediction(
     "You want to reach 2 m/s. With a ramp half as steep, do you need more room or less?",
     "less room",
     "the same",
     "more room",
 )
-guess_ten = Guess(
+guess_ten = Prediction(
     "0.5 V/s for 10 s is a common setting. How far does our robot go?",
     "about 1 m",
     "about 3 m (10 feet)",
@@ -125,7 +125,7 @@ HALL = Floor(wall=60.0)  # so long that nothing is ever hit
 
 def way_to(speed: float, ramp: float) -> tuple[float, float]:
     """Meters and seconds until the robot is this fast."""
-    went = drive(ROBOT, sim.Routine(ramp=ramp, timeout=11.0 / ramp), test=RAMP, floor=HALL)
+    went = drive_test(ROBOT, sim.Routine(ramp=ramp, timeout=11.0 / ramp), test=RAMP, floor=HALL)
     there = int(np.argmax(went.velocity >= speed))
     return float(went.position[there]), float(went.time[there])
 
@@ -135,7 +135,7 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     way, time = way_to(2.0, ramp)
     rows.append((ramp, time, way, TRUTH["kV"] * 2.0**2 / (2 * ramp)))
 
-slow = drive(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=HALL)
+slow = drive_test(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=HALL)
 print(f"You said: {guess_room}; {guess_ten}.")
 print(f"0.5 V/s for 10 s goes {slow.rests:.1f} m, that is {slow.rests / FOOT:.0f} feet.")
 Table(
@@ -160,7 +160,7 @@ Table(
 # %%
 rows = []
 for ramp in (0.5, 1.0, 2.0):
-    went = drive(ROBOT, sim.Routine(ramp=ramp, timeout=11.0 / ramp), test=RAMP, floor=HALL)
+    went = drive_test(ROBOT, sim.Routine(ramp=ramp, timeout=11.0 / ramp), test=RAMP, floor=HALL)
     there = int(np.argmax(went.position >= 10 * FOOT))
     volts = ramp * went.time[there]
     share = went.velocity[there] / (12.0 / TRUTH["kV"])
@@ -201,14 +201,14 @@ print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 # **Predict:**
 
 # %%
-guess_stop = Guess(
+guess_stop = Prediction(
     "Tape at 7 m, wall at 12 m, a ramp of 1 V/s. Where does the robot stand?",
     "right at the tape",
     "about 1 m past it",
     "about 3 m past it",
     "at the wall",
 )
-guess_check = Guess(
+guess_check = Prediction(
     "You skip one of the five checks. Which one spoils the log although on the floor everything "
     "looks normal?",
     "room",
@@ -230,7 +230,7 @@ WALL = 12.0  # [m]
 def run_it(test: str, tape: float, thumb: float, moment: float) -> Picture:
     """One test in our hall."""
     floor = Floor(wall=WALL, tape=tape, thumb=thumb)
-    return runway(drive(ROBOT, routine, test=test, floor=floor), moment=moment)
+    return runway(drive_test(ROBOT, routine, test=test, floor=floor), moment=moment)
 
 
 live(
@@ -254,7 +254,7 @@ live(
 run_it(RAMP, tape=7.0, thumb=0.3, moment=0.7)
 
 # %%
-went = drive(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
+went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
 top = float(went.velocity.max())
 print(f"You said: {guess_stop}.")
 let_go = float(np.interp(went.released, went.time, went.position))
@@ -292,7 +292,7 @@ def morning(skipped: str, test: str, moment: float) -> Picture:
     if skipped == "5 guard":
         floor = Floor(wall=1.5, watched=1.0)
     robot = TIRED if skipped == "2 battery" else ROBOT
-    return runway(drive(robot, routine, test=test, floor=floor), moment=moment)
+    return runway(drive_test(robot, routine, test=test, floor=floor), moment=moment)
 
 
 live(
@@ -326,7 +326,7 @@ morning("2 battery", STEP, moment=1.0)
 
 # %%
 sound = simulate(ROBOT, routine, rng=np.random.default_rng(5))
-hit = drive(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL)).hit
+hit = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL)).hit
 backward = replace(
     sound,
     runs=tuple(replace(r, position=-r.position, velocity=-r.velocity) for r in sound.runs),
@@ -715,9 +715,9 @@ Table(
 # `quick.answer("always")`, or another of the answers, in a cell.)
 
 # %%
-from grader import Quick
+from grader import QuickCheck
 
-quick = Quick(
+quick = QuickCheck(
     "When is a soft limit bypassed by a SysId test?",
     {
         "always": "A limit set inside the motor controller goes on acting.",

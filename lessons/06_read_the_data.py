@@ -44,27 +44,27 @@ import numpy as np
 from IPython.display import display
 
 import sim
-from sim.calibration import GOOD, cases
 from sim.contaminate import contaminate
-from sim.fault import only
+from sim.detect_faults import inspect
+from sim.fault import select_samples
 from sim.faults import FAULTS
 from sim.fit import fit
-from sim.guess import Guess
-from sim.inspection import inspect
 from sim.mechanisms import MECHANISMS
 from sim.plot import (
     Picture,
     Table,
     acceleration_velocity,
-    badges,
     choices,
     curves,
     live,
+    r2_vs_gain_error,
     time_series,
     timesteps,
     voltage_velocity,
 )
 from sim.simulate import simulate
+from sim.teaching.prediction import Prediction
+from sim.teaching.r2_cases import GOOD, make_cases
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)
 TRUTH = ROBOT.gains
@@ -82,7 +82,7 @@ print(f"kA/kV = {1000 * TAU:.0f} ms: by then nearly two thirds of a new speed is
 # screen? Type `guess_rise.value = "largest at the start"` in a cell.)
 
 # %%
-guess_rise = Guess(
+guess_rise = Prediction(
     "While the velocity rises, the acceleration is…",
     "about constant, then zero",
     "largest at the start, then less and less",
@@ -181,13 +181,13 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # **Predict:**
 
 # %%
-guess_late = Guess(
+guess_late = Prediction(
     "A velocity filter makes the velocity come late. Which plot shows it best?",
     "voltage over velocity",
     "the time steps",
     "the velocity beside the slope of the position",
 )
-guess_gap = Guess(
+guess_gap = Prediction(
     "A few samples are missing. Which gain suffers?",
     "kS most",
     "kV most",
@@ -207,7 +207,7 @@ def spoiled(fault: str, *, test: str | None = None, at: float | None = None) -> 
 
 
 RAMP, STEP = "quasistatic-forward", "dynamic-forward"
-all_cases = cases(rng=np.random.default_rng(0))
+all_cases = make_cases(rng=np.random.default_rng(0))
 by_name = {case.name: case for case in all_cases}
 late_sensor = replace(ROBOT, sensor=replace(ROBOT.sensor, filter=0.224))
 limited = replace(ROBOT, stator=40.0)
@@ -330,7 +330,7 @@ def with_gaps(log: sim.Log, *, share: float, longest: float, rng: np.random.Gene
             keep[place : place + lost] = False
             place += lost + 1
         keep[-1] = True
-        runs.append(only(run, keep))
+        runs.append(select_samples(run, keep))
     return replace(log, runs=tuple(runs))
 
 
@@ -398,7 +398,7 @@ def kept(log: sim.Log, *, end: float, threshold: float) -> sim.Log:
         keep = np.ones(len(run), dtype=bool)
         if run.kind == "quasistatic":
             keep = (run.time - run.time[0] <= end) & (np.abs(run.velocity) >= threshold)
-        runs.append(only(run, keep))
+        runs.append(select_samples(run, keep))
     return replace(log, runs=tuple(runs))
 
 
@@ -489,14 +489,14 @@ Table(
 
 # %%
 wrong = [case for case in all_cases if case.harmful]
-guess_count = Guess(
+guess_count = Prediction(
     f"Of the {len(wrong)} logs that are wrong, how many get a simulated velocity R² above 0.9?",
     "none",
     "about 5",
     "about 10",
     "nearly all",
 )
-guess_robust = Guess(
+guess_robust = Prediction(
     "Which gain is off the most, as a rule?",
     "kS",
     "kV",
@@ -525,7 +525,7 @@ KEYS = {
 def grid(sort: str, truth: str) -> Picture:
     """All logs with their badges, and how far off their gains are if that is to be told."""
     scores = {name: SCORES[SIM][name] for name in sorted(SCORES[SIM], key=KEYS[sort])}
-    return badges(scores, good=GOOD, score=SIM, off=OFF if truth == "reveal" else None)
+    return r2_vs_gain_error(scores, good=GOOD, score=SIM, off=OFF if truth == "reveal" else None)
 
 
 live(
@@ -693,9 +693,9 @@ time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 # `quick.answer("voltage over velocity")`, or another of the answers, in a cell.)
 
 # %%
-from grader import Quick
+from grader import QuickCheck
 
-quick = Quick(
+quick = QuickCheck(
     "Samples come late, some of them by 100 ms. Which plot shows it at a glance?",
     {
         "voltage over velocity": "Time is in neither axis.",

@@ -44,10 +44,9 @@ import numpy as np
 from IPython.display import display
 
 import sim
-from sim.duty_cycle import by_duty_cycle
+from sim.duty_cycle import simulate_duty_cycle
 from sim.feedback import allowed_velocity_error, velocity_loop
 from sim.fit import fit
-from sim.guess import Guess
 from sim.mechanism import Mechanism
 from sim.mechanisms import MECHANISMS
 from sim.plot import (
@@ -61,8 +60,9 @@ from sim.plot import (
     time_series,
     voltage_velocity,
 )
-from sim.prepare import median_filter, prepare
-from sim.simulate import motion, simulate
+from sim.simulate import move_gains_only, simulate
+from sim.sysid_rows import median_filter, prepare_rows
+from sim.teaching.prediction import Prediction
 from sim.units import unit
 
 drivetrain = MECHANISMS["drivetrain"]
@@ -97,13 +97,13 @@ time_series(log, dynamic_seconds=1.0)
 # **Predict** before you run on. (No buttons? Type `guess_line.value = "above it"` in a cell.)
 
 # %%
-guess_line = Guess(
+guess_line = Prediction(
     "Does the line meet standstill at the true kS, below it, or above it?",
     "below it",
     "right at it",
     "above it",
 )
-guess_ramp = Guess(
+guess_ramp = Prediction(
     "And with a ramp twice as fast, is the kS that you read off smaller, the same, or larger?",
     "smaller",
     "the same",
@@ -311,7 +311,7 @@ Table(
 # **Predict:**
 
 # %%
-guess_noise = Guess(
+guess_noise = Prediction(
     "Which slope is too small?", "with noise in y", "with noise in x", "both", "neither"
 )
 guess_noise
@@ -466,7 +466,7 @@ Table(
 # nothing is left:
 
 # %%
-kept = list(prepare(log).rows.values())
+kept = list(prepare_rows(log).rows.values())
 v, volts, a = (
     np.concatenate([getattr(rows, name) for rows in kept])
     for name in ("velocity", "voltage", "acceleration")
@@ -502,7 +502,7 @@ print(
 # **Predict:**
 
 # %%
-guess_choice = Guess(
+guess_choice = Prediction(
     "Which choice hurts kA the most?", "side", "threshold", "filter", "time step", "trim"
 )
 guess_choice
@@ -619,7 +619,7 @@ def simulated(log: sim.Log, gains: dict[str, float]) -> sim.Log:
     """What the gains make of the log's voltages."""
     runs = []
     for run in log.runs:
-        moved, velocity = motion(gains, time=run.time, voltage=run.voltage)
+        moved, velocity = move_gains_only(gains, time=run.time, voltage=run.voltage)
         runs.append(replace(run, position=run.position[0] + moved, velocity=velocity))
     return replace(log, runs=tuple(runs))
 
@@ -682,7 +682,7 @@ print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} in the textbook's sense (means l
 quiet = simulate(drivetrain, routine, rng=np.random.default_rng(3))
 fast_log = simulate(drivetrain, routine, rng=np.random.default_rng(3), period=0.005)
 hard = sim.Routine(ramp=1.0, step=7.0)
-sag = by_duty_cycle(drivetrain, hard, rng=np.random.default_rng(3))
+sag = simulate_duty_cycle(drivetrain, hard, rng=np.random.default_rng(3))
 
 
 def changed(log: sim.Log, *, speed: float = 1.0, asked: bool = False) -> sim.Log:
@@ -755,7 +755,7 @@ Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tupl
 # **Predict** for our quiet drivetrain:
 
 # %%
-guess_filter = Guess(
+guess_filter = Prediction(
     "With a window of 15 samples, kA is…", "still right", "a little too small", "less than half"
 )
 guess_filter
@@ -950,9 +950,9 @@ for doubt in best.doubts:
 # `quick.answer("friction pushes the robot")`, or another of the answers, in a cell.)
 
 # %%
-from grader import Quick
+from grader import QuickCheck
 
-quick = Quick(
+quick = QuickCheck(
     "SysId prints a negative kS. What is the most likely reason?",
     {
         "friction pushes the robot": "Friction cannot push. Look at the log, not at the robot.",

@@ -46,12 +46,12 @@ from IPython.display import display
 
 import sim
 from sim.fit import fit
-from sim.guess import Guess
 from sim.mechanisms import MECHANISMS
 from sim.motors import MOTORS
-from sim.paste import CLASSES, ORDER, snippet
-from sim.plot import Picture, Table, chase, curves, live, miss
+from sim.plot import Picture, Table, curves, live, measure_tracking_error, tracking_error
+from sim.robot_code_snippet import CLASSES, ORDER, robot_code_snippet
 from sim.simulate import simulate
+from sim.teaching.prediction import Prediction
 from sim.units import gains_per
 
 shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
@@ -110,14 +110,14 @@ Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows
 # Here is the same for our shooter. Each number has as many digits as its error allows:
 
 # %%
-print(snippet(found, language="java", season=2026, name="shooter"))
+print(robot_code_snippet(found, language="java", season=2026, name="shooter"))
 
 # %% [markdown]
 # (No buttons on your screen? Type `guess_season.value = "nothing"` in a cell.) **Predict** what
 # differs between 2026 and 2027:
 
 # %%
-guess_season = Guess(
+guess_season = Prediction(
     "From 2026 to 2027, in Java, what changes in these lines?",
     "the gains",
     "the package and a method's name",
@@ -129,7 +129,7 @@ guess_season
 # %%
 for language in ("java", "python"):
     old, new = (
-        snippet(found, language=language, season=season, name="shooter").splitlines()
+        robot_code_snippet(found, language=language, season=season, name="shooter").splitlines()
         for season in (2026, 2027)
     )
     print(f"{language}, lines that are in one season only:")
@@ -172,7 +172,7 @@ print(f"You said: {guess_season}.")
 
 # %%
 lift = elevator.gains
-guess_slot = Guess(
+guess_slot = Prediction(
     "new ElevatorFeedforward(kS, kV, kA, kG), told to hold still. What does the carriage do?",
     "it holds",
     "it sinks",
@@ -300,13 +300,13 @@ GAINS = {
 # **Predict:**
 
 # %%
-guess_radian = Guess(
+guess_radian = Prediction(
     "kV per radian, the target in rotations. How fast does the wheel get?",
     "about 6 times too fast",
     "about a sixth of the target",
     "the target, but later",
 )
-guess_rotation = Guess(
+guess_rotation = Prediction(
     "kV per rotation, the target in radians, which is a number 6.28 times as large. The wheel…",
     "stands still",
     "runs as fast as 12 V can make it",
@@ -322,7 +322,9 @@ display(guess_radian, guess_rotation)
 def follower(gains: str, kp: float) -> Picture:
     """The profile, and what the wheel makes of it."""
     title = f"kP = {kp:g} V per rot/s"
-    return chase(TIME, TARGET, {gains: follow(GAINS[gains], kp)}, unit="rot/s", title=title)
+    return tracking_error(
+        TIME, TARGET, {gains: follow(GAINS[gains], kp)}, unit="rot/s", title=title
+    )
 
 
 live(
@@ -348,8 +350,8 @@ print(f"You said: {guess_radian}; {guess_rotation}.")
 Table(
     ("gains", "top speed [rot/s]", "miss [rot/s], kP = 0", f"miss [rot/s], kP = {SOME}"),
     tuple(
-        (name, float(follow(one).max()), miss(TARGET, follow(one)).typical,
-         miss(TARGET, follow(one, SOME)).typical)
+        (name, float(follow(one).max()), measure_tracking_error(TARGET, follow(one)).typical,
+         measure_tracking_error(TARGET, follow(one, SOME)).typical)
         for name, one in GAINS.items()
     ),
     caption=f"The profile's top is {TARGET.max():.0f} rot/s; 12 V make "
@@ -383,7 +385,7 @@ Table(
 # Now add kP to it, and nothing else. **Predict:**
 
 # %%
-guess_kp = Guess(
+guess_kp = Prediction(
     "With kP as large as kV, how much of the 100 rpm is left?",
     "all of it",
     "half of it",
@@ -455,11 +457,19 @@ late = {0: "measured at once", 2: "measured 40 ms late", 6: "measured 120 ms lat
 suggested = found.feedback()["velocity"].kp
 print(f"kP that the fit suggests, for WPILib's own loop: {suggested:.3f} V per rot/s.")
 shaking = follow(measured, 0.6, late=6)
-chase(TIME, TARGET, {"kP = 0.6, 120 ms late": shaking, "kP = 0": follow(measured)}, unit="rot/s")
+tracking_error(
+    TIME, TARGET, {"kP = 0.6, 120 ms late": shaking, "kP = 0": follow(measured)}, unit="rot/s"
+)
 
 # %%
 away = [
-    (f"{kp}", *(miss(TARGET, follow(measured, kp, late=loops)).typical for loops in late))
+    (
+        f"{kp}",
+        *(
+            measure_tracking_error(TARGET, follow(measured, kp, late=loops)).typical
+            for loops in late
+        ),
+    )
     for kp in (0.1, 0.3, 0.6, 1.2)
 ]
 Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical miss [rot/s]")
@@ -491,7 +501,7 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical miss [
 # **Predict:**
 
 # %%
-guess_arm = Guess(
+guess_arm = Prediction(
     "Which gains does a game piece change?",
     "kV",
     "kS",
@@ -585,9 +595,9 @@ Table(
 
 # %%
 OWNERS = ("drivetrain", "elevator", "shooter")
-guess_one = Guess("Set 1 belongs to the…", *OWNERS)
-guess_two = Guess("Set 2 belongs to the…", *OWNERS)
-guess_three = Guess("Set 3 belongs to the…", *OWNERS)
+guess_one = Prediction("Set 1 belongs to the…", *OWNERS)
+guess_two = Prediction("Set 2 belongs to the…", *OWNERS)
+guess_three = Prediction("Set 3 belongs to the…", *OWNERS)
 display(guess_one, guess_two, guess_three)
 
 # %%
@@ -735,9 +745,9 @@ print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad: I =
 # `quick.answer("it holds still")`, or another of the answers, in a cell.)
 
 # %%
-from grader import Quick
+from grader import QuickCheck
 
-quick = Quick(
+quick = QuickCheck(
     "new ElevatorFeedforward(kS, kV, kA): what does the elevator do at zero speed?",
     {
         "it holds still": "Count the slots: kG stands second.",

@@ -60,17 +60,26 @@ from IPython.display import display
 from scipy.optimize import least_squares
 
 import sim
-from sim.duty_cycle import Battery, by_duty_cycle
+from sim.duty_cycle import Battery, simulate_duty_cycle
 from sim.effects import EFFECTS, effect
-from sim.evidence import gather
 from sim.fit import fit
-from sim.guess import Guess
 from sim.mechanisms import MECHANISMS
 from sim.model import Model, Part
-from sim.plot import Picture, Table, curves, gap_bars, live, microscope, time_series, views
+from sim.plot import (
+    Picture,
+    Table,
+    curves,
+    gap_bars,
+    live,
+    plot_voltage_residual,
+    residual_views,
+    time_series,
+)
 from sim.reconcile import reconcile
 from sim.replay import replay
 from sim.simulate import simulate
+from sim.teaching.prediction import Prediction
+from sim.voltage_residual import compute_voltage_residual
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
@@ -127,7 +136,9 @@ def off(model: Model, one: sim.Log) -> np.ndarray:
 def fitted(names: Sequence[str], begin: Model, one: sim.Log) -> Model:
     """Gains and the parameters of some effects, searched from where another model stands."""
     known = {part.effect: part.parameters for part in begin.parts}
-    seen = gather(one, begin.gains, type="simple")  # what the log shows: for a good start
+    seen = compute_voltage_residual(
+        one, begin.gains, type="simple"
+    )  # what the log shows: for a good start
     starts = [known.get(name) or next(iter(effect(name).starts(seen))) for name in names]
     first = np.array([*begin.gains.values(), *(v for start in starts for v in start.values())])
     bounds = [(p.least, p.most) for name in names for p in effect(name).parameters]
@@ -160,7 +171,7 @@ base = fitted((), Model("simple", truth), log)
 # Before you look. The bench knows the true kA of the team's robot; the team does not. **Predict:**
 
 # %%
-guess_ka = Guess(
+guess_ka = Prediction(
     "Two effects are missing in the model. What does the fit make of kA?",
     "about right",
     "too small by a third or more",
@@ -269,7 +280,7 @@ def with_one(backward: str, size: float) -> sim.Log:
     return simulate(drivetrain.hiding(backward[::-1], size), all_tests, rng=rng, electrical=True)
 
 
-sagging = by_duty_cycle(drivetrain, replace(all_tests, step=5.0), battery=tired, rng=rng)
+sagging = simulate_duty_cycle(drivetrain, replace(all_tests, step=5.0), battery=tired, rng=rng)
 suspects = {
     "robot A": with_one("noitcirf-cirtemmysa", 1.0),
     "robot B": with_one("retlif-yticolev", 1.5),
@@ -289,10 +300,10 @@ suspects = {
 
 # %%
 NAMES = ("one-way friction", "averaged velocity", "battery", "breakaway friction")
-guess_a = Guess("Robot A hides…", *NAMES)
-guess_b = Guess("Robot B hides…", *NAMES)
-guess_c = Guess("Robot C hides…", *NAMES)
-guess_d = Guess("Robot D hides…", *NAMES)
+guess_a = Prediction("Robot A hides…", *NAMES)
+guess_b = Prediction("Robot B hides…", *NAMES)
+guess_c = Prediction("Robot C hides…", *NAMES)
+guess_d = Prediction("Robot D hides…", *NAMES)
 display(guess_a, guess_b, guess_c, guess_d)
 
 
@@ -300,7 +311,7 @@ display(guess_a, guess_b, guess_c, guess_d)
 def under_the_microscope(which: str) -> Picture:
     """The missing volts of one of the four robots, from four sides."""
     one = suspects[which]
-    return microscope(one, simulated(true_model, one), truth)
+    return plot_voltage_residual(one, simulated(true_model, one), truth)
 
 
 live(under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="look at"))
@@ -318,7 +329,7 @@ under_the_microscope("robot B")
 # %%
 rows = []
 for name, one in suspects.items():
-    seen = views(one, simulated(true_model, one), truth)
+    seen = residual_views(one, simulated(true_model, one), truth)
     rows.append((name, *(f"{100 * view.explains:.0f} %" for view in seen.values())))
 sides = tuple(seen)
 
@@ -348,7 +359,7 @@ Table(("robot", *sides), tuple(rows), caption="Share of the missing volts that a
 # is the hard part of real life: the fingerprint is smudged.
 
 # %%
-microscope(log, simulated(base, log), base.gains)
+plot_voltage_residual(log, simulated(base, log), base.gains)
 
 # %% [markdown]
 # The brightest side is the time since the jump. And look at the shape: first volts are missing,
@@ -358,7 +369,7 @@ microscope(log, simulated(base, log), base.gains)
 # **Predict** the first effect to add:
 
 # %%
-guess_first = Guess(
+guess_first = Prediction(
     "Which one closes most of the gap?",
     "drag",
     "stribeck",
@@ -411,7 +422,7 @@ def with_it(model: str) -> list[Picture]:
     """What is missing once a model is in place, and its gaps beside those of gains alone."""
     chosen = models[model]
     shown = {"gains alone": both_gaps(base), model: both_gaps(chosen)}
-    return [microscope(log, simulated(chosen, log), chosen.gains), gap_bars(shown)]
+    return [plot_voltage_residual(log, simulated(chosen, log), chosen.gains), gap_bars(shown)]
 
 
 live(with_it, model=widgets.Dropdown(options=list(models), description="model"))
@@ -436,7 +447,7 @@ gap_bars({name: both_gaps(model) for name, model in pairs.items()})
 # %%
 second = pairs["  … and stribeck"]
 models["+ velocity-filter, stribeck"] = second
-microscope(log, simulated(second, log), second.gains)
+plot_voltage_residual(log, simulated(second, log), second.gains)
 
 # %% [markdown]
 # Nothing bright is left from any side, and the gap is about 1 on both logs. **Stop here.** A third
@@ -488,7 +499,7 @@ Table(
 # sizes. **Predict:**
 
 # %%
-guess_held = Guess(
+guess_held = Prediction(
     "Gap of the held-out log with gains alone, compared with the fitted log's gap?",
     "about the same",
     "twice as wide or more",
@@ -527,7 +538,7 @@ gap_bars({name: {"log": gap(m, log), "held out": gap(m, held_out)} for name, m i
 # **Predict:**
 
 # %%
-guess_limit = Guess(
+guess_limit = Prediction(
     "Fitted to the gentle log only, how well is the limit known?",
     "to a few percent",
     "only that it is above some value",
@@ -670,7 +681,7 @@ else:
     print("Until then, here is the team's log again.")
 start = fit(own, type="simple", method="sysid").gains
 own_base = fitted((), Model("simple", start), own)
-microscope(own, simulated(own_base, own), own_base.gains)
+plot_voltage_residual(own, simulated(own_base, own), own_base.gains)
 
 # %% [markdown]
 # ## 9 System check
@@ -689,9 +700,9 @@ microscope(own, simulated(own_base, own), own_base.gains)
 # `quick.answer("drag")`, or another of the answers, in a cell.)
 
 # %%
-from grader import Quick
+from grader import QuickCheck
 
-quick = Quick(
+quick = QuickCheck(
     (
         "What is missing shows only in the first tenths of a second after the voltage "
         "jumps. Which family is that?"

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sim.errors import BadRequest
-from sim.fault import MOST, Blow, Fault, Spoilt
+from sim.fault import MOST, Fault, Spoilt, Strike
 from sim.faults import fault as find
 from sim.log import Log, Run
 from sim.vocabulary import TESTS
@@ -23,7 +23,7 @@ SPEC = re.compile(
 
 
 @dataclass(frozen=True)
-class Asked:
+class FaultRequest:
     """A fault as a person asks for it.
 
     Args:
@@ -39,7 +39,7 @@ class Asked:
     at: float | None = None
 
 
-def parse_blow(text: str) -> Asked:
+def parse_fault_request(text: str) -> FaultRequest:
     """Read ``NAME[:SEVERITY][@TEST[+SECONDS]]``: ``encoder-slip:0.5@dynamic-forward+0.4``.
 
     Args:
@@ -55,7 +55,7 @@ def parse_blow(text: str) -> Asked:
     name, test = parts["name"].strip(), parts["test"]
     if test is not None and not test.strip():
         raise _misspelled(text, "no test is named after @")
-    return Asked(
+    return FaultRequest(
         name,
         severity=_number(text, parts["severity"], default=1.0),
         test=None if test is None else test.strip(),
@@ -105,7 +105,7 @@ def contaminate(
     start = _start(log.runs[run], fault, at=at, rng=rng)
     if severity == 0.0:
         return Spoilt(log, ())
-    spoilt = fault.spoil(log, Blow(run, start, severity), rng)
+    spoilt = fault.spoil(log, Strike(run, start, severity), rng)
     if not spoilt.where:
         raise BadRequest(
             f"{name} of severity {severity:g} would not show at {start:.2f} s",

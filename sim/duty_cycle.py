@@ -19,13 +19,13 @@ from sim.mechanism import Mechanism
 from sim.routine import Routine
 from sim.simulate import simulate
 
-__all__ = ["Battery", "by_duty_cycle"]
+__all__ = ["Battery", "simulate_duty_cycle"]
 
 HEALTHY = Battery()
 LOWEST = CONTROLLERS["roborio2"].brownout  # [V]
 
 
-def by_duty_cycle(
+def simulate_duty_cycle(
     mechanism: Mechanism,
     routine: Routine,
     *,

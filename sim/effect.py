@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 KINDS = ("term", "path", "sense", "two-body")
 ONSET, UNTIL = "onset", "until"  # parameters of what happens once
@@ -147,7 +147,7 @@ class Effect:
     inspect: str
     apart: Mapping[str, str]
     example: Callable[[Scale, float], Mapping[str, float]]
-    starts: Callable[[Evidence], Iterable[Mapping[str, float]]]
+    starts: Callable[[VoltageResidual], Iterable[Mapping[str, float]]]
     acts: Mapping[str, Callable[..., Any]]
     symmetric: bool = True
     stores: Callable[..., float] | None = None
@@ -156,7 +156,7 @@ class Effect:
     order: int = 0
     cannot: Callable[[Scale], str] = field(default=lambda _: "")
     simpler: str = ""
-    simplified: Callable[[Mapping[str, float], Evidence], Mapping[str, float]] = field(
+    simplified: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(
         default=lambda _values, _seen: {}
     )
     everyday: Callable[[Mapping[str, float]], bool] = field(default=lambda _: False)

@@ -12,9 +12,9 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.clues import Clues
 from sim.errors import BadRequest
 from sim.log import Array, Log, Run
+from sim.log_features import LogFeatures
 from sim.vocabulary import KINDS, TYPES
 
 ABOUT = ("motion", "time")  # what a fault can make odd
@@ -79,7 +79,7 @@ class Damage:
 
 
 @dataclass(frozen=True)
-class Blow:
+class Strike:
     """Where and how hard a fault strikes.
 
     Args:
@@ -116,8 +116,8 @@ class Fault:
     name: str
     summary: str
     ordinary: str
-    spoil: Callable[[Log, Blow, np.random.Generator], Spoilt]
-    detect: Callable[[Clues], Iterable[Damage]]
+    spoil: Callable[[Log, Strike, np.random.Generator], Spoilt]
+    detect: Callable[[LogFeatures], Iterable[Damage]]
     kinds: tuple[str, ...] = ("quasistatic", "dynamic")
     types: tuple[str, ...] = TYPES
     about: str = "motion"
@@ -125,7 +125,7 @@ class Fault:
     when: tuple[float, float] = (0.3, 0.6)
 
 
-def at_pace(run: Run, pace: Array) -> Run:
+def rescale_motion(run: Run, pace: Array) -> Run:
     """A run in which the mechanism, or what reads it, goes at another pace.
 
     Velocities are multiplied, and positions put together again from their multiplied steps, so that
@@ -147,7 +147,7 @@ def at_pace(run: Run, pace: Array) -> Run:
     )
 
 
-def only(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
+def select_samples(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
     """The samples of a run that a mask or a slice keeps."""
     return replace(
         run,
@@ -160,7 +160,7 @@ def only(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
     )
 
 
-def with_run(log: Log, index: int, run: Run) -> Log:
+def replace_run(log: Log, index: int, run: Run) -> Log:
     """The log with another run in the place of one of its own."""
     return replace(log, runs=(*log.runs[:index], run, *log.runs[index + 1 :]))
 

@@ -2,9 +2,9 @@
 
 from sim.effects import EFFECTS
 from sim.engine import ORDER, State, Track, move
-from sim.evidence import clocks
 from sim.log import Log
 from sim.model import Model
+from sim.voltage_residual import run_start_times
 
 
 def replay(model: Model, log: Log, *, step: float | None = None) -> tuple[Track, ...]:
@@ -20,15 +20,15 @@ def replay(model: Model, log: Log, *, step: float | None = None) -> tuple[Track,
         One track for each run.
     """
     state, tracks = State(), []
-    for run, clock in zip(log.runs, clocks(log).tolist(), strict=True):
-        rest(state, model, clock - state.clock)
+    for run, clock in zip(log.runs, run_start_times(log).tolist(), strict=True):
+        let_cool(state, model, clock - state.clock)
         state.clock = clock
         state.body[:] = State.at(float(run.position[0]), float(run.velocity[0])).body
         tracks.append(move(model, time=run.time, voltage=run.voltage, state=state, step=step))
     return tuple(tracks)
 
 
-def rest(state: State, model: Model, pause: float) -> None:
+def let_cool(state: State, model: Model, pause: float) -> None:
     """Let time pass without voltage or motion, so that what is warm cools.
 
     Args:

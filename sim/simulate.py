@@ -20,11 +20,11 @@ from sim.errors import BadRequest
 from sim.log import Array, Log, Run
 from sim.mechanism import Mechanism
 from sim.model import Model
-from sim.replay import rest
+from sim.replay import let_cool
 from sim.routine import LOOPS_BEFORE_DRIVE, Routine
-from sim.sensing import read
+from sim.sensor_model import read_sensor
 
-__all__ = ["motion", "read", "simulate"]
+__all__ = ["move_gains_only", "read_sensor", "simulate"]
 
 PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
 FASTEST, SLOWEST = 0.0005, 0.5  # [s] loop periods that make sense
@@ -64,7 +64,7 @@ def simulate(
             f"a period of {period:g} s",
             advice=f"Choose {FASTEST:g} to {SLOWEST:g} s; a robot program loops every 0.02 s.",
         )
-    model, wires = mechanism.model, connected(mechanism, duty_cycle=duty_cycle)
+    model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)
     runs: list[Run] = []
     state, start, last, cut = State(), PAUSE, 0.0, False
     for test in routine.tests:
@@ -90,12 +90,12 @@ def simulate(
                 track = move(model, time=time, voltage=voltage, state=state, wires=wires)
             else:
                 track = track.until(end)
-        seen = read(
+        seen = read_sensor(
             mechanism.sensor, position=track.position, velocity=track.seen, time=time, rng=rng
         )
         extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
         runs.append(Run(test, start + time, track.applied, *seen, **extra))
-        rest(state, model, PAUSE)
+        let_cool(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
     return log.with_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
@@ -109,8 +109,8 @@ def _brownout(mechanism: Mechanism) -> Doubt:
     )
 
 
-def connected(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
-    """(9,) the wires of a mechanism, in the order of ``sim.engine.wires``."""
+def power_path_arrays(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
+    """(9,) the wires of a mechanism, in the order of ``sim.engine.power_path``."""
     return np.array(
         [
             mechanism.battery.rest,
@@ -126,7 +126,9 @@ def connected(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
     )
 
 
-def motion(gains: Mapping[str, float], *, time: Array, voltage: Array) -> tuple[Array, Array]:
+def move_gains_only(
+    gains: Mapping[str, float], *, time: Array, voltage: Array
+) -> tuple[Array, Array]:
     """Move from rest at zero, with friction, back-EMF and inertia alone.
 
     Args:

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from sim.cli import sysid as command
-from sim.command import run
+from sim.cli_support import run
 
 PLAIN = """
 name = "week3"

@@ -12,10 +12,10 @@ from sim.log import Log, Run
 from sim.mechanisms import MECHANISMS
 from sim.model import Model, Part
 from sim.reconcile import reconcile
-from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import lanes
-from sim.reconcile.outset import Outset
-from sim.reconcile.problem import Point, Problem
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import run_records
 from sim.routine import Routine
 from sim.simulate import simulate
 
@@ -32,10 +32,10 @@ SLOWEST = 3.5  # [V] of a step, for which the catalogue's examples are made
 
 PERIOD = 0.01  # [s], of what `recorded` records
 
-NOWHERE = Point(
-    Hypothesis("simple"),
+NOWHERE = Estimate(
+    ModelStructure("simple"),
     {},
-    Outset.seen(0),
+    RunNuisance.seen(0),
     0.0,
     np.zeros((2, 2)),
     np.empty((0, 2)),
@@ -87,9 +87,9 @@ def rubbing(gains, shares, *parts, noise, step, seed):
 
 def based(log, gains):
     """The problem of a log, and the point of gains without effects."""
-    problem = Problem.of(lanes(log))
-    begun = Outset.seen(len(problem.lanes))
-    return problem, problem.at(Hypothesis("simple"), gains, begun, problem.noise.velocity**2)
+    problem = PredictionErrorProblem.of(run_records(log))
+    begun = RunNuisance.seen(len(problem.lanes))
+    return problem, problem.at(ModelStructure("simple"), gains, begun, problem.noise.velocity**2)
 
 
 def bench(name, effect="", *, size=1.0, simple=False):

@@ -12,8 +12,8 @@ from robotcode_mutants import FOLDERS, Mutant
 
 from grader.robotcode import read
 from grader.robotcode.bindings import bindings_of
-from grader.robotcode.deployed import gains_of
-from grader.robotcode.facts import Known, RoutineFacts
+from grader.robotcode.facts import Certainty, RoutineFacts
+from grader.robotcode.gain_constants import gains_of
 from sim.errors import Refusal
 
 READERS: dict[str, Callable[[Path], object]] = {
@@ -100,7 +100,7 @@ def flaws(facts: RoutineFacts, *, lines: int) -> list[str]:
         "a problem without a line": all(1 <= one.line <= lines for one in facts.problems),
         "a problem of several lines": not any("\n" in one.message for one in facts.problems),
         "a number known and unknown": all(
-            (one.known is Known.UNKNOWN) == (one.value is None) for one in numbers
+            (one.known is Certainty.UNKNOWN) == (one.value is None) for one in numbers
         ),
         "a place where no argument is": facts.config_argument >= -1 <= facts.mechanism_argument,
     }

@@ -7,7 +7,7 @@ import numpy as np
 from sim.gap import Place
 from sim.log import Log, Run
 from sim.model import Model, Part
-from sim.reconcile.story import Chapter, Estimate, Finding, Story, Tried
+from sim.reconcile.story import Chapter, Finding, ParameterEstimate, Story, Tried
 
 FOOT = 0.3048  # [m]
 NOISE = 0.01  # [m/s]
@@ -56,7 +56,7 @@ DRAG = Finding(
     kind="effect",
     size="major",
     ambiguous_with=(),
-    parameters={"drag": Estimate(0.11234, 0.0021, "V·s²/ft²")},
+    parameters={"drag": ParameterEstimate(0.11234, 0.0021, "V·s²/ft²")},
     gap_before=1.0,
     gap_after=0.0328,
     score=812.0,
@@ -81,7 +81,7 @@ SAG = replace(
     DRAG,
     effect="battery-sag",
     size="minor",
-    parameters={"share": Estimate(0.04, 0.01, "1")},
+    parameters={"share": ParameterEstimate(0.04, 0.01, "1")},
     sentence="A battery that gives way.",
     inspect="An old battery.",
 )

@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.answer import BANDS, FAST_KA, Key, gains_asked, judge, number
+from grader.answer import BANDS, FAST_KA, Key, gains_asked, judge_number, read_answer_number
 from grader.check import Wrong
-from grader.measure import NotAUnitError, read_number, read_unit
 from grader.misconception import MISCONCEPTIONS
-from grader.slip import Lookalike, Scene, Slip
+from grader.quantity import NotAUnitError, read_number, read_unit
+from grader.wrong_number import Lookalike, Scene, WrongNumber
 
 TURN = 2 * math.pi
 GAINS = {"kS": 0.15, "kV": 2.4, "kA": 0.3}
@@ -23,7 +23,7 @@ FLYWHEEL_KEY = Key(
 
 def wrong(name, given_, key=KEY, *, points=2):
     with pytest.raises(Wrong) as caught:
-        judge(name, given_, key, points=points)
+        judge_number(name, given_, key, points=points)
     return caught.value
 
 
@@ -92,7 +92,7 @@ def test_what_is_no_unit_is_named(text, part):
     ],
 )
 def test_a_number_is_read_as_people_write_it(raw, value):
-    assert number(raw, KEY.asked["kV"]) == pytest.approx(value)
+    assert read_answer_number(raw, KEY.asked["kV"]) == pytest.approx(value)
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_a_number_is_read_as_people_write_it(raw, value):
 )
 def test_what_is_no_number_is_named_and_answered(raw, seen):
     with pytest.raises(Wrong) as caught:
-        number(raw, KEY.asked["kV"])
+        read_answer_number(raw, KEY.asked["kV"])
 
     assert seen in caught.value.seen
     assert caught.value.hint
@@ -127,7 +127,7 @@ def test_what_is_no_number_is_named_and_answered(raw, seen):
 @given(st.text(max_size=30))
 def test_any_text_is_a_number_or_is_refused(text):
     try:
-        value = number(text, KEY.asked["kV"])
+        value = read_answer_number(text, KEY.asked["kV"])
     except Wrong:
         return
     assert math.isfinite(value)
@@ -160,7 +160,7 @@ def test_what_is_printed_is_read_back(value, mark):
 def test_bands_give_full_half_or_no_credit(name, share, earned):
     answers = {name: GAINS[name] * share}
     if earned == 2:
-        assert judge(name, answers, KEY, points=2) is None
+        assert judge_number(name, answers, KEY, points=2) is None
     else:
         assert wrong(name, answers).earned == earned
 
@@ -215,7 +215,7 @@ def test_a_slip_of_what_goes_along_is_named(factor, said):
 
 
 def test_what_a_wrong_recipe_gives_is_recognized():
-    slip = Slip("recipe", "it comes from the wrong recipe", "M-NOISE-AVERAGES")
+    slip = WrongNumber("recipe", "it comes from the wrong recipe", "M-NOISE-AVERAGES")
     key = Key(KEY.asked, Scene(lookalikes={"kA": (Lookalike(0.22, slip),)}))
 
     assert "the wrong recipe" in wrong("kA", {"kA": 0.221}, key).hint
@@ -257,7 +257,7 @@ def test_a_band_in_volts_is_told_in_volts():
 
 
 def test_a_converted_answer_says_so():
-    note = judge("kV", {"kV": "0.73152 V·s/ft"}, KEY, points=2)
+    note = judge_number("kV", {"kV": "0.73152 V·s/ft"}, KEY, points=2)
 
     assert note == "0.73152 V·s/ft is 2.4 V·s/m"
 
@@ -266,7 +266,7 @@ def test_a_converted_answer_says_so():
 def test_no_message_holds_the_key(value):
     key = Key(gains_asked({"kS": 0.1537, "kV": 2.4371, "kA": 0.3191}, position="m"), KEY.scene)
     try:
-        judge("kV", {"kV": value}, key, points=1)
+        judge_number("kV", {"kV": value}, key, points=1)
     except Wrong as caught:
         told = caught.seen + caught.hint
         if not math.isclose(value, 2.4371, rel_tol=1e-3):

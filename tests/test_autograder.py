@@ -16,10 +16,10 @@ import yaml
 
 from grader.autograder.submitter import find_submitter
 from grader.cli import run
-from grader.exercise import find
+from grader.exercise import find_exercise
 from grader.package_files import select_package_files
-from grader.release import common
-from grader.variant import of_class
+from grader.release import common_package
+from grader.variant import class_secret
 from sim.errors import BadRequest
 
 EMAIL = "zoë.o'neil@example.org"
@@ -41,7 +41,7 @@ def load(path):
 
 def perfect(root, name, student, folder):
     """The authored answer of an exercise: file name -> text."""
-    one, solutions = find(name, root), root / "solutions" / name
+    one, solutions = find_exercise(name, root), root / "solutions" / name
     if not (solutions / "solve.py").is_file():
         return {one.files[0]: (solutions / one.files[0]).read_text(encoding="utf-8")}
     copy = folder / "exercises" / name
@@ -99,7 +99,7 @@ def test_a_perfect_answer_beside_nothing_else_earns_every_point(root, export, tm
     for file, text in perfect(root, name, EMAIL, tmp_path / "copy").items():
         (place / "submission" / file).write_text(text, encoding="utf-8")
     said, results = grade(place)
-    checks = find(name, root).checks
+    checks = find_exercise(name, root).checks
 
     assert [one["max_score"] for one in results["tests"]] == [one.points for one in checks], said
     assert [one["output"] for one in results["tests"] if one["status"] != "passed"] == []
@@ -117,7 +117,7 @@ def test_a_roster_names_the_student_and_a_secret_draws_the_numbers(root, export,
     )  # fmt: skip
     warned = capsys.readouterr().err
     assert (tmp_path / "autograder.zip").stat().st_mode & 0o077 == 0
-    with of_class(SECRET):
+    with class_secret(SECRET):
         answers = perfect(root, "exercise1", "zoë", tmp_path / "copy")
     for file, text in answers.items():
         (place / "submission" / file).write_text(text, encoding="utf-8")
@@ -263,7 +263,7 @@ def test_what_cannot_be_exported_is_one_line(root, monkeypatch, capsys, words, s
 def workflow(root, tmp_path, monkeypatch):
     """A repository that students start from, with the workflow in it."""
     repository = tmp_path / "zoë's repository"
-    archive = zipfile.ZipFile(io.BytesIO(common(root)))
+    archive = zipfile.ZipFile(io.BytesIO(common_package(root)))
     archive.extractall(tmp_path)
     (tmp_path / "course").rename(repository)
     monkeypatch.chdir(repository)

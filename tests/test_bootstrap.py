@@ -39,7 +39,7 @@ def world(tmp_path, monkeypatch):
             return world.code
 
     monkeypatch.setattr(bootstrap, "ROOT", tmp_path)
-    monkeypatch.setattr(bootstrap, "lacking", lambda _command: world.missing)
+    monkeypatch.setattr(bootstrap, "missing_packages", lambda _command: world.missing)
     monkeypatch.setattr(bootstrap.subprocess, "run", run)
     monkeypatch.setattr(bootstrap.subprocess, "Popen", Process)
     monkeypatch.setattr(bootstrap, "in_environment", lambda: False)
@@ -209,7 +209,7 @@ def test_ctrl_c_is_quiet(monkeypatch, capsys):
     def interrupted(_command):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(bootstrap, "lacking", interrupted)
+    monkeypatch.setattr(bootstrap, "missing_packages", interrupted)
 
     assert bootstrap.main(["start"]) == 130
     assert capsys.readouterr().err == ""
@@ -241,7 +241,7 @@ def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
 
     monkeypatch.setattr(bootstrap, "distribution", nothing)
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    names = bootstrap.lacking(command)
+    names = bootstrap.missing_packages(command)
 
     assert len(project["dependencies"]) <= len(names)
     assert {"click", "numpy", "jupyterlab"} <= set(names)
@@ -252,7 +252,7 @@ def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
 def test_what_is_there_is_not_missing(monkeypatch):
     monkeypatch.setattr(bootstrap, "distribution", lambda _name: None)
 
-    assert bootstrap.lacking(["test"]) == []
+    assert bootstrap.missing_packages(["test"]) == []
 
 
 def test_an_isolated_python_gets_as_far_as_installing(tmp_path):

@@ -13,9 +13,9 @@ from page_flaws import page_flaws
 
 from grader.check import Check, Result, Status
 from grader.classroom.exports import exports
-from grader.classroom.grading import MISSING, Graded, nothing, record
-from grader.classroom.items import columns, items, misconceptions
-from grader.classroom.page import summary, write_pages
+from grader.classroom.grading import MISSING, Graded, grade_record, missing_record
+from grader.classroom.items import analyze_items, count_misconceptions, summarize_exercises
+from grader.classroom.page import class_summary, write_pages
 from grader.classroom.results import Results
 from grader.exercise import Grade
 from sim.errors import BadRequest
@@ -64,7 +64,7 @@ def student(name, *points, code="M-UNITS"):
         )
         score, most = sum(those), 2.0 * len(those)
         status = "passed" if score == most else "failed"
-        records.append(record(Grade(f"exercise{number}", name, score, most, status, checks)))
+        records.append(grade_record(Grade(f"exercise{number}", name, score, most, status, checks)))
     return Graded(name, "", tuple(records))
 
 
@@ -89,7 +89,7 @@ def results():
 
 def test_a_question_is_counted_and_told_apart_by():
     people = [student(f"s{n}", (2.0 * (n > 2), 2.0), (2.0 * (n > 3), 0.0)) for n in range(6)]
-    found = {(one.exercise, one.check): one for one in items(people)}
+    found = {(one.exercise, one.check): one for one in analyze_items(people)}
     first = found["exercise1", "q0"]
 
     assert (first.tried, first.full, first.share) == (6, 3, 0.5)
@@ -99,22 +99,22 @@ def test_a_question_is_counted_and_told_apart_by():
     assert first.discrimination == pytest.approx(1 / math.sqrt(2))
     assert found["exercise1", "q1"].discrimination is None  # all alike
     assert found["exercise2", "q1"].share == 0.0
-    assert misconceptions(people) == (("M-UNITS", 6),)
+    assert count_misconceptions(people) == (("M-UNITS", 6),)
 
 
 def test_too_few_students_tell_nothing_apart():
     people = [student(f"s{n}", (2.0 * n, 2.0)) for n in range(2)]
 
-    assert {one.discrimination for one in items(people)} == {None}
+    assert {one.discrimination for one in analyze_items(people)} == {None}
 
 
 def test_who_handed_nothing_in_counts_as_absent_and_not_as_wrong():
-    absent = Graded("zoe", "", (nothing(Empty(), "zoe", status=MISSING, reason="nothing"),))
-    broken = Graded("bob", "", (nothing(Empty(), "bob", status="ungradable", reason="odd"),))
-    (column,) = columns([student("ann", (2.0,)), absent, broken])
+    absent = Graded("zoe", "", (missing_record(Empty(), "zoe", status=MISSING, reason="nothing"),))
+    broken = Graded("bob", "", (missing_record(Empty(), "bob", status="ungradable", reason="odd"),))
+    (column,) = summarize_exercises([student("ann", (2.0,)), absent, broken])
 
     assert (column.handed_in, column.full, column.ungradable, column.mean) == (2, 1, 1, 1.0)
-    assert [one.tried for one in items([student("ann", (2.0,)), absent, broken])] == [1]
+    assert [one.tried for one in analyze_items([student("ann", (2.0,)), absent, broken])] == [1]
 
 
 def test_the_gradebook_is_safe_for_a_spreadsheet(results, tmp_path):
@@ -210,11 +210,11 @@ def test_pages_are_whole_ask_nobody_and_escape_names(results, tmp_path):
 
 
 def test_the_summary_counts_people():
-    nobody = some(Graded("zoe", "", (nothing(Empty(), "zoe", status=MISSING, reason=""),)))
+    nobody = some(Graded("zoe", "", (missing_record(Empty(), "zoe", status=MISSING, reason=""),)))
 
-    assert summary(nobody) == "0 of 1 students handed something in."
+    assert class_summary(nobody) == "0 of 1 students handed something in."
     one = some(student("ann", (2.0,), (2.0,)), student("ben", (0.0,), (2.0,)))
-    assert summary(one) == (
+    assert class_summary(one) == (
         "2 of 2 students handed something in; on average they have 75 % of all points, and 1 has "
         "full marks."
     )

@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 from small_course import HALF, RIGHT, lay_out
 
-from grader.classroom.handed_in import find_all, find_one
-from grader.classroom.roster import members
-from grader.classroom.run import Class, grade_all, plan
+from grader.classroom.roster import read_members
+from grader.classroom.run import Class, grade_all, plan_grading
 from grader.classroom.store import Store
+from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run
 from grader.exercise import exercises
 from sim.errors import BadRequest
@@ -117,8 +117,8 @@ def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_
     store = Store(tmp_path / "out")
 
     def left(*, secret=None, again=False):
-        work = Class(find_all(there, exercises(course)), exercises(course), course, secret)
-        todo = plan(work, store, travel=False, again=again)
+        work = Class(find_submissions(there, exercises(course)), exercises(course), course, secret)
+        todo = plan_grading(work, store, travel=False, again=again)
         grade_all(work, todo, store, processes=1, cluster=None, say=lambda: None)
         return [job.student for job in todo.todo]
 
@@ -190,7 +190,7 @@ def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
     (place / "dan.zip").write_bytes(b"PK\x03\x04 not quite")
     (place / ".DS_Store").write_bytes(b"")
     (place / "__MACOSX").mkdir()
-    found = {one.student: one for one in find_all(place, exercises(course))}
+    found = {one.student: one for one in find_submissions(place, exercises(course))}
 
     assert found["ann"].files == {"exercise1": {"answers.toml": RIGHT.encode()}}
     assert found["ben"].files == {"exercise1": {"answers.toml": HALF.encode()}}
@@ -216,7 +216,7 @@ def test_a_link_is_nobodys_answer(course, tmp_path):
     (tmp_path / "key.toml").write_text(RIGHT, encoding="utf-8")
     (place / "answers.toml").symlink_to(tmp_path / "key.toml")
 
-    assert find_one(tmp_path / "in" / "ann", exercises(course)).files == {}
+    assert read_submission(tmp_path / "in" / "ann", exercises(course)).files == {}
 
 
 @pytest.mark.parametrize(
@@ -267,7 +267,7 @@ def test_canvas_own_export_is_a_roster(tmp_path):
         encoding="utf-8",
     )
 
-    row = members(path).rows["ann"]
+    row = read_members(path).rows["ann"]
     assert (row["Student"], row["ID"], row["SIS User ID"], row["Section"]) == (
         "Lee, Ann", "17", "s17", "A",
     )  # fmt: skip
@@ -281,7 +281,7 @@ def test_a_roster_of_nobody_or_of_twins_is_refused(tmp_path, text, said):
     (tmp_path / "roster.csv").write_text(text, encoding="utf-8")
 
     with pytest.raises(BadRequest, match=said):
-        members(tmp_path / "roster.csv")
+        read_members(tmp_path / "roster.csv")
 
 
 @pytest.mark.usefixtures("course")

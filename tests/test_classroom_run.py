@@ -8,8 +8,8 @@ from robot_mistakes import RIGHT, ROOT, changed, needs_robot
 from small_course import lay_out
 
 import grader.isolation
-from grader.classroom.handed_in import find_all
 from grader.classroom.run import Class
+from grader.classroom.submissions import find_submissions
 from grader.cli import run
 from grader.exercise import Exercise, exercises
 
@@ -54,7 +54,7 @@ def note(tmp_path):
 @pytest.fixture
 def level(request, monkeypatch):
     """What this machine can do, as the command is told."""
-    monkeypatch.setattr(grader.isolation, "level", lambda: request.param)
+    monkeypatch.setattr(grader.isolation, "isolation_level", lambda: request.param)
     return request.param
 
 
@@ -89,7 +89,7 @@ def test_results_of_running_are_not_taken_for_results_of_reading(tmp_path):
 def test_the_digest_says_whether_code_was_run_and_by_which_robotpy(course, tmp_path, monkeypatch):
     def digest(*, run):
         there = exercises(course)
-        work = Class(find_all(tmp_path / "in", there), there, course, run=run)
+        work = Class(find_submissions(tmp_path / "in", there), there, course, run=run)
         return work.jobs(travel=False)[0].digest
 
     found = {digest(run=True), digest(run=False)}
@@ -102,7 +102,9 @@ def test_the_digest_says_whether_code_was_run_and_by_which_robotpy(course, tmp_p
 def test_an_exercise_that_only_reads_is_not_asked_to_run(tmp_path, monkeypatch, capsys):
     lay_out(tmp_path)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(grader.isolation, "level", lambda: pytest.fail("nobody needs to know"))
+    monkeypatch.setattr(
+        grader.isolation, "isolation_level", lambda: pytest.fail("nobody needs to know")
+    )
     shutil.copytree(tmp_path / "exercises", tmp_path / "in" / "ann")
 
     assert exercises(tmp_path)[0].runs is False
@@ -138,7 +140,9 @@ def test_practice_reads_robot_code_without_running_it_where_it_may_not(tmp_path,
 
 
 def test_a_function_that_may_not_be_run_waits_for_a_person_and_is_not_run(tmp_path, monkeypatch):
-    monkeypatch.setattr(grader.isolation, "run", lambda *_, **__: pytest.fail("it was run"))
+    monkeypatch.setattr(
+        grader.isolation, "run_functions", lambda *_, **__: pytest.fail("it was run")
+    )
     shutil.copy(ROOT / "exercises" / "exercise9" / "answers.toml", tmp_path)
     shutil.copy(ROOT / "solutions" / "exercise9" / "fit.py", tmp_path)
     ninth = Exercise("exercise9", ROOT / "exercises" / "exercise9")

@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from sim.command import run
+from sim.cli_support import run
 from sim.errors import BadRequest
 
 

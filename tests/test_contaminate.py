@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim.contaminate import Asked, contaminate, parse_blow
+from sim.contaminate import FaultRequest, contaminate, parse_fault_request
 from sim.errors import BadRequest
 from sim.fault import MOST
 from sim.faults import FAULTS
@@ -50,19 +50,22 @@ def sysid(*arguments, folder):
 @pytest.mark.parametrize(
     ("text", "asked"),
     [
-        ("brownout", Asked("brownout")),
-        ("brownout:2", Asked("brownout", severity=2.0)),
-        ("brownout:1e-1", Asked("brownout", severity=0.1)),
-        ("brownout@dynamic-forward", Asked("brownout", test="dynamic-forward")),
+        ("brownout", FaultRequest("brownout")),
+        ("brownout:2", FaultRequest("brownout", severity=2.0)),
+        ("brownout:1e-1", FaultRequest("brownout", severity=0.1)),
+        ("brownout@dynamic-forward", FaultRequest("brownout", test="dynamic-forward")),
         (
             "encoder-slip:0.5@dynamic-forward+0.4",
-            Asked("encoder-slip", severity=0.5, test="dynamic-forward", at=0.4),
+            FaultRequest("encoder-slip", severity=0.5, test="dynamic-forward", at=0.4),
         ),
-        (" brownout : 2 @ dynamic-forward + 1 ", Asked("brownout", 2.0, "dynamic-forward", 1.0)),
+        (
+            " brownout : 2 @ dynamic-forward + 1 ",
+            FaultRequest("brownout", 2.0, "dynamic-forward", 1.0),
+        ),
     ],
 )
 def test_what_is_asked_for_is_read(text, asked):
-    assert parse_blow(text) == asked
+    assert parse_fault_request(text) == asked
 
 
 @pytest.mark.parametrize(
@@ -81,7 +84,7 @@ def test_what_is_asked_for_is_read(text, asked):
 )
 def test_what_is_misspelled_is_one_line_with_the_right_spelling(text, said):
     with pytest.raises(BadRequest) as refused:
-        parse_blow(text)
+        parse_fault_request(text)
 
     assert said in str(refused.value)
     assert "encoder-slip:0.5@dynamic-forward+0.4" in str(refused.value)
@@ -90,7 +93,7 @@ def test_what_is_misspelled_is_one_line_with_the_right_spelling(text, said):
 @given(st.text(max_size=40))
 def test_whatever_is_typed_is_read_or_refused(text):
     try:
-        assert isinstance(parse_blow(text), Asked)
+        assert isinstance(parse_fault_request(text), FaultRequest)
     except BadRequest as refused:
         assert refused.advice  # noqa: PT017 - either answer is right
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from small_course import HALF, RIGHT, answer, lay_out
 
 from grader.cli import run
-from grader.course import PLACE, Progress, Standing, find_course, load, update_progress
-from grader.variant import folder_name, generator, seed, student_name
+from grader.course import PLACE, Progress, Standing, find_course, load_progress, update_progress
+from grader.variant import folder_name, student_name, student_rng, student_seed
 from sim.atomic_file import make_private_folder, write_atomically
 from sim.errors import BadRequest
 
@@ -93,7 +93,7 @@ def test_progress_is_read_back_as_it_was_written(tmp_path_factory, standings):
     progress = Progress("ann", standings)
 
     assert update_progress(folder, lambda _: progress) == ""
-    assert load(folder) == (progress, "")
+    assert load_progress(folder) == (progress, "")
 
 
 NOTES = """
@@ -117,7 +117,7 @@ def test_eight_that_grade_at_once_all_keep_their_scores(course):
         for number in range(8)
     ]
     assert [one.wait(120) for one in running] == [0] * 8
-    standings = load(course)[0].standings["ann"]
+    standings = load_progress(course)[0].standings["ann"]
 
     assert {name for name, one in standings.items() if one.done} == {
         f"exercise{number}" for number in range(8)
@@ -138,7 +138,7 @@ def test_damaged_progress_is_said_and_each_is_set_aside(course, content, capsys)
             capsys.readouterr().err
         )
         assert (path.parent / name).read_text(encoding="utf-8") == content
-        assert load(course)[0].of("me", "exercise1").done
+        assert load_progress(course)[0].of("me", "exercise1").done
 
 
 def test_a_disk_that_is_full_leaves_the_old_file_and_no_part(tmp_path, monkeypatch):
@@ -199,11 +199,13 @@ def test_any_name_has_a_folder_or_is_refused(name):
 
 
 def test_numbers_are_drawn_from_who_one_is():
-    assert seed("ann", "exercise9") == seed("Ann ", "exercise9")
+    assert student_seed("ann", "exercise9") == student_seed("Ann ", "exercise9")
     drawn = {
-        generator(*who, draw=draw).integers(2**62)
+        student_rng(*who, draw=draw).integers(2**62)
         for who in (("ann", "exercise9"), ("ben", "exercise9"), ("ann", "exercise1"))
         for draw in (0, 1)
     }
     assert len(drawn) == 6
-    assert seed("ann", "exercise9") != seed("ann", "exercise9", secret=b"a class's own")
+    assert student_seed("ann", "exercise9") != student_seed(
+        "ann", "exercise9", secret=b"a class's own"
+    )

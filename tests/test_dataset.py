@@ -10,7 +10,7 @@ from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 import sim
 from sim.contaminate import contaminate
 from sim.dataset import making
-from sim.dataset.plan import DAMAGE, FAULT, MECHANISM, RECORD, plan
+from sim.dataset.plan import DAMAGE, FAULT, MECHANISM, RECORD, plan_jobs
 from sim.dataset.secret import find_secret
 from sim.dataset.spec import read_spec
 from sim.simulate import simulate
@@ -23,7 +23,7 @@ def _no_secret_around(monkeypatch):
 
 def jobs_of(path):
     asked = read_spec(path)
-    return plan(asked, find_secret(asked, make=False))
+    return plan_jobs(asked, find_secret(asked, make=False))
 
 
 def test_a_dataset_is_logs_in_a_folder_and_a_key_beside_it(tmp_path, capsys):
@@ -105,8 +105,8 @@ def test_two_processes_make_what_one_makes(tmp_path):
 def test_a_job_does_not_depend_on_the_others(tmp_path):
     jobs = jobs_of(spec(tmp_path, DAMAGED))
 
-    there = {job.name: making.make(job).contents for job in jobs}
-    back = {job.name: making.make(job).contents for job in reversed(jobs)}
+    there = {job.name: making.make_log(job).contents for job in jobs}
+    back = {job.name: making.make_log(job).contents for job in reversed(jobs)}
 
     assert there == back
 
@@ -128,7 +128,7 @@ def test_a_fault_is_all_that_differs_from_the_clean_log(tmp_path):
 
     assert clean.keys() == spoilt.keys()
     for seed, job in clean.items():
-        here, there = making.make(job), making.make(spoilt[seed])
+        here, there = making.make_log(job), making.make_log(spoilt[seed])
         assert here.truth["gains"] == there.truth["gains"]
         assert here.contents != there.contents
 
@@ -137,7 +137,7 @@ def test_a_moment_that_cannot_be_is_drawn_again(tmp_path):
     late = '[[logs.faults]]\nname = "loop-overrun"\ntest = "dynamic-forward"\nat = [0.1, 1.0]\n'
     text = PLAIN.replace("count = 2", "count = 20") + late  # a test of 1 s drives for 0.94 s
 
-    made = [making.make(job) for job in jobs_of(spec(tmp_path, text))]
+    made = [making.make_log(job) for job in jobs_of(spec(tmp_path, text))]
 
     assert len(made) == 40  # each draws a moment after the end 1 time in 15
     assert all(isinstance(one, making.Made) for one in made)

@@ -7,8 +7,8 @@ import sys
 import pytest
 from dataset_made import DAMAGED, PLAIN, files, key, make, process, spec, sysid
 
-from sim.dataset.making import make as make_log
-from sim.dataset.plan import plan
+from sim.dataset.making import make_log as make_log
+from sim.dataset.plan import plan_jobs
 from sim.dataset.secret import find_secret
 from sim.dataset.spec import read_spec
 from sim.work import cluster
@@ -66,9 +66,9 @@ def test_a_worker_of_many_threads_makes_the_same(tmp_path):
 def test_a_refusal_on_a_worker_comes_back_as_one(tmp_path, address):
     late = '[[logs.faults]]\nname = "loop-overrun"\nat = 0.99\ntest = "dynamic-forward"\n'
     asked = read_spec(spec(tmp_path, PLAIN + late))  # a test of 1 s drives for 0.96 s
-    jobs = plan(asked, find_secret(asked, make=False))
+    jobs = plan_jobs(asked, find_secret(asked, make=False))
 
-    found = list(cluster.done_on_cluster(make_log, jobs, address=address))
+    found = list(cluster.run_jobs_on_cluster(make_log, jobs, address=address))
 
     assert {one.job for one in found} == set(jobs)
     assert all("0.99 s is not within dynamic-forward" in one.what for one in found)
@@ -78,12 +78,12 @@ def test_a_refusal_on_a_worker_comes_back_as_one(tmp_path, address):
 def test_a_cluster_that_is_lost_is_one_line(tmp_path, monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE", 1.0)  # [s] to take leave of who is gone
     asked = read_spec(spec(tmp_path, PLAIN.replace("count = 2", "count = 200")))
-    jobs = plan(asked, find_secret(asked, make=False))
+    jobs = plan_jobs(asked, find_secret(asked, make=False))
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(
         n_workers=1, processes=False, protocol="tcp", dashboard_address="127.0.0.1:0"
     ) as found:
-        making = cluster.done_on_cluster(make_log, jobs, address=found.scheduler_address)
+        making = cluster.run_jobs_on_cluster(make_log, jobs, address=found.scheduler_address)
         next(making)
         found.close()
         with pytest.raises(cluster.BadRequest, match="was lost .* again to go on"):

@@ -10,7 +10,7 @@ import psutil
 import pytest
 from dataset_made import PLAIN, files, key, make, process, spec
 
-from sim.work.interrupt import noted
+from sim.work.interrupt import deferred_interrupt
 
 LONG = PLAIN.replace("count = 2", "count = 60")  # 120 logs: enough work for two processes
 LONGEST = 100.0  # [s] a start takes, should the engine have to be compiled first
@@ -132,7 +132,7 @@ def test_a_terminal_shows_a_bar(tmp_path):
 @pytest.mark.skipif(sys.platform == "win32", reason="a test cannot press Ctrl+C on Windows")
 def test_the_first_ctrl_c_waits_for_a_safe_place_and_the_second_does_not():
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    with noted() as stop_if_noted:
+    with deferred_interrupt() as stop_if_noted:
         stop_if_noted()
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(KeyboardInterrupt):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import sim
-from sim.duty_cycle import Battery, by_duty_cycle
+from sim.duty_cycle import Battery, simulate_duty_cycle
 from sim.errors import BadRequest
 from sim.fit import fit
 from sim.simulate import simulate
@@ -17,7 +17,7 @@ TIRED = Battery(rest=12.2, resistance=0.035)
 
 
 def driven(battery, *, mechanism=DRIVE, routine=ROUTINE, seed=2):
-    return by_duty_cycle(mechanism, routine, battery=battery, rng=np.random.default_rng(seed))
+    return simulate_duty_cycle(mechanism, routine, battery=battery, rng=np.random.default_rng(seed))
 
 
 def asked(log):

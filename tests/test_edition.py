@@ -8,7 +8,7 @@ from page_flaws import page_flaws
 
 from grader.cli import run
 from grader.edition import build
-from grader.edition.rendered import highlighted
+from grader.edition.rendered import highlight_python
 from sim.errors import BadRequest
 
 MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell
@@ -17,7 +17,7 @@ CELLS = (
     MARKDOWN("## 1 Why: it is short\n\n```python\n# ## no heading\n```\n\n**V = kS**"),
     CODE("from sim.plot import Table\nprint('1 < 2')\nTable(('gain',), ((0.25,),))"),
     CODE(
-        "import ipywidgets\nfrom sim.guess import Guess\n"
+        "import ipywidgets\nfrom sim.teaching.prediction import Guess\n"
         "display(Guess('Which way?', 'up & left', 'down'))\n"
         "ipywidgets.VBox([ipywidgets.IntSlider(3, description='ramp'), "
         "ipywidgets.HTML('<b>as drawn</b>')])"
@@ -102,4 +102,4 @@ def test_no_lessons_are_refused(tmp_path):
 
 
 def test_code_is_escaped():
-    assert "&lt;b&gt;" in highlighted("x = '<b>'")
+    assert "&lt;b&gt;" in highlight_python("x = '<b>'")

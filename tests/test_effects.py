@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 
 from sim.effect import Effect, Parameter
 from sim.effects import EFFECTS, effect
-from sim.engine import State, finest, move
+from sim.engine import State, finest_step, move
 from sim.errors import BadRequest
-from sim.evidence import gather
 from sim.log import KINDS, Log, Run
 from sim.mechanisms import MECHANISMS
 from sim.model import Model, Part
 from sim.routine import Routine
 from sim.simulate import simulate
+from sim.voltage_residual import compute_voltage_residual
 
 PAIRS = [
     (name, kind)
@@ -113,9 +113,9 @@ def test_an_effect_at_its_neutral_values_is_not_there(name):
     there = move(base, time=TIME, voltage=wave(1), state=State.at(start))
     with_it = move(
         base + Part(name, values), time=TIME, voltage=wave(1), state=State.at(start),
-        step=finest(base),
+        step=finest_step(base),
     )  # fmt: skip
-    alone = move(base, time=TIME, voltage=wave(1), state=State.at(start), step=finest(base))
+    alone = move(base, time=TIME, voltage=wave(1), state=State.at(start), step=finest_step(base))
 
     assert with_it.seen == pytest.approx(alone.seen, abs=1e-9)
     assert with_it.position == pytest.approx(there.position, abs=2e-3 * np.ptp(there.position))
@@ -144,7 +144,9 @@ def test_halving_the_step_changes_a_trajectory_by_less_than_a_thousandth(name, k
     start = middle(kind)
 
     coarse = move(model, time=TIME, voltage=volts, state=State.at(start))
-    fine = move(model, time=TIME, voltage=volts, state=State.at(start), step=0.5 * finest(model))
+    fine = move(
+        model, time=TIME, voltage=volts, state=State.at(start), step=0.5 * finest_step(model)
+    )
 
     assert np.abs(coarse.position - fine.position).max() < 1e-3 * np.ptp(fine.position)
     assert np.abs(coarse.velocity - fine.velocity).max() < 1e-3 * np.ptp(fine.velocity)
@@ -199,7 +201,7 @@ def test_energy_never_appears_from_nowhere(name, kind, seed):
     model = hidden(name, kind, float(some(seed).uniform(0.3, 2.0)))
     volts = wave(seed)
     state = State.at(middle(kind))
-    fine = 0.1 * finest(model)
+    fine = 0.1 * finest_step(model)
 
     driven = move(model, time=TIME, voltage=volts, state=state, step=fine)
     spent = np.abs(volts[:-1]) * np.abs(np.diff(driven.position))
@@ -266,7 +268,7 @@ def test_two_bodies_left_alone_only_slow_down(name, seed):
         before = own
         move(
             model, time=np.array([0.0, 0.005]), voltage=np.zeros(2), state=state,
-            step=0.2 * finest(model),
+            step=0.2 * finest_step(model),
         )  # fmt: skip
 
 
@@ -285,7 +287,7 @@ def test_what_a_term_pulls_is_the_slope_of_what_it_stores(name):
 def test_a_search_starts_from_physics(name, kind):
     mechanism = MECHANISMS[kind].hiding(name)
     log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
-    seen = gather(log, MECHANISMS[kind].gains, type=mechanism.type)
+    seen = compute_voltage_residual(log, MECHANISMS[kind].gains, type=mechanism.type)
 
     starts = list(EFFECTS[name].starts(seen))
 
@@ -314,7 +316,11 @@ def test_the_best_start_is_near_the_truth(name):
     log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
     wanted, factor = NEAR[name]
 
-    starts = list(EFFECTS[name].starts(gather(log, MECHANISMS[kind].gains, type=mechanism.type)))
+    starts = list(
+        EFFECTS[name].starts(
+            compute_voltage_residual(log, MECHANISMS[kind].gains, type=mechanism.type)
+        )
+    )
 
     off = min(abs(math.log(abs(start[wanted] / truth[wanted]))) for start in starts)
     assert math.exp(off) < factor, (truth, starts)
@@ -325,7 +331,7 @@ def test_where_a_load_draws_it_along_a_ramp_that_turns_it_tells_the_deadband():
     load, deadband = (part.parameters for part in mechanism.hidden)
     assert load["load"] > MECHANISMS["drivetrain"].gains["kS"]  # else nothing is drawn along
     log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
-    seen = gather(log, MECHANISMS["drivetrain"].gains, type="simple")
+    seen = compute_voltage_residual(log, MECHANISMS["drivetrain"].gains, type="simple")
 
     starts = [one["band"] for one in EFFECTS["deadband"].starts(seen)]
 
@@ -337,7 +343,7 @@ def test_starts_survive_a_log_in_which_nothing_moves():
     time = np.arange(60) * 0.02
     tests = ("quasistatic-forward", "dynamic-forward")
     log = Log(tuple(Run(test, time, still, still, still) for test in tests))
-    seen = gather(log, {"kS": 0.1, "kV": 2.0, "kA": 0.2}, type="simple")
+    seen = compute_voltage_residual(log, {"kS": 0.1, "kV": 2.0, "kA": 0.2}, type="simple")
     for name, found in EFFECTS.items():
         for start in found.starts(seen):
             Part(name, start)

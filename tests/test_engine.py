@@ -12,18 +12,27 @@ import pytest
 
 from sim.effects import EFFECTS
 from sim.effects.drag import EFFECT as DRAG
-from sim.engine import EXACT, NO_TRUST, NO_WIRES, State, arrays, constants, finest, move
+from sim.engine import (
+    EXACT,
+    NO_TRUST,
+    NO_WIRES,
+    State,
+    effect_arrays,
+    finest_step,
+    model_constants,
+    move,
+)
 from sim.engine import kernel as kernel_room
 from sim.engine.compose import compose, is_compiled
-from sim.engine.joined import WAYS
 from sim.engine.kernel import NO_USE
-from sim.engine.machine_code import Code, linked
-from sim.engine.wires import CUT
+from sim.engine.machine_code import Code, link_code
+from sim.engine.power_path import CUT
+from sim.engine.two_body_modes import WAYS
 from sim.errors import BadRequest
 from sim.mechanisms import MECHANISMS
 from sim.model import Model, Part
-from sim.simulate import connected
-from sim.work.cache import CACHE, folder
+from sim.simulate import power_path_arrays
+from sim.work.cache import CACHE, cache_folder
 
 GAINS = {"kS": 0.2, "kV": 2.0, "kA": 0.3}
 PLAIN = Model("simple", GAINS)
@@ -39,7 +48,7 @@ def test_the_compiled_engine_does_what_the_plain_text_says(name):
     kind = next(k for k in MECHANISMS if not EFFECTS[name].cannot(MECHANISMS[k].scale))
     model = MECHANISMS[kind].hiding(name).model
     volts = np.where(TIME < 0.4, 3.0, -2.0)
-    wires = connected(MECHANISMS[kind])
+    wires = power_path_arrays(MECHANISMS[kind])
 
     fast, slow = (
         move(model, time=TIME, voltage=volts, state=State(), wires=wires, plain=plain)
@@ -160,7 +169,7 @@ def test_heat_stays_from_run_to_run_and_fades_in_a_pause():
 @pytest.mark.parametrize("speed", [0.0, 1.5, -1.5, 4.0])
 def test_wires_keep_every_limit_and_ohms_law(asked, speed):
     built = MECHANISMS["drivetrain"]
-    wires = connected(built)
+    wires = power_path_arrays(built)
     wires[7] = 0.0  # no brownout here
     state = State.at(0.0, speed)
 
@@ -186,7 +195,7 @@ def test_a_brownout_takes_the_motors_off_for_a_loop():
 
     track = move(
         built.model, time=time, voltage=np.full(time.size, 11.0), state=State(),
-        wires=connected(built),
+        wires=power_path_arrays(built),
     )  # fmt: skip
 
     off = track.applied == 0.0
@@ -208,7 +217,7 @@ def test_no_wires_apply_what_is_asked():
 def test_the_faster_an_effect_acts_the_finer_the_step():
     quick = PLAIN + Part("stribeck", {"extra": 2.0, "slow": 0.01})
 
-    assert 5e-5 <= finest(quick) < 0.5 * finest(PLAIN)
+    assert 5e-5 <= finest_step(quick) < 0.5 * finest_step(PLAIN)
 
 
 def new_effect(**change):
@@ -280,7 +289,7 @@ def test_what_was_compiled_is_kept_where_the_environment_says(cache, tmp_path, m
     assert not is_compiled(FEW)
 
     monkeypatch.setenv(CACHE, str(cache))
-    assert folder() == cache
+    assert cache_folder() == cache
     assert is_compiled(FEW)
     (kept,) = cache.iterdir()
     written = kept.stat().st_mtime_ns
@@ -312,8 +321,8 @@ def test_a_damaged_engine_is_never_loaded(cache, damage):
 
     code = Code.read(damage(kept.read_bytes()))
 
-    assert code is None or linked(code) is None
-    assert linked(Code.read(kept.read_bytes()))
+    assert code is None or link_code(code) is None
+    assert link_code(Code.read(kept.read_bytes()))
 
 
 def test_a_damaged_engine_is_compiled_anew(cache, tmp_path):
@@ -370,11 +379,11 @@ def test_an_engine_is_tried_in_a_process_of_its_own(cache, tmp_path, content, wo
     ],
 )
 def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
-    on, parameters = arrays(PLAIN)
+    on, parameters = effect_arrays(PLAIN)
     given = {
         "edges": np.array([0.0, TIME.size]), "time": TIME, "asked": steady(3.0),
         "bodies": np.zeros((1, 5)), "low": np.full(1, -math.inf), "high": np.full(1, math.inf),
-        "rubs": np.zeros(1), "sessions": np.zeros(1), "c": constants(PLAIN), "w": NO_WIRES,
+        "rubs": np.zeros(1), "sessions": np.zeros(1), "c": model_constants(PLAIN), "w": NO_WIRES,
         "on": on, "p": parameters,
         "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS), "began": np.zeros(1),
         "steps": EXACT, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_TRUST,

@@ -11,7 +11,7 @@ from gain_styles import BODY, PYTHON_BODY, PYTHON_STYLES, STYLES
 
 from grader.cli import run
 from grader.exercise import Exercise
-from grader.robotcode.deployed import gain_of, gains_of
+from grader.robotcode.gain_constants import gain_of, gains_of
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise10", ROOT / "exercises" / "exercise10")

@@ -5,7 +5,7 @@ from robot_mistakes import ROOT, needs_robot
 
 from grader.exercise import Exercise
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, Press
+from grader.robotcode.bench import ButtonPress, Outcome
 
 EXERCISE = Exercise("exercise5", ROOT / "exercises" / "exercise5")
 RIGHT = (ROOT / "solutions" / "exercise5" / "robotcontainer.py").read_text("utf-8")
@@ -35,7 +35,7 @@ def test_each_button_runs_its_test_in_test_mode_while_it_is_held(tmp_path):
 
     assert ran.outcome is Outcome.RAN, ran.said
     assert ran.presses == tuple(  # A, B, X and Y are 1 to 4
-        Press(test_mode=True, port=0, button=str(number), tests=(test,), stayed=False)
+        ButtonPress(test_mode=True, port=0, button=str(number), tests=(test,), stayed=False)
         for number, test in enumerate(TESTS, start=1)
     )
 

@@ -13,11 +13,11 @@ import pytest
 
 from grader.check import Wrong
 from grader.exercise import Exercise
-from grader.variant import of_class
+from grader.variant import class_secret
+from sim.detect_faults import inspect
 from sim.fault import Stretch
 from sim.faults import FAULTS
 from sim.formats import read
-from sim.inspection import inspect
 from sim.log import FOUR_TESTS, Log, Run
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -88,7 +88,7 @@ def test_a_student_gets_the_same_logs_every_time_and_nobody_elses():
 
     assert told("ann") == told("Ann") != told("ben")
     alone = told("ann")
-    with of_class(b"a class"):
+    with class_secret(b"a class"):
         assert told("ann") != alone
     assert told("ann") == alone
 

@@ -14,7 +14,7 @@ from grader.check import Wrong
 from grader.cli import run
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
-from grader.variant import of_class
+from grader.variant import class_secret
 from sim.fit import fit
 from sim.formats import read
 from sim.units import unit
@@ -199,7 +199,7 @@ def test_a_student_gets_the_same_log_every_time_and_nobody_elses():
 
     assert told("ann") == told("Ann") != told("ben")
     alone = told("ann")
-    with of_class(b"a class"):
+    with class_secret(b"a class"):
         assert told("ann") != alone
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from grader.cli import run
 from grader.exercise import Exercise
-from grader.variant import of_class, seed
+from grader.variant import class_secret, student_seed
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise9", ROOT / "exercises" / "exercise9")
@@ -35,7 +35,7 @@ def unseen():
 
 
 def logs_of(student):
-    return unseen().hidden(student, seed(student, "exercise9"))
+    return unseen().hidden(student, student_seed(student, "exercise9"))
 
 
 def solution():
@@ -91,7 +91,7 @@ def test_the_five_logs_differ_as_the_task_says():
 
 def test_a_student_and_a_class_have_unseen_logs_of_their_own():
     ann, ben = (logs_of(name)[0].data["velocity"] for name in ("ann", "ben"))
-    with of_class(b"a secret of this class"):
+    with class_secret(b"a secret of this class"):
         other = logs_of("ann")[0].data["velocity"]
 
     assert not np.array_equal(ann, logs_of("ann")[1].data["velocity"])

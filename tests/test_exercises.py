@@ -11,8 +11,8 @@ from authored import authored_answer, mistakes_of
 from grader.course import find_course
 from grader.exercise import HINTS, exercises
 from grader.misconception import MISCONCEPTIONS
-from grader.starter import blank
-from grader.variant import of_class
+from grader.starter import remove_answers
+from grader.variant import class_secret
 
 ROOT = find_course(Path(__file__).resolve().parent)
 EXERCISES = {one.name: one for one in exercises(ROOT)}
@@ -120,7 +120,7 @@ def test_a_starter_is_its_solution_with_the_answers_taken_out(name):
         if solution.is_file():
             starter = (EXERCISES[name].folder / file).read_text(encoding="utf-8")
 
-            assert starter == blank(solution.read_text(encoding="utf-8"))
+            assert starter == remove_answers(solution.read_text(encoding="utf-8"))
             assert "TODO" in starter
 
 
@@ -128,8 +128,8 @@ def test_answers_are_taken_out_in_both_languages():
     java = "a;\n  // --- answer: Add\n  // ---   them up.\n  b += a;\n  // --- end\nc;\n"
     python = "a\n    # --- answer: Add.\n    b += a\n    # --- end\nc\n"
 
-    assert blank(java) == "a;\n  // TODO: Add\n  //       them up.\nc;\n"
-    assert blank(python) == "a\n    # TODO: Add.\nc\n"
+    assert remove_answers(java) == "a;\n  // TODO: Add\n  //       them up.\nc;\n"
+    assert remove_answers(python) == "a\n    # TODO: Add.\nc\n"
 
 
 @pytest.mark.parametrize("name", [name for name, one in EXERCISES.items() if one.personal])
@@ -139,7 +139,7 @@ def test_a_class_has_numbers_of_its_own_even_in_one_process(name, tmp_path):
     moved = type(EXERCISES[name])(name, copy)
     made = []
     for secret in (b"east", b"west", b"east"):
-        with of_class(secret):
+        with class_secret(secret):
             moved.prepare("ann", say=lambda _: None)
         made.append(
             {path.name: path.read_bytes() for path in sorted((copy / "data" / "ann").iterdir())}

@@ -19,10 +19,10 @@ import pytest
 import sim.faults
 from sim.catalogue import members
 from sim.contaminate import contaminate
+from sim.detect_faults import inspect
 from sim.errors import BadRequest
 from sim.fault import Fault, fault_of
 from sim.faults import FAULTS, fault
-from sim.inspection import inspect
 from sim.log import Log
 from sim.mechanisms import MECHANISMS
 from sim.routine import Routine
@@ -179,7 +179,7 @@ def test_a_fault_knows_neither_the_bench_nor_its_neighbors(name):
 
     seen = {module for module in imported if module.startswith("sim.")}
 
-    assert not seen & {"sim.mechanisms", "sim.mechanism", "sim.simulate", "sim.truth"}
+    assert not seen & {"sim.mechanisms", "sim.mechanism", "sim.simulate", "sim.ground_truth"}
     assert not any(module.startswith("sim.faults") for module in seen)
 
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import sim
-from sim.clues import Clues
 from sim.contaminate import contaminate
-from sim.fault import only
+from sim.diagnostics import diagnose_log
+from sim.fault import select_samples
 from sim.faults import FAULTS
 from sim.log import Log, Run
-from sim.looks import look
+from sim.log_features import LogFeatures
 from sim.mechanisms import MECHANISMS
 from sim.routine import Routine
 from sim.simulate import simulate
@@ -49,7 +49,7 @@ def struck(name, log, seed, *, severity=1.0):
 
 
 def found(name, log):
-    return list(FAULTS[name].detect(Clues(log)))
+    return list(FAULTS[name].detect(LogFeatures(log)))
 
 
 def missed(name, spoilt):
@@ -214,7 +214,7 @@ def test_a_stop_has_no_speed_and_a_stuck_sensor_has(speed):
 
 def test_a_ramp_that_starts_in_motion_is_given_a_standstill_to_tremble_in():
     log = made("shooter")
-    log = each(log, lambda run: only(run, np.abs(run.velocity) > 0.0))
+    log = each(log, lambda run: select_samples(run, np.abs(run.velocity) > 0.0))
 
     spoilt = contaminate(log, "noisy-standstill", rng=np.random.default_rng(2))
 
@@ -306,7 +306,7 @@ def test_a_log_that_says_next_to_nothing_is_survived(n, voltage, speed):
     log = Log((flat(n, voltage=voltage, speed=speed),))
 
     assert names(log) <= {"missing-test"}
-    assert isinstance(look(Clues(log)), tuple)
+    assert isinstance(diagnose_log(LogFeatures(log)), tuple)
 
 
 @pytest.mark.shared

@@ -12,7 +12,7 @@ from wpilog_file import Motor, saved
 import sim
 from sim.cli import sysid
 from sim.cli.fit.sides import sides_of
-from sim.command import run
+from sim.cli_support import run
 from sim.mechanisms import MECHANISMS
 from sim.routine import Routine
 from sim.simulate import simulate

@@ -7,7 +7,7 @@ import pytest
 
 from sim.fit import fit
 from sim.log import FOUR_TESTS, Log, Run
-from sim.simulate import motion
+from sim.simulate import move_gains_only
 from sim.vocabulary import METHODS
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
@@ -21,7 +21,7 @@ def log(samples):
     for index, test in enumerate(FOUR_TESTS):
         sign = 1.0 if test.endswith("forward") else -1.0
         volts = sign * (2.0 * time if test.startswith("quasi") else np.full(time.size, 7.0))
-        position, velocity = motion(GAINS, time=time, voltage=volts)
+        position, velocity = move_gains_only(GAINS, time=time, voltage=volts)
         chance = np.random.default_rng(index)
         noisy = velocity + 0.02 * chance.standard_normal(time.size) * (velocity != 0.0)
         seen = np.round(position, 4)

@@ -7,9 +7,9 @@ import pytest
 
 from sim.errors import BadRequest
 from sim.feedback import Plant
-from sim.feedback.following import follow
-from sim.feedback.profile import STEP, Leg, brisk, profile, there_and_back
-from sim.plot.outcome import Trace, outcome, traces
+from sim.feedback.following import follow_profile
+from sim.feedback.profile import STEP, Leg, brisk_profile, join_legs, there_and_back
+from sim.plot.consequence import Trace, consequence, profile_traces
 
 DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.2}
 LIFT = {"kS": 0.25, "kV": 4.5, "kA": 0.2, "kG": 2.0}
@@ -22,7 +22,9 @@ def followed(kind, *, wanted=UP, **changes):
     """A mechanism of a kind under a feedforward with some gains changed."""
     plant, believed = Plant(kind, PLANTS[kind]), Plant(kind, {**PLANTS[kind], **changes})
     place = {"simple": "way", "elevator": "height", "arm": "angle"}[kind]
-    return follow(plant, believed, wanted, name="thing", symbol="m", place=place, stops=(0.0, 1.3))
+    return follow_profile(
+        plant, believed, wanted, name="thing", symbol="m", place=place, stops=(0.0, 1.3)
+    )
 
 
 @pytest.mark.parametrize("kind", PLANTS)
@@ -39,15 +41,15 @@ def test_a_profile_is_whole():
     assert max(UP.position) == pytest.approx(1.0)  # 0.5 m/s for 0.75 s and twice half of 0.25 s
     assert np.allclose(np.diff(UP.position), STEP * np.array(UP.velocity[:-1]), atol=1e-4)
     assert (UP.velocity[UP.cruise], UP.velocity[UP.rest]) == (pytest.approx(0.5), 0.0)
-    assert profile([Leg(0.5, 2.0), Leg(0.5)]).velocity[-1] == pytest.approx(1.0)
+    assert join_legs([Leg(0.5, 2.0), Leg(0.5)]).velocity[-1] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("factor", [0.5, 1.0, 1.7])
 def test_the_steady_speed_is_in_proportion_to_kv(factor):
-    one = followed("simple", wanted=brisk(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"])
+    one = followed("simple", wanted=brisk_profile(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"])
     place = one.wanted.cruise
 
-    free = follow(
+    free = follow_profile(
         Plant("simple", DRIVE), Plant("simple", {**DRIVE, "kV": factor * DRIVE["kV"]}), one.wanted,
         name="thing", symbol="m",
     )  # fmt: skip
@@ -94,7 +96,7 @@ def test_no_number_is_too_large(gain, size):
 
 def test_the_picture_shows_both_and_says_it_in_words():
     one = followed("elevator", kG=0.0)
-    drawn = outcome(traces(one), words=one.words)
+    drawn = consequence(profile_traces(one), words=one.words)
     speed, height = drawn.figure.axes
 
     assert one.words in drawn.alt
@@ -106,17 +108,17 @@ def test_the_picture_shows_both_and_says_it_in_words():
 
 
 def test_where_only_speed_matters_there_is_one_panel():
-    spun = follow(
+    spun = follow_profile(
         Plant("simple", DRIVE), Plant("simple", DRIVE), UP, name="wheel", symbol="rot", place=""
     )
 
-    assert [one.ylabel for one in traces(spun)] == ["velocity [rot/s]"]
+    assert [one.ylabel for one in profile_traces(spun)] == ["velocity [rot/s]"]
 
 
 def test_what_cannot_be_drawn_is_refused():
     short = Trace("thing", "way [m]", (0.0, 1.0), (0.0, 1.0), {"what it does": (0.0,)})
 
     with pytest.raises(BadRequest, match="not one value for each time. Give as many"):
-        outcome([short], words="")
+        consequence([short], words="")
     with pytest.raises(BadRequest, match="no motion to draw"):
-        outcome([], words="")
+        consequence([], words="")

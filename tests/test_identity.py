@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 from small_course import RIGHT, lay_out
 
-from grader.classroom.handed_in import find_all
 from grader.classroom.identity import check_identities
 from grader.classroom.secret import identity_seal
 from grader.classroom.submission_names import Identities, SubmissionName
+from grader.classroom.submissions import find_submissions
 from grader.cli import run
-from grader.course import load
+from grader.course import load_progress
 from grader.exercise import exercises
 from grader.notebook import submit
 from grader.variant import folder_name
@@ -56,7 +56,7 @@ def hand_in(course: Path, place: Path, student: str) -> tuple:
             target = place / student / "course" / ".course" / name
             target.parent.mkdir(exist_ok=True)
             target.write_bytes(source.read_bytes())
-    return find_all(place, exercises(course))
+    return find_submissions(place, exercises(course))
 
 
 def test_in_a_package_one_is_whom_it_was_issued_to(course, capsys):
@@ -64,7 +64,7 @@ def test_in_a_package_one_is_whom_it_was_issued_to(course, capsys):
 
     assert run(["start", "--no-lab"]) == 0
     assert "made for Zoë" in capsys.readouterr().out
-    assert load(course)[0].student == "Zoë"
+    assert load_progress(course)[0].student == "Zoë"
     assert run(["exercise1"]) == 2
     assert "only your instructor can grade" in capsys.readouterr().err
     assert "only your instructor can grade" in str(submit(1, size=3))
@@ -121,7 +121,7 @@ def test_a_folder_of_data_tells_it_too(course, tmp_path):
     place = tmp_path / "in" / "ann" / "exercises" / "exercise1"
     (place / "data" / "me").mkdir(parents=True)
     (place / "data" / "me" / "log.csv").write_text("", encoding="utf-8")
-    (one,) = check_identities(find_all(tmp_path / "in", exercises(course)), secret=None)
+    (one,) = check_identities(find_submissions(tmp_path / "in", exercises(course)), secret=None)
 
     assert one.numbers_of == "me"
 

@@ -24,8 +24,8 @@ import pytest
 from authored import authored_answer, mistakes_of
 
 from grader.exercise import exercises
-from grader.serve.homes import can_separate, prepare_separation
-from grader.variant import folder_name, of_class
+from grader.serve.student_folders import can_separate, prepare_separation
+from grader.variant import class_secret, folder_name
 from sim.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -226,7 +226,7 @@ def test_planted_mistakes_lose_in_a_class_what_they_lose_one_by_one(course, at_h
         file = there / one.name / mistake.file
         file.write_text(mistake.make(file.read_text(encoding="utf-8")), encoding="utf-8")
         secret = (course.parent / "class.secret").read_bytes().strip()
-        with of_class(secret):
+        with class_secret(secret):
             expected[one.name] = one.grade(there / one.name, student=student.name).score
     words = ["grade", "class", str(tmp_path / "in"), "--roster", "../roster.csv", "--secret",
              "../class.secret", "-o", str(tmp_path / "out")]  # fmt: skip

@@ -13,15 +13,23 @@ import numpy as np
 import psutil
 import pytest
 
-from grader.isolation import Call, Limits, apart, landlock, level, run, seccomp
+from grader.isolation import (
+    Call,
+    Limits,
+    isolation_level,
+    landlock,
+    run_functions,
+    sandbox_parent,
+    seccomp,
+)
 from grader.isolation.scratch import remove_tree
-from grader.variant import of_class
+from grader.variant import class_secret
 
 ROOT = Path(__file__).resolve().parents[1]
 
 SHORT = Limits(seconds=0.6)  # where the end of it is waited for
 LONG = Limits(seconds=10.0)  # where it is not, however busy the machine
-LEVEL = level()
+LEVEL = isolation_level()
 NO_ISOLATION = "" if LEVEL.startswith("isolated") else f"this system is {LEVEL}"
 isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolated")
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such call")
@@ -35,7 +43,7 @@ def apart_run(tmp_path):
         file = tmp_path / "fit.py"
         file.write_text(text, encoding="utf-8")
         calls = [Call("fit", {"number": number, **data}) for number in range(times)]
-        return run(file, calls=calls, limits=limits)
+        return run_functions(file, calls=calls, limits=limits)
 
     return start
 
@@ -46,15 +54,15 @@ ABIS = {"all there is": None, "Landlock as on Linux 6.7": 4}
 @pytest.fixture(params=[*ABIS, "limits only"])
 def each_level(request, monkeypatch):
     """With all the confinement this system has, with an older kernel's, and with limits only."""
-    monkeypatch.setattr(apart, "CONFINED", request.param != "limits only")
-    monkeypatch.setattr(apart, "LANDLOCK_ABI", ABIS.get(request.param))
+    monkeypatch.setattr(sandbox_parent, "CONFINED", request.param != "limits only")
+    monkeypatch.setattr(sandbox_parent, "LANDLOCK_ABI", ABIS.get(request.param))
     return request.param
 
 
 @pytest.fixture(params=ABIS)
 def each_kernel(request, monkeypatch):
     """With all the confinement this system has, and with an older kernel's."""
-    monkeypatch.setattr(apart, "LANDLOCK_ABI", ABIS[request.param])
+    monkeypatch.setattr(sandbox_parent, "LANDLOCK_ABI", ABIS[request.param])
 
 
 @pytest.fixture
@@ -170,8 +178,8 @@ def test_scipy_is_there_where_it_is_asked_for_and_other_packages_never(tmp_path)
         encoding="utf-8",
     )
     calls = [Call("fit"), Call("plot")]
-    with_it = run(file, calls=calls, packages=("numpy", "scipy")).answers
-    without = run(file, calls=calls[:1]).answers
+    with_it = run_functions(file, calls=calls, packages=("numpy", "scipy")).answers
+    without = run_functions(file, calls=calls[:1]).answers
 
     assert dict(with_it[0].numbers) == {"d": 2.0}
     assert with_it[1].reason == (
@@ -333,7 +341,7 @@ def test_neither_arguments_nor_environment_nor_memory_hold_a_secret(apart_run, m
         "    ours = any(n.startswith('grader') for n in sys.modules)\n"
         "    return {'secret': name in seen, 'grader': ours}\n"
     )
-    with of_class(b"swordfish"):
+    with class_secret(b"swordfish"):
         (answer,) = apart_run(text).answers
 
     assert answer.reason == ""
@@ -352,7 +360,7 @@ def unreadable():
         "a package beside Python's own library": str(inside),
         "a package nobody asked for": pytest.__file__,
         "the grader": str(course / "grader" / "variant.py"),
-        "its own program": str(course / "grader" / "isolation" / "child.py"),
+        "its own program": str(course / "grader" / "isolation" / "sandbox_child.py"),
         "an exercise's checks": str(course / "exercises" / "exercise9" / "checks.py"),
         "the bench": str(course / "sim" / "mechanisms" / "shooter.py"),
         "the parent's memory": f"/proc/{os.getpid()}/maps",
@@ -474,7 +482,7 @@ def test_a_file_given_to_another_process_sends_it_no_signal(apart_run, victim, g
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux has F_SETSIG")
 def test_the_same_signal_ends_it_where_nothing_is_filtered(apart_run, victim, monkeypatch):
-    monkeypatch.setattr(apart, "CONFINED", False)
+    monkeypatch.setattr(sandbox_parent, "CONFINED", False)
     code = OWNED.format(give=OWNERS["F_SETOWN"].format(pid=victim.pid))
     (answer,) = apart_run(attempt(code)).answers
 
@@ -546,12 +554,12 @@ def test_processor_time_is_limited_and_the_end_says_so():
     )
     ended = subprocess.run([sys.executable, "-c", code], timeout=20, check=False).returncode
 
-    assert apart._why(ended) == "it took too much of the processor's time and was stopped"
+    assert sandbox_parent._why(ended) == "it took too much of the processor's time and was stopped"
 
 
 @posix
 def test_children_left_behind_are_ended_with_it(apart_run, monkeypatch, tmp_path):
-    monkeypatch.setattr(apart, "CONFINED", False)  # else there are none
+    monkeypatch.setattr(sandbox_parent, "CONFINED", False)  # else there are none
     note = tmp_path / "pids"
     text = (
         "import os, time\ndef fit(number):\n    for _ in range(20):\n"
@@ -589,16 +597,16 @@ def test_where_the_kernel_can_isolate_it_does():
     ],
 )
 def test_only_code_that_cannot_stop_the_examiner_is_called_isolated(abi, filtered, says):
-    assert apart._level({"landlock": abi, "seccomp": filtered, "limited": []}) == says
+    assert sandbox_parent._level({"landlock": abi, "seccomp": filtered, "limited": []}) == says
 
 
 def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
     text = "def fit(number): return {}\n"
     assert apart_run(text).level == LEVEL
-    monkeypatch.setattr(apart, "LANDLOCK_ABI", 4)
+    monkeypatch.setattr(sandbox_parent, "LANDLOCK_ABI", 4)
     if landlock.abi() > 4:
         assert apart_run(text).level.startswith("isolated (Landlock ABI 4, ")
-    monkeypatch.setattr(apart, "CONFINED", False)
+    monkeypatch.setattr(sandbox_parent, "CONFINED", False)
 
     assert apart_run(text).level.startswith("limited: time")
     assert apart_run(text).level.endswith("it can read files and reach the network")

@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from mutation import robot_code
 from mutation.report import all_mutants, legal_variants, survey
 
-from grader.exercise import find
+from grader.exercise import find_exercise
 
 BASES = Path(__file__).resolve().parent / "mutation" / "bases"
 EXERCISES = ("exercise4", "exercise5", "exercise10")
@@ -40,7 +40,7 @@ def test_every_listed_variant_has_a_reason():
 
 @pytest.mark.parametrize("path", sorted(BASES.rglob("*.java")), ids=str)
 def test_the_other_ways_of_writing_earn_full_marks_unchanged(path, root):
-    one = find(path.parent.name, root)
+    one = find_exercise(path.parent.name, root)
     grade = one.grade(path, student="ann", run=False)
 
     assert (grade.status, grade.score) == ("passed", grade.max_score)

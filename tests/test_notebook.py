@@ -12,7 +12,7 @@ from small_course import HALF, RIGHT, answer, lay_out
 
 from grader import submit
 from grader.cli import run
-from grader.course import load
+from grader.course import load_progress
 
 STARTER = '# Measure it.\nsize = ""  # in units\ncolor = "" # a word\n'
 PAGE = "<!DOCTYPE html><html lang='en'><head><title>t</title></head><body>{}</body></html>"
@@ -38,7 +38,7 @@ def test_answers_go_into_the_file_and_its_comments_stay(course):
     assert (shown.grade.score, shown.grade.status) == (2.5, "failed")
     submit(1, COLOR="green")
     assert 'color = "green" # a word' in text_of(course)
-    assert load(course)[0].of("me", "exercise1").done
+    assert load_progress(course)[0].of("me", "exercise1").done
 
 
 @pytest.mark.parametrize("text", [RIGHT, HALF, "size = 1\n"])

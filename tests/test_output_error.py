@@ -16,7 +16,7 @@ from sim.log import FOUR_TESTS, Log, Run
 from sim.mechanisms import MECHANISMS
 from sim.model import Model, Part
 from sim.routine import Routine
-from sim.simulate import motion, simulate
+from sim.simulate import move_gains_only, simulate
 
 GENTLE = Routine(ramp=0.5, step=3.5)
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
@@ -37,7 +37,7 @@ def textbook(*, noise, ka=0.3, seed=0, dt=0.02):
     for index, test in enumerate(FOUR_TESTS):
         sign = 1.0 if test.endswith("forward") else -1.0
         volts = sign * (time if test.startswith("quasi") else np.full(time.size, 7.0))
-        x, v = motion({**GAINS, "kA": ka}, time=time, voltage=volts)
+        x, v = move_gains_only({**GAINS, "kA": ka}, time=time, voltage=volts)
         seen = v + noise * chance.standard_normal(v.size) * (v != 0.0)
         runs.append(Run(test, 20.0 * index + time, volts, x, seen))
     return Log(tuple(runs))

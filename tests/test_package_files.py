@@ -11,7 +11,7 @@ import zipfile
 import pytest
 
 from grader.cli import run
-from grader.exercise import find
+from grader.exercise import find_exercise
 from grader.package_files import imported_modules, select_package_files, strip_notebook
 from sim.errors import BadRequest
 
@@ -229,7 +229,7 @@ def test_the_exercise_folder_one_stands_in_is_loaded_and_not_the_installed_one(c
     path = course / "exercises" / "exercise4" / "checks.py"
     path.write_text(path.read_text(encoding="utf-8") + "\nMARK = 1\n", encoding="utf-8")
     shutil.rmtree(course / "lessons")
-    practice = find("practice", course).module
+    practice = find_exercise("practice", course).module
 
     assert practice.FOURTH.MARK == 1
 

@@ -8,13 +8,13 @@ from html_tags import Tags
 from matplotlib.colors import to_rgba
 
 import sim
-from sim.duty_cycle import Battery, by_duty_cycle
+from sim.duty_cycle import Battery, simulate_duty_cycle
 from sim.errors import BadRequest
 from sim.mechanisms import MECHANISMS
 from sim.model import Model
-from sim.plot import gap_bars, microscope, views
-from sim.plot.microscope import missing_volts
+from sim.plot import gap_bars, plot_voltage_residual, residual_views
 from sim.plot.picture import PAPER
+from sim.plot.voltage_residual import missing_volts
 from sim.replay import replay
 from sim.simulate import simulate
 
@@ -45,17 +45,17 @@ def hiding(effect, *, noise=True):
 @pytest.mark.parametrize("effect", HIDES)
 def test_each_effect_is_seen_best_from_its_own_side(effect):
     log = hiding(effect)
-    found = views(log, simulated(log), TRUTH.gains)
+    found = residual_views(log, simulated(log), TRUTH.gains)
     assert max(found, key=lambda name: found[name].explains) == HIDES[effect]
 
 
 def test_a_battery_that_gives_way_is_seen_best_over_its_voltage():
     hard = replace(ROUTINE, step=5.0)
-    log = by_duty_cycle(DRIVETRAIN, hard, battery=TIRED, rng=np.random.default_rng(1))
+    log = simulate_duty_cycle(DRIVETRAIN, hard, battery=TIRED, rng=np.random.default_rng(1))
     asked = replace(
         log, runs=tuple(replace(r, voltage=12.0 * r.voltage / r.bus_voltage) for r in log.runs)
     )
-    found = views(asked, simulated(asked), TRUTH.gains)
+    found = residual_views(asked, simulated(asked), TRUTH.gains)
     assert max(found, key=lambda name: found[name].explains) == "battery voltage"
     lowest = found["battery voltage"].mean
     assert lowest[np.isfinite(lowest)][0] < -0.2  # [V] the robot got less than the log says
@@ -63,7 +63,7 @@ def test_a_battery_that_gives_way_is_seen_best_over_its_voltage():
 
 def test_nothing_is_seen_where_nothing_is_missing():
     log = hiding("")
-    found = views(log, simulated(log), TRUTH.gains)
+    found = residual_views(log, simulated(log), TRUTH.gains)
     assert all(view.explains < 0.1 for view in found.values())
 
 
@@ -78,8 +78,8 @@ def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
 
 def test_without_a_record_of_the_battery_there_are_three_sides():
     log = simulate(DRIVETRAIN, ROUTINE, rng=np.random.default_rng(1))
-    assert "battery voltage" not in views(log, simulated(log), TRUTH.gains)
-    picture = microscope(log, simulated(log), TRUTH.gains)
+    assert "battery voltage" not in residual_views(log, simulated(log), TRUTH.gains)
+    picture = plot_voltage_residual(log, simulated(log), TRUTH.gains)
     assert len(picture.table.rows) == 3
     assert picture.alt.startswith("Three views")
 
@@ -87,7 +87,7 @@ def test_without_a_record_of_the_battery_there_are_three_sides():
 def test_a_simulation_of_another_log_is_refused():
     log = hiding("")
     with pytest.raises(BadRequest, match="not of this log"):
-        views(log, simulated(log)[:-1], TRUTH.gains)
+        residual_views(log, simulated(log)[:-1], TRUTH.gains)
 
 
 def test_a_gap_bar_says_its_numbers():
@@ -112,7 +112,10 @@ def test_gaps_of_different_logs_are_refused(gaps):
 
 def test_each_picture_has_words_and_a_table():
     log = hiding("drag")
-    for picture in (microscope(log, simulated(log), TRUTH.gains), gap_bars({"a": {"log": 2.0}})):
+    for picture in (
+        plot_voltage_residual(log, simulated(log), TRUTH.gains),
+        gap_bars({"a": {"log": 2.0}}),
+    ):
         (image,) = Tags(picture.html).all("img")
         assert image["alt"] == picture.alt
         assert len(picture.alt) > 40

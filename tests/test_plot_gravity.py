@@ -8,10 +8,10 @@ from html_tags import Tags
 
 import sim
 from sim.errors import BadRequest
-from sim.fit.known import known
+from sim.fit.information_matrix import information_matrix
 from sim.plot import ellipses, hold_angles, hold_window, information_map
-from sim.prepare import prepare
 from sim.simulate import simulate
+from sim.sysid_rows import prepare_rows
 
 VOLTS, SPEEDS = [1.0, 1.5, 2.0, 2.5, 3.0], [-0.17, -0.06, 0.0, 0.05, 0.17]
 NAMES, TRUTH, REACH = ("kS [V]", "kG [V]"), (0.25, 2.01), (0.3, 0.3)
@@ -22,7 +22,7 @@ HOLDS = [(-30.0, 1.06, 1.56), (0.0, 1.26, 1.76), (60.0, 0.50, 1.00)]
 def rows():
     """An elevator's four tests, as a fit sees them."""
     log = simulate(sim.MECHANISMS["elevator"], sim.Routine(step=4.5), rng=np.random.default_rng(1))
-    return prepare(log).rows
+    return prepare_rows(log).rows
 
 
 def some(way):
@@ -30,7 +30,7 @@ def some(way):
 
 
 def about(part):
-    return known(part, type="elevator", noise=0.05).about("kS", "kG")
+    return information_matrix(part, type="elevator", noise=0.05).about("kS", "kG")
 
 
 PICTURES = {
@@ -96,7 +96,7 @@ def test_up_only_is_a_strip_on_which_one_gain_falls_as_the_other_rises():
 
 
 def test_the_errors_of_a_whole_log_are_those_of_the_rows():
-    errors = known(rows(), type="elevator", noise=0.05).errors
+    errors = information_matrix(rows(), type="elevator", noise=0.05).errors
     said = [float(cell) for cell in PICTURES["map"]().table.rows[0][1:]]
     assert said == pytest.approx([errors["kS"], errors["kG"]], rel=0.01)
 

@@ -5,7 +5,7 @@ import pytest
 from html_tags import Tags
 
 from sim.errors import BadRequest
-from sim.plot import budget, change, chase, gauge, miss
+from sim.plot import budget, gauge, measure_tracking_error, relative_change, tracking_error
 from sim.plot.gauge import band_of
 
 TIME = np.linspace(0.0, 2.0, 41)
@@ -13,10 +13,10 @@ BANDS = {"fine": 0.5, "watch": 5.0, "stop": 6.0}
 TERMS = {"kS": np.full(41, 0.2), "kV·v": 2.0 * TIME, "kA·a": np.linspace(1.0, -1.0, 41)}
 APPLIED = sum(TERMS.values())
 PICTURES = {
-    "chase": lambda: chase(TIME, TIME, {"a": TIME + 0.1, "b": TIME}, title="A race"),
+    "chase": lambda: tracking_error(TIME, TIME, {"a": TIME + 0.1, "b": TIME}, title="A race"),
     "budget": lambda: budget(TIME, TERMS, applied=APPLIED),
     "budget at a moment": lambda: budget(TIME, TERMS, applied=APPLIED, moment=1.5),
-    "change": lambda: change({"kS": 0.829, "kV": 1.206, "kA": 1.001}),
+    "change": lambda: relative_change({"kS": 0.829, "kV": 1.206, "kA": 1.001}),
     "gauge": lambda: gauge({"left": 0.2, "right": 0.9}, BANDS, label="kS [V]", good="fine"),
 }
 
@@ -33,7 +33,7 @@ def test_a_picture_says_in_words_and_numbers_what_it_shows(name):
 
 
 def test_a_miss_is_the_root_mean_square_and_the_largest():
-    off = miss(np.zeros(4), np.array([0.0, 3.0, -4.0, 0.0]))
+    off = measure_tracking_error(np.zeros(4), np.array([0.0, 3.0, -4.0, 0.0]))
     assert off.typical == pytest.approx(2.5)  # √((9 + 16) / 4)
     assert off.largest == 4.0
 
@@ -93,12 +93,12 @@ def test_a_change_says_what_grew_and_what_shrank():
 @pytest.mark.parametrize(
     ("draw", "advice"),
     [
-        (lambda: chase(TIME, TIME, {}), "Give one or more"),
-        (lambda: chase(TIME, TIME, {"a": TIME[1:]}), "of equal length"),
+        (lambda: tracking_error(TIME, TIME, {}), "Give one or more"),
+        (lambda: tracking_error(TIME, TIME, {"a": TIME[1:]}), "of equal length"),
         (lambda: budget(TIME, {}, applied=APPLIED), "Give one or more"),
         (lambda: budget(TIME, TERMS, applied=APPLIED[1:]), "of equal length"),
-        (lambda: change({}), "Divide what is now"),
-        (lambda: change({"x": -1.0}), "Divide what is now"),
+        (lambda: relative_change({}), "Divide what is now"),
+        (lambda: relative_change({"x": -1.0}), "Divide what is now"),
         (lambda: gauge({}, BANDS, label="", good="fine"), "a larger end"),
         (lambda: gauge({"x": 1.0}, BANDS, label="", good="best"), "a larger end"),
         (lambda: gauge({"x": 1.0}, {"a": 2.0, "b": 1.0}, label="", good="a"), "a larger end"),

@@ -10,7 +10,7 @@ import sim
 from sim.errors import BadRequest, NotIdentifiable
 from sim.log import FOUR_TESTS, Log
 from sim.plot import acceleration_velocity, velocity_time
-from sim.prepare import prepare
+from sim.sysid_rows import prepare_rows
 
 PERIOD, STEP = 0.02, 0.0005  # [s] between samples, and between two steps of the motion
 SIMPLE = {"kS": 0.2, "kV": 2.0, "kA": 0.3}
@@ -71,7 +71,7 @@ def test_a_wrong_gain_takes_them_off_the_line(kind, wrong):
 
 def test_the_quantity_is_that_of_sysids_source():
     log = CASES["simple"][1]
-    rows = prepare(log).rows["quasistatic-reverse"]
+    rows = prepare_rows(log).rows["quasistatic-reverse"]
     # As in AnalyzerPlot.cpp: from the acceleration V/kA is taken off, sgn(v)·kS/kA is added.
     expected = rows.acceleration - rows.voltage / 0.3 + np.copysign(0.2 / 0.3, rows.velocity)
     drawn = acceleration_velocity(log, gains=SIMPLE).figure.axes[0].lines[1]
@@ -133,7 +133,7 @@ def test_what_sysid_cannot_use_is_refused(draw, log):
 
 def test_what_the_fit_uses_is_counted_and_drawn_where_it_is():
     log = CASES["simple"][1]
-    picture, rows = velocity_time(log), prepare(log).rows
+    picture, rows = velocity_time(log), prepare_rows(log).rows
     for axes, test in zip(
         picture.figure.axes,
         ("quasistatic-forward", "dynamic-forward", "quasistatic-reverse", "dynamic-reverse"),

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader.exercise import Exercise, find
+from grader.exercise import Exercise, find_exercise
 from grader.mistake import put, scaled
 from grader.variant import folder_name
 from sim.fit import fit
@@ -93,7 +93,7 @@ def lacking(results):
 
 
 def test_the_command_finds_it_by_its_name():
-    assert find("practice", ROOT).folder == OWN.folder
+    assert find_exercise("practice", ROOT).folder == OWN.folder
 
 
 def test_five_steps_are_checked_as_in_their_exercises():

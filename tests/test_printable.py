@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from small_course import answer, lay_out
 
-from grader.classroom.words import feedback
+from grader.classroom.feedback_text import feedback
 from grader.cli import run
 from grader.notebook import submit
 from sim.printable import DIRECTIONS, printable

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from reconcile_made import bench, logs, session, solved, told
 
-from sim.cli.reconcile import damages
+from sim.cli.reconcile import inspect_damage
 from sim.contaminate import contaminate
 from sim.effects import EFFECTS
-from sim.reconcile.damage import Damaged
+from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.thresholds import NOT_WIDER
-from sim.telling import beside, headline
+from sim.story_text import headline, list_remarks
 from sim.units import unit
 
 HIDDEN = {
@@ -135,7 +135,7 @@ def test_a_gap_that_does_not_shrink_on_the_held_out_log_is_said():
     assert named(story) == ["constant-load"]
     assert story.gap_after > story.gap_before
     assert "with it the gap does not shrink" in headline(story)
-    assert any("do not trust the finding" in one for one in beside(story))
+    assert any("do not trust the finding" in one for one in list_remarks(story))
     assert any("make sure that it is of the same mechanism" in one for one in story.notes)
 
 
@@ -219,7 +219,9 @@ def test_a_fault_that_may_be_physics_is_told_after_what_is_missing(confidence, f
     sessions = logs("drivetrain", "drag")
     run = sessions["log"].runs[0]
     start = float(run.time[-1]) - 0.2
-    leans = Damaged(0, start, float(run.time[-1]), "hard-stop", confidence, "It leans.", "Look.")
+    leans = DamagedInterval(
+        0, start, float(run.time[-1]), "hard-stop", confidence, "It leans.", "Look."
+    )
 
     story = told(sessions, damages={"log": (leans,)})
 
@@ -234,7 +236,7 @@ def test_damage_is_reported_as_damage_and_physics_beside_it_is_still_named():
         sessions["log"], "encoder-slip", severity=1.0, rng=np.random.default_rng(4)
     ).log
 
-    story = told(sessions, log=spoilt, damages={"log": damages(spoilt)})
+    story = told(sessions, log=spoilt, damages={"log": inspect_damage(spoilt)})
 
     assert [(one.effect, one.kind) for one in story.findings if one.size == "major"] == [
         ("encoder-slip", "fault"), ("gravity-cosine", "effect"),
@@ -246,7 +248,7 @@ def test_a_run_of_which_nothing_is_believed_is_told_and_left_out():
     sessions = logs("drivetrain", "drag")
     log = sessions["log"]
     whole = log.runs[-1]
-    nothing = Damaged(
+    nothing = DamagedInterval(
         len(log.runs) - 1, float(whole.time[0]), float(whole.time[-1]), "sign-flip", 1.0,
         "It goes the wrong way.", "Turn the sign.",
     )  # fmt: skip

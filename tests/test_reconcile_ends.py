@@ -4,16 +4,16 @@ import pytest
 from reconcile_made import rubbing
 
 from sim.model import Part
-from sim.reconcile import descent
-from sim.reconcile.descent import ended, settle
-from sim.reconcile.gates import errors_of, folds, outside, rms
-from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import lanes
-from sim.reconcile.outset import Outset
-from sim.reconcile.problem import Problem
-from sim.reconcile.round import Round
-from sim.reconcile.second_thoughts import simplified
-from sim.reconcile.suspects import judged
+from sim.reconcile import optimize
+from sim.reconcile.backward_elimination import simplify_effects
+from sim.reconcile.candidates import score_estimate
+from sim.reconcile.cross_validation import make_folds, open_loop_errors, rms_gap, validation_gap
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.optimize import minimize, minimize_fully
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import run_records
+from sim.reconcile.selection_round import SelectionRound
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -24,21 +24,23 @@ def session(*parts, step, frictions=(1.0, 1.0, 1.0, 1.0)):
 
 
 def at(problem, values, *effects, q=1.0):
-    hypothesis = Hypothesis("simple", effects)
+    hypothesis = ModelStructure("simple", effects)
     size = q * problem.noise.velocity**2
-    return problem.at(hypothesis, values, Outset.seen(len(problem.lanes)), size)
+    return problem.at(hypothesis, values, RunNuisance.seen(len(problem.lanes)), size)
 
 
 def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
     wave = {"cosine": 0.19, "sine": 0.0, "turns": 3.0}  # ten of them to an error of 0.2 rad
     log = session(Part("cogging", wave), step=4.0, frictions=(1.05, 0.95, 0.96, 1.04))
-    problem = Problem.of(lanes(log))
+    problem = PredictionErrorProblem.of(run_records(log))
     values = {**GAINS, **{f"cogging.{name}": value for name, value in wave.items()}}
     truth, without = at(problem, values, "cogging"), at(problem, GAINS)
 
-    plain = rms(errors_of(problem, truth, truth.outset)).velocity / problem.noise.velocity
-    eased = rms(errors_of(problem, truth, truth.outset, eased=True)).velocity
-    bare = rms(errors_of(problem, without, without.outset, eased=True)).velocity
+    plain = (
+        rms_gap(open_loop_errors(problem, truth, truth.outset)).velocity / problem.noise.velocity
+    )
+    eased = rms_gap(open_loop_errors(problem, truth, truth.outset, eased=True)).velocity
+    bare = rms_gap(open_loop_errors(problem, without, without.outset, eased=True)).velocity
 
     assert plain > 5.0
     assert eased < 0.3 * plain * problem.noise.velocity
@@ -47,19 +49,19 @@ def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
 
 @pytest.mark.parametrize("off", [4.0, 0.3])
 def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
-    problem = Problem.of(lanes(session(step=4.0)))
+    problem = PredictionErrorProblem.of(run_records(session(step=4.0)))
     far = {"kS": 0.0, "kV": off * GAINS["kV"], "kA": 20.0 * GAINS["kA"]}
     begun = at(problem, far, q=4.0**6)
 
-    found = ended(problem, begun)
+    found = minimize_fully(problem, begun)
 
-    assert found.cost <= settle(problem, begun).cost
+    assert found.cost <= minimize(problem, begun).cost
     assert found.values == pytest.approx(GAINS, rel=0.02)
     assert found.q < problem.noise.velocity**2
 
 
 def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
-    problem = Problem.of(lanes(session(step=4.0)))
+    problem = PredictionErrorProblem.of(run_records(session(step=4.0)))
     begun = at(problem, {"kS": 0.3, "kV": 0.8, "kA": 0.1})
     costs = [begun.cost]
 
@@ -69,23 +71,23 @@ def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
         costs.append(found.cost)
         return found
 
-    monkeypatch.setattr(descent, "settle", halfway)
+    monkeypatch.setattr(optimize, "minimize", halfway)
 
-    assert ended(problem, begun).cost == min(costs)
+    assert minimize_fully(problem, begun).cost == min(costs)
     assert len(costs) > 3  # it was not enough once
 
 
 def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     log = session(Part("constant-load", {"load": 0.3}), step=4.0)
-    problem = Problem.of(lanes(log))
-    parts = folds([one.session for one in problem.lanes])
-    base = judged(problem, settle(problem, at(problem, GAINS)))
+    problem = PredictionErrorProblem.of(run_records(log))
+    parts = make_folds([one.session for one in problem.lanes])
+    base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     spring = {**GAINS, "spring.rate": 1e-4, "spring.preload": 0.3}
-    taken = judged(problem, settle(problem, at(problem, spring, "spring")), "spring")
-    gaps = [outside(problem, one.point, parts) for one in (base, taken)]
-    done = [Round(base, gaps[0], gaps[0]), Round(taken, gaps[1], gaps[0])]
+    taken = score_estimate(problem, minimize(problem, at(problem, spring, "spring")), "spring")
+    gaps = [validation_gap(problem, one.point, parts) for one in (base, taken)]
+    done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
-    told = simplified(problem, done, log, parts)
+    told = simplify_effects(problem, done, log, parts)
 
     assert [one.suspect.effect for one in told] == ["", "constant-load"]
     assert told[-1].suspect.point.hypothesis.effects == ("constant-load",)
@@ -94,12 +96,12 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
 
 def test_an_effect_that_needs_its_parameters_keeps_them():
     log = session(Part("spring", {"rate": 0.1, "preload": 0.0}), step=4.0)
-    problem = Problem.of(lanes(log))
-    parts = folds([one.session for one in problem.lanes])
-    base = judged(problem, settle(problem, at(problem, GAINS)))
+    problem = PredictionErrorProblem.of(run_records(log))
+    parts = make_folds([one.session for one in problem.lanes])
+    base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}
-    taken = judged(problem, settle(problem, at(problem, values, "spring")), "spring")
-    gaps = [outside(problem, one.point, parts) for one in (base, taken)]
-    done = [Round(base, gaps[0], gaps[0]), Round(taken, gaps[1], gaps[0])]
+    taken = score_estimate(problem, minimize(problem, at(problem, values, "spring")), "spring")
+    gaps = [validation_gap(problem, one.point, parts) for one in (base, taken)]
+    done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
-    assert simplified(problem, done, log, parts) == done
+    assert simplify_effects(problem, done, log, parts) == done

@@ -9,50 +9,55 @@ from reconcile_made import NOWHERE, recorded
 
 from sim.effects import EFFECTS
 from sim.engine import State
-from sim.fit.seen import Noise
+from sim.fit.measurements import SensorNoise
 from sim.log import Log
 from sim.model import Model
-from sim.reconcile.gates import Gap
-from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import lanes
-from sim.reconcile.problem import Problem
-from sim.reconcile.round import Round, Weighed
-from sim.reconcile.rounds import best_path, offered, paired, turnings
-from sim.reconcile.second_thoughts import reconsidered
+from sim.reconcile.backward_elimination import replace_effects
+from sim.reconcile.candidates import Candidate
+from sim.reconcile.cross_validation import Gap
+from sim.reconcile.forward_selection import (
+    add_pair,
+    admissible_candidates,
+    alternative_paths,
+    choose_path,
+)
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.model_selection import HARDLY, WIDENS, choose_simplest
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.run_records import run_records
+from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import Tried
-from sim.reconcile.suspects import Suspect
-from sim.reconcile.weighing import HARDLY, WIDENS, simplest
 
 
 def weighed(effect, score, *, gap=0.95, why="", **values):
     """A suspect, as far as choosing among them asks: how likely, how near, how large."""
-    hypothesis = Hypothesis("simple") + effect
+    hypothesis = ModelStructure("simple") + effect
     named = {f"{effect}.{name}": value for name, value in values.items()}
     point = replace(NOWHERE, hypothesis=hypothesis, values=named)
     tried = Tried(effect, score, gap, admitted=not why, why=why)
-    return Weighed(Suspect(effect, point, 0.0), Gap(gap, gap), tried)
+    return WeighedCandidate(Candidate(effect, point, 0.0), Gap(gap, gap), tried)
 
 
 def model(effect, score, *, gap, others=()):
     """A round, as far as choosing a path asks: what it added, how likely, how far off."""
-    suspect = Suspect(effect, NOWHERE, score)
+    suspect = Candidate(effect, NOWHERE, score)
     weighed = tuple(
-        Weighed(
-            Suspect(name, NOWHERE, 0.0),
+        WeighedCandidate(
+            Candidate(name, NOWHERE, 0.0),
             Gap(gap, gap),
             Tried(name, more, 0.9, admitted=good, why=""),
         )
         for name, more, good in others
     )
-    return Round(suspect, Gap(gap, gap), Gap(gap, gap), weighed=weighed)
+    return SelectionRound(suspect, Gap(gap, gap), Gap(gap, gap), weighed=weighed)
 
 
 QUICK = recorded(
     "dynamic-forward", Model("simple", {"kS": 0.2, "kV": 0.05, "kA": 0.005}),
     step=6.0, state=State.at(0.0), noise=(1.0, 1.0), rng=np.random.default_rng(5),
 )  # fmt: skip
-ONE_NOISE = Problem(
-    lanes(Log((QUICK,), units="meters", type="simple")), Noise(1.0, 1.0, (0.0, 0.0))
+ONE_NOISE = PredictionErrorProblem(
+    run_records(Log((QUICK,), units="meters", type="simple")), SensorNoise(1.0, 1.0, (0.0, 0.0))
 )  # at a hundred times as much it runs: what is missed by some noises is not lost
 FIRST = [("drag", 400.0, True), ("delay", 300.0, True), ("spring", 200.0, False)]
 THEN = [("cogging", 90.0, True), ("stribeck", 80.0, True), ("delay", 10.0, True)]
@@ -67,7 +72,7 @@ def gone(*, end):
 
 
 def test_other_paths_turn_off_early_where_an_admitted_effect_came_near():
-    turned = turnings(gone(end=4.0), lost=False)
+    turned = alternative_paths(gone(end=4.0), lost=False)
 
     # spring was not admitted, and a delay of 10 is no ninth of what cogging explained
     assert [(place, one.suspect.effect) for place, one in turned] == [(0, "delay"), (1, "stribeck")]
@@ -81,7 +86,7 @@ def test_a_path_that_is_lost_gives_way_to_what_comes_nearest_not_to_the_likelies
     tried = tuple(weighed(name, score, gap=gap) for name, (score, gap) in others.items())
     base = replace(model("", 1000.0, gap=9.0), weighed=tried)
 
-    turned = turnings([base, model("backlash", 210.0, gap=8.2)], lost=lost)
+    turned = alternative_paths([base, model("backlash", 210.0, gap=8.2)], lost=lost)
 
     assert [one.suspect.effect for _, one in turned] == order
 
@@ -101,9 +106,9 @@ def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
     done = gone(end=end)
     score, gap = other
     path = [done[0], model("delay", score, gap=gap)]
-    monkeypatch.setattr(sys.modules[best_path.__module__], "_gone", lambda *_: path)
+    monkeypatch.setattr(sys.modules[choose_path.__module__], "_gone", lambda *_: path)
 
-    found = best_path(ONE_NOISE, done, None, (), lambda *_: None)
+    found = choose_path(ONE_NOISE, done, None, (), lambda *_: None)
 
     assert (found is path) is taken
 
@@ -129,7 +134,7 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
     small = {f"{effect}.{name}": 0.001 for name in EFFECTS[effect].names}
     point = replace(NOWHERE, values=small)
     tried = Tried(effect, score, 1.2, admitted=False, why=why)
-    another = Weighed(Suspect(effect, point, 0.0), Gap(5.0, 5.0), tried)
+    another = WeighedCandidate(Candidate(effect, point, 0.0), Gap(5.0, 5.0), tried)
     done = [replace(model("", 1000.0, gap=4.0), weighed=(another,))]
     asked = []
 
@@ -138,10 +143,10 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
         new = (model(f"effect {n}", 100.0, gap=gap) for n, gap in enumerate(path))
         return [*done, *new]
 
-    room = sys.modules[best_path.__module__]
+    room = sys.modules[choose_path.__module__]
     monkeypatch.setattr(room, "_gone", gone_on)
 
-    found = paired(ONE_NOISE, done, None, (), lambda *_: None)
+    found = add_pair(ONE_NOISE, done, None, (), lambda *_: None)
 
     assert (found is not done) is taken
     assert set(asked) <= {"compliance"}
@@ -153,15 +158,15 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
 def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, taken):
     small = {f"compliance.{name}": 0.001 for name in EFFECTS["compliance"].names}
     tried = Tried("compliance", 900.0, 1.2, admitted=False, why=WIDENS)
-    suspect = Suspect("compliance", replace(NOWHERE, values=small), 0.0)
-    blocked = Weighed(suspect, Gap(5.0, 5.0), tried)
+    suspect = Candidate("compliance", replace(NOWHERE, values=small), 0.0)
+    blocked = WeighedCandidate(suspect, Gap(5.0, 5.0), tried)
     base = model("", 1000.0, gap=4.0)
     done = [base, replace(model("cogging", 900.0, gap=3.8), weighed=(blocked,))]
     path = [base, *(model(name, 100.0, gap=1.2) for name in pair)]
-    room = sys.modules[best_path.__module__]
+    room = sys.modules[choose_path.__module__]
     monkeypatch.setattr(room, "_gone", lambda *_: path)
 
-    found = paired(ONE_NOISE, done, None, (), lambda *_: None)
+    found = add_pair(ONE_NOISE, done, None, (), lambda *_: None)
 
     assert found == (path if taken else done)
 
@@ -187,7 +192,7 @@ def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, 
 def test_of_two_about_as_likely_the_validation_decides(one, other, taken):
     tried = [weighed(name, score, gap=gap) for name, score, gap in (one, other)]
 
-    assert simplest(tried).suspect.effect == taken
+    assert choose_simplest(tried).suspect.effect == taken
 
 
 # -- what goes first ------------------------------------------------------------------------------
@@ -210,7 +215,7 @@ SAG = weighed("battery-sag", 283.0, share=0.6)
 def test_what_any_robot_has_a_little_of_goes_first_where_it_is_nearly_the_likeliest(
     other, admitted, quiet
 ):
-    found = offered([LIMIT, SAG, other], most=2)
+    found = admissible_candidates([LIMIT, SAG, other], most=2)
 
     assert [[one.suspect.effect for one in some] for some in found] == [admitted, quiet]
 
@@ -232,18 +237,18 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     base = replace(model("", 1000.0, gap=2.0), tried=tried)
     point = replace(
         NOWHERE,
-        hypothesis=Hypothesis("simple") + "battery-sag" + "stribeck",
+        hypothesis=ModelStructure("simple") + "battery-sag" + "stribeck",
         values={"kS": 0.1, "kV": 1.0, "kA": 0.1, "battery-sag.share": 0.5, "stribeck.extra": 0.2,
                 "stribeck.slow": 0.1},
     )  # fmt: skip
-    last = Round(Suspect("stribeck", point, 500.0), one_gap, one_gap)
+    last = SelectionRound(Candidate("stribeck", point, 500.0), one_gap, one_gap)
     done = [base, model("battery-sag", 600.0, gap=1.1), last]
-    path = sys.modules["sim.reconcile.second_thoughts"]
+    path = sys.modules["sim.reconcile.backward_elimination"]
     monkeypatch.setattr(path, "gather", lambda *_, **__: None)
-    monkeypatch.setattr(path, "without", lambda *_: Suspect("", point, 900.0))
-    monkeypatch.setattr(path, "suspects", lambda *_, **__: [Suspect(other, point, 500.0 - gains)])
+    monkeypatch.setattr(path, "without", lambda *_: Candidate("", point, 900.0))
+    monkeypatch.setattr(path, "suspects", lambda *_, **__: [Candidate(other, point, 500.0 - gains)])
     monkeypatch.setattr(path, "outside", lambda *_: one_gap)
 
-    found = reconsidered(ONE_NOISE, done, None, ())
+    found = replace_effects(ONE_NOISE, done, None, ())
 
     assert [one.suspect.effect for one in found] == ["", taken, "stribeck"]

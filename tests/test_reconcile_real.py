@@ -11,7 +11,7 @@ import math
 import pytest
 
 from sim.cli import sysid
-from sim.command import run
+from sim.cli_support import run
 
 pytestmark = pytest.mark.shared
 LOGS = {

@@ -8,12 +8,12 @@ from reconcile_made import bench, logs, session
 
 import sim
 from sim.cli import sysid
-from sim.command import run
+from sim.cli_support import run
 from sim.errors import BadRequest, NotIdentifiable, Refusal
 from sim.log import Log
 from sim.reconcile import reconcile
-from sim.reconcile.moments import moments
-from sim.reconcile.usable import check_logs, repeated
+from sim.reconcile.dropout_intervals import dropout_intervals
+from sim.reconcile.input_checks import check_logs, count_repeated_runs
 
 DRIVE = logs("drivetrain")
 LOG = replace(DRIVE["log"], source="drive.csv")
@@ -172,9 +172,9 @@ def test_voltages_of_other_moments_are_not_refused_for_they_are_no_mechanism_s()
 
 
 def test_runs_that_were_recorded_once_are_counted_once():
-    assert repeated(OTHER, (LOG, None)) == 0
-    assert repeated(LOG, (OTHER, LOG)) == 4
-    assert repeated(replace(OTHER, runs=(*OTHER.runs, LOG.runs[2])), (LOG,)) == 1
+    assert count_repeated_runs(OTHER, (LOG, None)) == 0
+    assert count_repeated_runs(LOG, (OTHER, LOG)) == 4
+    assert count_repeated_runs(replace(OTHER, runs=(*OTHER.runs, LOG.runs[2])), (LOG,)) == 1
 
 
 # -- drop-outs -----------------------------------------------------------------------------------
@@ -195,7 +195,7 @@ def dropped(one, *, felt):
 def test_between_drop_outs_that_the_motor_felt_a_log_is_believed():
     spoilt, low = dropped(LOG.runs[2], felt=True)
 
-    found = moments(spoilt, start=low[0], end=low[-1])
+    found = dropout_intervals(spoilt, start=low[0], end=low[-1])
 
     assert [start for start, _ in found] == low
     assert all(end == start for start, end in found)
@@ -204,7 +204,7 @@ def test_between_drop_outs_that_the_motor_felt_a_log_is_believed():
 def test_a_record_that_lost_its_voltage_is_left_out_from_the_first_to_the_last():
     spoilt, low = dropped(LOG.runs[2], felt=False)
 
-    assert moments(spoilt, start=low[0], end=low[-1]) == ((low[0], low[-1]),)
+    assert dropout_intervals(spoilt, start=low[0], end=low[-1]) == ((low[0], low[-1]),)
 
 
 # -- command -------------------------------------------------------------------------------------

@@ -11,21 +11,21 @@ from story_made import DRAG, SLIP
 from sim.engine import State
 from sim.log import Log
 from sim.model import Model, Part
-from sim.reconcile.alike import Alike
-from sim.reconcile.gates import Gap
-from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import lanes
-from sim.reconcile.left import Left
-from sim.reconcile.naming import beside, findings_of
-from sim.reconcile.outset import Outset
-from sim.reconcile.problem import Problem
-from sim.reconcile.remainder import Moment
-from sim.reconcile.rhythm import Rhythm
-from sim.reconcile.round import Round, Weighed
+from sim.reconcile.candidates import score_estimate
+from sim.reconcile.cross_validation import Gap
+from sim.reconcile.findings import list_remarks, make_findings
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.model_selection import WIDENS, is_significant
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.residual_tests.repeatability import RepeatedResidual
+from sim.reconcile.residual_tests.spectrum import SpectralPeak
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.residual_tests.whiteness import WorstWindow
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import run_records
+from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import Tried
-from sim.reconcile.suspects import judged
 from sim.reconcile.verdict import verdict_of
-from sim.reconcile.weighing import WIDENS, worth_a_name
 from sim.units import unit
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
@@ -42,16 +42,19 @@ def problem():
         recorded(test, model, step=6.0, state=State.at(0.0), noise=(1e-5, 1e-3), rng=rng)
         for test in ("dynamic-forward", "dynamic-reverse")
     ]
-    return Problem.of(lanes(Log(tuple(runs), units="meters", type="simple")))
+    return PredictionErrorProblem.of(run_records(Log(tuple(runs), units="meters", type="simple")))
 
 
 def rounds(problem, *gaps, values=GAINS, hypothesis=None):
     """The base and what was added to it, with gaps in noises of the velocity."""
-    hypothesis = hypothesis or Hypothesis("simple")
-    point = problem.at(hypothesis, values, Outset.seen(2), problem.noise.velocity**2)
+    hypothesis = hypothesis or ModelStructure("simple")
+    point = problem.at(hypothesis, values, RunNuisance.seen(2), problem.noise.velocity**2)
     sizes = [Gap(gap * problem.noise.velocity, 1e-5) for gap in gaps]
     before = [sizes[0], *sizes[:-1]]
-    return [Round(judged(problem, point), *both) for both in zip(sizes, before, strict=True)]
+    return [
+        SelectionRound(score_estimate(problem, point), *both)
+        for both in zip(sizes, before, strict=True)
+    ]
 
 
 @pytest.mark.parametrize(
@@ -67,7 +70,7 @@ def rounds(problem, *gaps, values=GAINS, hypothesis=None):
     ],
 )
 def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, verdict, remains):
-    said = verdict_of(findings, rounds(problem, *gaps), problem, left=Left(), per=METERS)
+    said = verdict_of(findings, rounds(problem, *gaps), problem, left=ResidualSummary(), per=METERS)
 
     assert said[:2] == (verdict, remains)
     assert bool(said[2]) is remains
@@ -81,10 +84,12 @@ def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, 
     values = {"compliance.softness": softness, "compliance.share": 0.2}
     point = replace(done[0].suspect.point, values=values)
     tried = Tried("compliance", score, 1.6, admitted=False, why=WIDENS)
-    other = Weighed(replace(done[0].suspect, effect="compliance", point=point), done[0].gap, tried)
+    other = WeighedCandidate(
+        replace(done[0].suspect, effect="compliance", point=point), done[0].gap, tried
+    )
     done = [replace(done[0], weighed=(other,))]
 
-    said = verdict_of([], done, problem, left=Left(), per=METERS)
+    said = verdict_of([], done, problem, left=ResidualSummary(), per=METERS)
 
     assert said[0] == verdict
     assert ("compliance" in said[2]) is (verdict == "unexplained")
@@ -106,7 +111,7 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
     findings = [replace(DRAG, effect=name) for name in names]
 
     verdict, remainder, remains = verdict_of(
-        findings, rounds(problem, 40.0, 1.1), problem, left=Left(), per=METERS
+        findings, rounds(problem, 40.0, 1.1), problem, left=ResidualSummary(), per=METERS
     )
 
     assert (verdict, remainder) == ("explained", doubted)
@@ -115,13 +120,17 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
 
 def added(problem, *steps, values):
     """The base and each effect with the gap it left, and the gap without it in the end [noises]."""
-    hypothesis = Hypothesis("simple", tuple(name for name, *_ in steps))
-    point = problem.at(hypothesis, values, Outset.seen(2), problem.noise.velocity**2)
+    hypothesis = ModelStructure("simple", tuple(name for name, *_ in steps))
+    point = problem.at(hypothesis, values, RunNuisance.seen(2), problem.noise.velocity**2)
     gaps = [Gap(size * problem.noise.velocity, 1e-5) for size in (2.0, *(one[1] for one in steps))]
-    done = [Round(judged(problem, point), gaps[0], gaps[0])]
+    done = [SelectionRound(score_estimate(problem, point), gaps[0], gaps[0])]
     for (name, _, bare), gap, before in zip(steps, gaps[1:], gaps, strict=False):
         without = Gap(bare * problem.noise.velocity, 1e-5)
-        done.append(Round(judged(problem, point, name), gap, before, lost=150.0, bare=without))
+        done.append(
+            SelectionRound(
+                score_estimate(problem, point, name), gap, before, lost=150.0, bare=without
+            )
+        )
     return done
 
 
@@ -144,7 +153,7 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
     done = added(problem, *steps, values=values)
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
-    found = findings_of(problem, done, [], chapters, left=Left(), per=METERS)
+    found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
 
     assert {one.effect: one.size for one in found} == sizes
 
@@ -152,9 +161,9 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
 @pytest.mark.parametrize(
     "rest",
     [
-        Left(moment=Moment(20.0, 0, 0.5, 0.6)),
-        Left(alike=Alike(9.0, "position", 1, 0.4, 0.5)),
-        Left(rhythm=Rhythm(300.0, 1.7)),
+        ResidualSummary(moment=WorstWindow(20.0, 0, 0.5, 0.6)),
+        ResidualSummary(alike=RepeatedResidual(9.0, "position", 1, 0.4, 0.5)),
+        ResidualSummary(rhythm=SpectralPeak(300.0, 1.7)),
     ],
     ids=["a moment", "a place", "a rhythm"],
 )
@@ -166,7 +175,7 @@ def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, res
 
     def sizes(done):
         chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
-        found = findings_of(problem, done, [], chapters, left=rest, per=METERS)
+        found = make_findings(problem, done, [], chapters, left=rest, per=METERS)
         return [one.size for one in found]
 
     assert sizes(alone) == [size]
@@ -187,8 +196,8 @@ def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, n
     done = added(problem, (effect, 1.9, 2.0), values={**GAINS, f"{effect}.{name}": size})
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
-    found = findings_of(problem, done, [], chapters, left=Left(), per=METERS)
-    told = beside(problem, done, found, Left())
+    found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
+    told = list_remarks(problem, done, found, ResidualSummary())
 
     assert [one.effect for one in found] == [effect] * named
     assert any(f"a little {effect}" in sentence for sentence in told) is not named
@@ -205,7 +214,7 @@ def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, 
     done[1:] = [replace(one, bare=one.before) for one in done[1:]]
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
-    found = findings_of(problem, done, [], chapters, left=Left(), per=METERS)
+    found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
 
     assert ("drag" in [one.effect for one in found]) is named
     assert any(one.size == "major" for one in found) is (beside < 1.5)
@@ -228,7 +237,7 @@ def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, 
 def test_what_is_far_more_than_on_any_robot_is_believed_sooner(effect, values, score, worth):
     of_model = {f"{effect}.{name}": value for name, value in values.items()}
 
-    assert worth_a_name(effect, of_model, score) is worth
+    assert is_significant(effect, of_model, score) is worth
 
 
 @pytest.mark.parametrize(
@@ -249,7 +258,7 @@ def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score
     done = [replace(base, tried=tried), replace(one, lost=score)]
     chapters = [SimpleNamespace(gap=each.gap.velocity) for each in done]
 
-    found = findings_of(problem, done, [], chapters, left=Left(), per=METERS)
+    found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
 
     assert [each.effect for each in found] == ["battery-sag"] * named
 
@@ -260,11 +269,11 @@ def test_what_is_in_the_model_and_not_named_is_told(problem, after, told):
     joins = {"extra": 0.02, "onset": onset, "until": LASTS, "shared": 0.0}
     part = Part("inertia-change", joins)
     values = {**GAINS, **{f"{part.effect}.{name}": value for name, value in joins.items()}}
-    done = rounds(problem, 5.0, values=values, hypothesis=Hypothesis("simple") + part.effect)
+    done = rounds(problem, 5.0, values=values, hypothesis=ModelStructure("simple") + part.effect)
     start = float(problem.lanes[0].seen.time[0]) + 0.5 + after
-    strange = Left(moment=Moment(20.0, 0, start, start + 0.1))
+    strange = ResidualSummary(moment=WorstWindow(20.0, 0, start, start + 0.1))
 
-    (said,) = beside(problem, done, [], strange)
+    (said,) = list_remarks(problem, done, [], strange)
 
     assert "inertia-change" in said
     assert ("not named" in said) is told

@@ -8,7 +8,7 @@ import pytest
 from sim.errors import NotIdentifiable
 from sim.fit.regression import regress
 from sim.log import FOUR_TESTS
-from sim.prepare import Rows
+from sim.sysid_rows import Rows
 
 PERIOD = 0.005  # [s]
 SAMPLES = 1000  # a test

@@ -6,13 +6,13 @@ import zipfile
 
 import pytest
 
-from grader.classroom.bundle import bundle
+from grader.class_package import read_class_package
+from grader.classroom.bundle import pack_course
 from grader.cli import run
 from grader.course import find_course
-from grader.exercise import find
-from grader.issued import issued
-from grader.release import Package, broken_seals, common, own
-from grader.variant import of_class
+from grader.exercise import find_exercise
+from grader.release import Package, common_package, find_broken_seals, student_package
+from grader.variant import class_secret
 from sim.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
@@ -26,13 +26,13 @@ def course(root):
 
 @pytest.fixture(scope="module")
 def packed(course):
-    return bundle(course)
+    return pack_course(course)
 
 
 @pytest.fixture(scope="module")
 def anns(packed):
     """What ann gets, unpacked: name -> content."""
-    student, content = own(Package("ann", SECRET, "East", packed))
+    student, content = student_package(Package("ann", SECRET, "East", packed))
     assert student == "ann"
     return read(content)
 
@@ -52,7 +52,7 @@ def lay_out(folder, *packages):
 
 
 def test_the_common_package_holds_the_course_and_nothing_private(course):
-    files = read(common(course))
+    files = read(common_package(course))
 
     for name in ("README.md", "pyproject.toml", "grader/__main__.py", "sim/log.py"):
         assert f"course/{name}" in files
@@ -75,9 +75,9 @@ def test_a_students_package_holds_data_and_seals_and_no_secret(anns):
 
 
 def test_a_class_has_numbers_of_its_own_and_the_same_again(packed, anns):
-    again = read(own(Package("ann", SECRET, "East", packed))[1])
-    west = read(own(Package("ann", SECRET + b"!", "East", packed))[1])
-    ben = read(own(Package("ben", SECRET, "East", packed))[1])
+    again = read(student_package(Package("ann", SECRET, "East", packed))[1])
+    west = read(student_package(Package("ann", SECRET + b"!", "East", packed))[1])
+    ben = read(student_package(Package("ben", SECRET, "East", packed))[1])
     log = "course/exercises/exercise9/data/ann/log.csv"
 
     assert again == anns
@@ -88,7 +88,7 @@ def test_a_class_has_numbers_of_its_own_and_the_same_again(packed, anns):
 def test_where_a_class_issued_numbers_only_its_instructor_can_grade_them(
     course, anns, tmp_path, monkeypatch, capsys
 ):
-    place = lay_out(tmp_path, read(common(course)), anns)
+    place = lay_out(tmp_path, read(common_package(course)), anns)
     monkeypatch.chdir(place)
     answers = place / "exercises" / "exercise9" / "answers.toml"
     answers.write_text('kS = 0.1\nkV = ""\n', encoding="utf-8")
@@ -113,8 +113,8 @@ def test_where_a_class_issued_numbers_only_its_instructor_can_grade_them(
 def test_the_instructor_grades_what_the_class_issued(course, anns, tmp_path, monkeypatch):
     """The truth drawn with the secret is what the student's data were made from."""
     monkeypatch.chdir(course)
-    exercise = find("9", course)
-    with of_class(SECRET):
+    exercise = find_exercise("9", course)
+    with class_secret(SECRET):
         right = exercise.module.draw("ann").asked
     text = "".join(f"{name} = {one.expected:.6g}\n" for name, one in right.items())
     for folder in ("in", "in2"):
@@ -147,8 +147,8 @@ def test_a_seal_tells_what_was_changed_or_is_somebody_elses(course, anns, tmp_pa
     log.write_bytes(log.read_bytes() + b"\n")
     assert run(command) == 1
     assert "exercises/exercise9/data/ann/log.csv: not as it was issued" in capsys.readouterr().out
-    assert len(broken_seals(place, issued(place), secret=SECRET + b"!")) == len(
-        issued(place).sealed
+    assert len(find_broken_seals(place, read_class_package(place), secret=SECRET + b"!")) == len(
+        read_class_package(place).sealed
     )
     assert course.is_dir()
 
@@ -184,7 +184,7 @@ def test_what_cannot_be_released_is_one_line(capsys, command, said):
 
 def test_half_a_course_is_not_released(tmp_path):
     with pytest.raises(BadRequest, match="not the whole course"):
-        common(tmp_path)
+        common_package(tmp_path)
 
 
 def test_a_secret_is_made_once_for_its_owner_only(course, tmp_path, monkeypatch, capsys):

@@ -13,12 +13,12 @@ import sim
 from sim.doubt import Doubt
 from sim.errors import BadRequest
 from sim.feedback import PRESETS, Feedback
+from sim.feedback_trial import OwnGains, try_feedback_gains
 from sim.fit import fit
 from sim.mechanisms import MECHANISMS
-from sim.report import Report, page, write_page, write_picture
+from sim.report import Report, render_page, write_page, write_picture
 from sim.routine import Routine
 from sim.simulate import simulate
-from sim.trial import Own, trials
 
 SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
 DEFAULT = PRESETS["default"]
@@ -29,8 +29,8 @@ def drive():
     """A report of a drivetrain with the learner's own gains in it."""
     log = simulate(MECHANISMS["drivetrain"], SHORT, rng=np.random.default_rng(2))
     found = fit(log).in_log_units()
-    own = Own("position", Feedback(300.0, 0.0))
-    return Report("drive.wpilog", found, log, DEFAULT, trials(found, DEFAULT, own=own))
+    own = OwnGains("position", Feedback(300.0, 0.0))
+    return Report("drive.wpilog", found, log, DEFAULT, try_feedback_gains(found, DEFAULT, own=own))
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def brief(drive):
 
 @pytest.fixture(scope="module")
 def whole(drive):
-    return page(drive)
+    return render_page(drive)
 
 
 def test_the_page_is_alone_and_for_everybody(whole):
@@ -109,14 +109,14 @@ def test_the_learners_own_gains_are_told_on_the_page(whole):
 
 
 def test_the_same_fit_gives_the_same_page(drive, whole):
-    assert page(replace(drive)) == whole
+    assert render_page(replace(drive)) == whole
 
 
 def test_what_a_file_is_called_is_no_code(brief):
     hostile = "<script>alert(1)</script>.wpilog"
     doubt = Doubt("x", "the motor '<img src=x onerror=alert(1)>' was left out")
 
-    told = page(
+    told = render_page(
         replace(brief, title=hostile, found=replace(brief.found, doubts=(doubt,)), notes=("<b>",))
     )
 
@@ -127,7 +127,9 @@ def test_what_a_file_is_called_is_no_code(brief):
 def test_doubts_stand_on_the_page_the_gravest_first(brief):
     doubts = (Doubt("a", "Only a look."), Doubt("b", "It cannot be.", grave=True))
 
-    told = page(replace(brief, found=replace(brief.found, doubts=doubts), notes=("All is even.",)))
+    told = render_page(
+        replace(brief, found=replace(brief.found, doubts=doubts), notes=("All is even.",))
+    )
 
     assert 0 < told.index("<b>Wrong:</b> It cannot be.") < told.index("<b>Look:</b> Only a look.")
     assert "All is even." in told
@@ -148,7 +150,7 @@ def test_doubts_stand_on_the_page_the_gravest_first(brief):
 def test_what_is_not_known_is_said_in_words(brief, changes):
     found = replace(brief.found, **changes)
 
-    told = page(replace(brief, found=found, tried=trials(found, DEFAULT)))
+    told = render_page(replace(brief, found=found, tried=try_feedback_gains(found, DEFAULT)))
 
     assert page_flaws(told) == []
 
@@ -157,7 +159,9 @@ def test_an_arm_has_its_angle_and_its_gravity():
     log = simulate(MECHANISMS["arm"], SHORT, rng=np.random.default_rng(2))
     found = fit(log).in_log_units()
 
-    told = page(Report("arm.wpilog", found, log, DEFAULT, trials(found, DEFAULT)))
+    told = render_page(
+        Report("arm.wpilog", found, log, DEFAULT, try_feedback_gains(found, DEFAULT))
+    )
 
     assert page_flaws(told) == []
     assert "kG·cos(angle from horizontal)" in told
@@ -169,7 +173,9 @@ def test_a_real_arm_has_a_page_that_says_what_to_doubt(shared):
     log = sim.read(shared / "data" / "real" / "sciborgs-2023-wrist-arm.json")
     found = fit(log).in_log_units()
 
-    told = page(Report("wrist.json", found, log, DEFAULT, trials(found, DEFAULT)))
+    told = render_page(
+        Report("wrist.json", found, log, DEFAULT, try_feedback_gains(found, DEFAULT))
+    )
 
     assert page_flaws(told) == []
     assert told.count("<h3>Run ") == len(log.runs)
@@ -179,7 +185,7 @@ def test_a_real_arm_has_a_page_that_says_what_to_doubt(shared):
 def test_a_page_is_written_whole(brief, tmp_path, monkeypatch):
     there = tmp_path / "drive.html"
     there.write_text("the old one", encoding="utf-8")
-    monkeypatch.setattr("sim.report.page", lambda _: "\ud800")  # no file can hold it
+    monkeypatch.setattr("sim.report.render_page", lambda _: "\ud800")  # no file can hold it
 
     with pytest.raises(UnicodeEncodeError):
         write_page(brief, there)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from sim.feedback import PRESETS
+from sim.feedback_trial import try_feedback_gains
 from sim.fit import fit
 from sim.mechanisms import MECHANISMS
 from sim.report import Report, write_page
 from sim.routine import Routine
 from sim.simulate import simulate
-from sim.trial import trials
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = ["--no-sandbox", "--disable-gpu"]  # a container runs as root, where no sandbox can start
@@ -60,7 +60,7 @@ def test_a_page_is_alone_and_legible_on_every_screen(browser, tmp_path):
     log = simulate(MECHANISMS["arm"], Routine(ramp=0.5, step=3.5), rng=np.random.default_rng(1))
     found, preset = fit(log).in_log_units(), PRESETS["rev-brushless"]
     path = tmp_path / "arm.html"
-    write_page(Report("arm.wpilog", found, log, preset, trials(found, preset)), path)
+    write_page(Report("arm.wpilog", found, log, preset, try_feedback_gains(found, preset)), path)
 
     for theme in ("light", "dark"):
         asked, complaints = [], []

@@ -13,7 +13,7 @@ from wpilog_file import FOUR, Logger, Motor, records, routine
 import sim
 from sim.fit import fit
 from sim.formats.wpilog.contents import contents_of
-from sim.formats.wpilog.records import load
+from sim.formats.wpilog.records import load_records
 from sim.log import Log, Run
 
 pytestmark = pytest.mark.robot
@@ -88,7 +88,7 @@ def ours(path: Path) -> dict[str, tuple[str, str, list[int], list[object]]]:
             entry.time.tolist(),
             entry.texts() if entry.type in {"string", "json"} else entry.values().tolist(),
         )
-        for entry in contents_of(load(path)).entries
+        for entry in contents_of(load_records(path)).entries
     }
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from grader.robotcode import read
-from grader.robotcode.facts import Known
+from grader.robotcode.facts import Certainty
 from sim.errors import UnreadableFile
 
 CORPUS = Path(__file__).with_name("robotcode")
@@ -155,7 +155,7 @@ def test_what_is_made_elsewhere_is_unknown_and_said_to_be(tmp_path: Path) -> Non
     facts = read(tmp_path / "A.java")
 
     assert (facts.config_argument, facts.mechanism_argument) == (0, 1)
-    assert (facts.ramp.known, facts.ramp.text) == (Known.UNKNOWN, "Team.config()")
+    assert (facts.ramp.known, facts.ramp.text) == (Certainty.UNKNOWN, "Team.config()")
     assert facts.unread[0].line == 2
     assert "`Team.mechanism(this)` is made in code" in facts.unread[0].message
 
@@ -167,4 +167,4 @@ def test_a_misspelled_keyword_does_not_pass_for_a_default(tmp_path: Path) -> Non
 
     facts = read(tmp_path / "a.py")
 
-    assert (facts.ramp.value, facts.step.known) == (0.5, Known.UNKNOWN)
+    assert (facts.ramp.value, facts.step.known) == (0.5, Certainty.UNKNOWN)

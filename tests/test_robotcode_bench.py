@@ -6,7 +6,7 @@ import pytest
 from robot_mistakes import RIGHT, ROOT, changed, needs_robot, ran
 
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, contradiction
+from grader.robotcode.bench import Outcome, findings
 
 FOUR = {f"{kind}-{way}" for kind in ("quasistatic", "dynamic") for way in ("forward", "reverse")}
 BATTERY = 11.0  # [V] the bench's, as written in on_bench
@@ -32,7 +32,11 @@ def test_the_solution_shows_the_numbers_it_was_written_with(tmp_path):
     assert all(one.scale == pytest.approx(1, abs=0.001) for one in run.recorded)
     sagged = [one.kept / 3.5 for one in run.recorded]
     assert sagged == pytest.approx([10.5 / BATTERY] * 2, abs=0.01)  # the battery falls by 0.5 V
-    for look in (contradiction.driven, contradiction.recorded, contradiction.units):
+    for look in (
+        findings.check_driven_motors,
+        findings.check_logged_motors,
+        findings.check_logged_units,
+    ):
         assert look(run) is None
 
 
@@ -41,28 +45,28 @@ def test_the_solution_shows_the_numbers_it_was_written_with(tmp_path):
     ("look", "changes", "seen", "misconception"),
     [
         pytest.param(
-            contradiction.driven,
+            findings.check_driven_motors,
             [(".setVoltage(voltage)", ".set(voltage / 12)")],
             "left got 3.77 V when the test asked for 4.11 V: the battery stood at 11 V",
             "M-DUTY",
             id="a share of the battery",  # 4.11/12 of 11 V in steps of 22 mV
         ),
         pytest.param(
-            contradiction.driven,
+            findings.check_driven_motors,
             [("self.right.setVoltage(voltage)", "pass")],
             "right never gets a voltage",
             "",
             id="one motor not driven",
         ),
         pytest.param(
-            contradiction.driven,
+            findings.check_driven_motors,
             [(".setVoltage(voltage)", ".setVoltage(2 * voltage)")],
             "left got 8.22 V when the test asked for 4.11 V",
             "",
             id="twice the voltage",
         ),
         pytest.param(
-            contradiction.recorded,
+            findings.check_logged_motors,
             [
                 (
                     "self.left.setVoltage(voltage)",
@@ -75,14 +79,14 @@ def test_the_solution_shows_the_numbers_it_was_written_with(tmp_path):
             id="the voltage that was asked for",
         ),
         pytest.param(
-            contradiction.recorded,
+            findings.check_logged_motors,
             [("self.left.getVoltage()", "12 * self.left.get()")],
             "the voltage in the log is 1.09 times that of left",  # 12 / 11
             "",
             id="twelve volts taken for granted",
         ),
         pytest.param(
-            contradiction.recorded,
+            findings.check_logged_motors,
             [
                 ("self.left_encoder.getDistance()", "-self.left_encoder.getDistance()"),
                 ("self.left_encoder.getRate()", "-self.left_encoder.getRate()"),
@@ -92,14 +96,14 @@ def test_the_solution_shows_the_numbers_it_was_written_with(tmp_path):
             id="a sign",
         ),
         pytest.param(
-            contradiction.recorded,
+            findings.check_logged_motors,
             [("self.right_encoder.get", "self.left_encoder.get")],
             "left and right follow one and the same encoder",
             "",
             id="one encoder recorded twice",
         ),
         pytest.param(
-            contradiction.units,
+            findings.check_logged_units,
             [
                 ("self.left_encoder.getRate()", "self.left_encoder.getRate() * 60"),
             ],
@@ -108,7 +112,7 @@ def test_the_solution_shows_the_numbers_it_was_written_with(tmp_path):
             id="per minute",
         ),
         pytest.param(
-            contradiction.units,
+            findings.check_logged_units,
             [
                 ("self.left_encoder.getDistance()", "self.left_encoder.getDistance() / 6.2832"),
             ],
@@ -117,7 +121,7 @@ def test_the_solution_shows_the_numbers_it_was_written_with(tmp_path):
             id="radians beside rotations",
         ),
         pytest.param(
-            contradiction.units,
+            findings.check_logged_units,
             [
                 ("_encoder.getDistance()", "_encoder.getDistance() * 6.2832"),
                 ("_encoder.getRate()", "_encoder.getRate() * 6.2832"),
@@ -167,7 +171,7 @@ def test_mirrored_motors_are_as_right_as_others(tmp_path):
 
     assert [round(one.share, 2) for one in run.motors] == [1, -1]
     assert [one.forward for one in run.recorded] == [True, True]
-    assert contradiction.driven(run) is contradiction.recorded(run) is None
+    assert findings.check_driven_motors(run) is findings.check_logged_motors(run) is None
 
 
 @needs_robot
@@ -187,7 +191,7 @@ def test_a_follower_in_no_field_is_seen_and_mirrored_leaders_are_no_fault():
         ("PWM 2", False),
     ]
     assert [one.forward for one in run.recorded] == [True, True]
-    assert contradiction.driven(run) is contradiction.recorded(run) is None
+    assert findings.check_driven_motors(run) is findings.check_logged_motors(run) is None
 
 
 @needs_robot
@@ -202,7 +206,7 @@ def test_a_program_that_names_its_tests_elsewhere_is_not_blamed_for_its_log(tmp_
 @needs_robot
 def test_tests_that_do_not_require_their_subsystem_are_seen(tmp_path):
     other = ("self.record, self)", "self.record, Subsystem(), 'mine')")
-    fault = contradiction.assembled(ran(tmp_path, changed(other)))
+    fault = findings.check_requirements(ran(tmp_path, changed(other)))
 
     assert fault is not None
     assert "do not require the subsystem" in fault.seen
@@ -214,5 +218,9 @@ def test_tests_too_short_to_tell_anything_are_no_ground_for_blame(tmp_path, shor
     run = ran(tmp_path, changed(("timeout=10.0", short)))
 
     assert (run.outcome, run.ramp) == (Outcome.RAN, pytest.approx(0.5))
-    for look in (contradiction.driven, contradiction.recorded, contradiction.units):
+    for look in (
+        findings.check_driven_motors,
+        findings.check_logged_motors,
+        findings.check_logged_units,
+    ):
         assert look(run) is None

@@ -6,7 +6,7 @@ import pytest
 from robot_mistakes import ROOT, changed, needs_robot
 
 from grader.exercise import Exercise
-from grader.isolation import apart
+from grader.isolation import sandbox_parent
 from grader.robotcode import bench
 from grader.robotcode.bench import Outcome
 
@@ -57,8 +57,8 @@ def mine(tmp_path):
 @pytest.fixture(params=["all there is", "Landlock as on Linux 6.7", "limits only"])
 def each_level(request, monkeypatch):
     """With all the confinement this system has, with an older kernel's, and with limits only."""
-    monkeypatch.setattr(apart, "CONFINED", request.param != "limits only")
-    monkeypatch.setattr(apart, "LANDLOCK_ABI", 4 if "6.7" in request.param else None)
+    monkeypatch.setattr(sandbox_parent, "CONFINED", request.param != "limits only")
+    monkeypatch.setattr(sandbox_parent, "LANDLOCK_ABI", 4 if "6.7" in request.param else None)
 
 
 @needs_robot

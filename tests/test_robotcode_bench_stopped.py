@@ -6,8 +6,8 @@ import pytest
 from robot_mistakes import changed, needs_robot, ran
 
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, apart
-from grader.robotcode.bench.logged import told
+from grader.robotcode.bench import Outcome, sandboxed_run
+from grader.robotcode.bench.log_facts import read_facts
 
 
 @needs_robot
@@ -121,14 +121,16 @@ def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
 def test_whatever_a_child_leaves_behind_is_an_answer(tmp_path, left):
     (tmp_path / "seen.json").write_text(left, "utf-8")
 
-    assert told(tmp_path, tmp_path / "a.py", ended=True, seconds=1).outcome is Outcome.CANNOT
+    assert read_facts(tmp_path, tmp_path / "a.py", ended=True, seconds=1).outcome is Outcome.CANNOT
 
 
 def test_a_child_that_does_not_end_is_ended(tmp_path):
     program = [sys.executable, "-c", "while True: pass"]
 
-    assert apart.alone(program, tmp_path, 0.5) is False
-    assert told(tmp_path, tmp_path / "a.py", ended=False, seconds=0.5).outcome is Outcome.ENDLESS
+    assert sandboxed_run.run_limited(program, tmp_path, 0.5) is False
+    assert (
+        read_facts(tmp_path, tmp_path / "a.py", ended=False, seconds=0.5).outcome is Outcome.ENDLESS
+    )
 
 
 @pytest.mark.parametrize(
@@ -142,7 +144,7 @@ def test_a_child_that_does_not_end_is_ended(tmp_path):
 def test_only_a_loop_in_the_learners_own_code_is_blamed_on_the_learner(tmp_path, stack, outcome):
     (tmp_path / "endless.txt").write_text(stack, "utf-8")
 
-    assert told(tmp_path, tmp_path / "mine.py", ended=True, seconds=1).outcome is outcome
+    assert read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1).outcome is outcome
 
 
 @needs_robot
@@ -151,10 +153,10 @@ def test_whoever_confines_the_child_starts_it(tmp_path):
 
     def start(program, folder, seconds):
         started.append((program[0], folder.is_dir(), [*folder.iterdir()], seconds))
-        return apart.alone(program, folder, seconds)
+        return sandboxed_run.run_limited(program, folder, seconds)
 
     path = tmp_path / "mine.py"
     path.write_text(changed(), "utf-8")
 
     assert bench.run(path, "ExampleSubsystem", start=start, seconds=8).outcome is Outcome.RAN
-    assert started == [(sys.executable, True, [], 8 + apart.GRACE)]
+    assert started == [(sys.executable, True, [], 8 + sandboxed_run.GRACE)]

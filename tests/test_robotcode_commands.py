@@ -6,7 +6,7 @@ import pytest
 from robot_phrase import java, python
 
 from grader.robotcode.facts import Output, Source
-from grader.robotcode.vocabulary import DIRECTIONS, constant, is_motor, plain
+from grader.robotcode.vocabulary import DIRECTIONS, enum_constant, is_motor, java_spelling
 
 FIELDS = """
   private final TalonFX m_motor = new TalonFX(1);
@@ -199,6 +199,6 @@ def test_motor_controllers_are_known_by_their_types() -> None:
 
 
 def test_the_names_of_2026_and_2027_are_one() -> None:
-    assert {plain(name) for name in ("setVoltage", "set_voltage")} == {"setVoltage"}
-    assert {constant(name) for name in ("kForward", "FORWARD", "Forward")} <= DIRECTIONS
-    assert constant("kDutyCycle") == constant("DUTY_CYCLE")
+    assert {java_spelling(name) for name in ("setVoltage", "set_voltage")} == {"setVoltage"}
+    assert {enum_constant(name) for name in ("kForward", "FORWARD", "Forward")} <= DIRECTIONS
+    assert enum_constant("kDutyCycle") == enum_constant("DUTY_CYCLE")

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from robot_phrase import java, python
 
-from grader.robotcode.facts import Known
+from grader.robotcode.facts import Certainty
 
 JAVA_CONSTANTS = {  # an argument, the fields it needs, what it is
     "volts": ("Volts.of(3.5)", "", (3.5, "volts")),
@@ -81,7 +81,7 @@ def test_a_java_constant_is_worked_out_as_java_does_it(case: str, tmp_path: Path
     if isinstance(expected, str):
         assert found.known.value == expected
     else:
-        assert (found.known, found.dimension) == (Known.STATED, expected[1])
+        assert (found.known, found.dimension) == (Certainty.STATED, expected[1])
         assert found.value == pytest.approx(expected[0], rel=1e-12)
     assert found.text == step
 
@@ -130,11 +130,11 @@ def test_two_files_of_one_name_are_told_apart_by_their_package_or_not_at_all(
         )
 
     assert java(tmp_path, step="Volts.of(right.Constants.k)").step.value == 5.0
-    assert java(tmp_path, step="Volts.of(Constants.k)").step.known is Known.UNKNOWN
+    assert java(tmp_path, step="Volts.of(Constants.k)").step.known is Certainty.UNKNOWN
 
 
 def test_a_damaged_neighbor_has_no_constants(tmp_path: Path) -> None:
     text = "class Constants { static double k = 3.5; int x = (; }"
     (tmp_path / "Constants.java").write_text(text, encoding="utf-8")
 
-    assert java(tmp_path, step="Volts.of(Constants.k)").step.known is Known.UNKNOWN
+    assert java(tmp_path, step="Volts.of(Constants.k)").step.known is Certainty.UNKNOWN

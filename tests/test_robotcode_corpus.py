@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from grader.robotcode import read
-from grader.robotcode.facts import DriveCall, Known, LoggedSignal, Quantity, RoutineFacts
+from grader.robotcode.facts import Certainty, DriveCall, LoggedSignal, Quantity, RoutineFacts
 from sim.errors import UnreadableFile
 
 CORPUS = Path(__file__).with_name("robotcode")
@@ -35,7 +35,7 @@ CONSTANT = {True: "parameter", False: "constant", None: "untold"}
 
 
 def number(quantity: Quantity) -> str:
-    if quantity.known is Known.STATED:
+    if quantity.known is Certainty.STATED:
         return f"{quantity.value:g} {quantity.dimension}"
     return quantity.known.value
 

@@ -10,7 +10,7 @@ import pytest
 from robotcode_mutants import CHANGES, SUFFIXES, Mutant, mutant, sources
 from robotcode_readings import READERS, Reading, among_neighbors, faults, flaws
 
-from grader.robotcode.facts import Known, Problem, Quantity, RoutineFacts
+from grader.robotcode.facts import Certainty, Problem, Quantity, RoutineFacts
 from sim.errors import Refusal
 
 MUTANTS = 300
@@ -84,7 +84,7 @@ FLAWED = {
     "a line that the file does not have": RoutineFacts("java", routine_line=9),
     "a problem without a line": RoutineFacts("java", problems=(Problem("a ')' is missing", 0),)),
     "a problem of several lines": RoutineFacts("java", problems=(Problem("a\nb", 1),)),
-    "a number known and unknown": RoutineFacts("java", step=Quantity(Known.STATED)),
+    "a number known and unknown": RoutineFacts("java", step=Quantity(Certainty.STATED)),
     "a place where no argument is": RoutineFacts("java", mechanism_argument=-2),
 }
 

@@ -3,9 +3,9 @@
 import pytest
 
 from grader.robotcode import bench, read
-from grader.robotcode.bench.season import of_another
+from grader.robotcode.bench.season import explain_other_season
 from grader.robotcode.facts import Output, Source
-from grader.robotcode.vocabulary import renamed
+from grader.robotcode.vocabulary import other_season
 
 JAVA = """
 package first.robot;
@@ -78,12 +78,12 @@ def test_the_names_of_2027_are_read_like_those_before(tmp_path, name, text):
     ],
 )
 def test_a_name_tells_its_season(name, season):
-    assert renamed(name) == season
+    assert other_season(name) == season
 
 
 def test_an_import_of_another_season_is_known_by_the_names_beside_it():
     error = "ImportError: cannot import name 'PIDController' from 'wpimath'"
     season = "2027" if bench.installed() else ""
 
-    assert season in of_another(error, "self.motor.set_voltage(3)")
-    assert of_another(error, "self.motor.go(3)") == ""
+    assert season in explain_other_season(error, "self.motor.set_voltage(3)")
+    assert explain_other_season(error, "self.motor.go(3)") == ""

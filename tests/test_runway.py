@@ -11,7 +11,7 @@ from sim.battery import Battery
 from sim.errors import BadRequest
 from sim.mechanisms import MECHANISMS
 from sim.plot import runway
-from sim.runway import PERIOD, Floor, drive
+from sim.teaching.runway import PERIOD, Floor, drive_test
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)
 TIRED = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
@@ -21,12 +21,12 @@ RAMP, STEP = "quasistatic-forward", "dynamic-forward"
 
 def gone(test, **floor):
     """A test of a good robot on a floor."""
-    return drive(ROBOT, SLOW, test=test, floor=Floor(**floor))
+    return drive_test(ROBOT, SLOW, test=test, floor=Floor(**floor))
 
 
 def test_a_slow_ramp_goes_as_far_as_the_formula_says():
     """With kS 0.15 V, kV 2.52 V·s/m, kA/kV 76 ms: 0.5·(9.7 - 0.076)²/(2·2.52)."""
-    went = drive(ROBOT, sim.Routine(ramp=0.5), test=RAMP, floor=Floor(wall=50.0))
+    went = drive_test(ROBOT, sim.Routine(ramp=0.5), test=RAMP, floor=Floor(wall=50.0))
     off = int(np.argmax(went.time >= went.released - PERIOD / 2))
 
     assert went.released == pytest.approx(10.0)
@@ -72,7 +72,8 @@ def test_whoever_watches_ends_it_in_any_case():
 
 def test_a_tired_battery_browns_out_in_a_step_and_not_in_a_ramp():
     step, ramp = (
-        drive(TIRED, SLOW, test=test, floor=Floor(wall=12.0, tape=7.0)) for test in (STEP, RAMP)
+        drive_test(TIRED, SLOW, test=test, floor=Floor(wall=12.0, tape=7.0))
+        for test in (STEP, RAMP)
     )
 
     assert step.browned_out
@@ -127,7 +128,7 @@ def test_the_picture_of_an_accident_says_so():
 
 def test_a_brownout_lights_its_lamp():
     dark = runway(gone(STEP, wall=12.0))
-    lit = runway(drive(TIRED, SLOW, test=STEP, floor=Floor(wall=12.0)))
+    lit = runway(drive_test(TIRED, SLOW, test=STEP, floor=Floor(wall=12.0)))
 
     assert "which is a brownout" in lit.alt
     assert [axes.get_title(loc="right") for axes in (dark.figure.axes[0], lit.figure.axes[0])] == [

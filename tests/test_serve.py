@@ -22,11 +22,18 @@ from tornado.testing import AsyncHTTPTestCase
 from tornado.websocket import websocket_connect
 
 from grader.cli import run
-from grader.course import load
-from grader.release import common
-from grader.serve.door import House, application
-from grader.serve.homes import can_separate, codes, find, home, prepare_separation, right
-from grader.serve.rooms import Rooms, room_environment
+from grader.course import load_progress
+from grader.release import common_package
+from grader.serve.jupyter_servers import JupyterServers, server_environment
+from grader.serve.login_page import ServedClass, make_application
+from grader.serve.student_folders import (
+    can_separate,
+    code_is_right,
+    find_student,
+    login_codes,
+    prepare_separation,
+    student_folder,
+)
 from sim.errors import BadRequest
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -71,7 +78,9 @@ class TestDoor(AsyncHTTPTestCase):
         """The door to a house of three."""
         known = {"Ann": "ABC234", "bob": "XYZ567", "<Eve>": "EVE222",
                  "slow1": "AAA222", "slow2": "BBB222", "slow3": "CCC222"}  # fmt: skip
-        return application(House(known, lambda _: None, SlowRooms(), "lessons/00.ipynb", wait=0.01))
+        return make_application(
+            ServedClass(known, lambda _: None, SlowRooms(), "lessons/00.ipynb", wait=0.01)
+        )
 
     def ask(self, student, code):
         """Say who one is."""
@@ -162,15 +171,15 @@ class TestDoor(AsyncHTTPTestCase):
 
 
 def test_codes_stay_and_new_students_get_one(tmp_path):
-    first = codes(tmp_path, ["ann", "Zoë"])
-    again = codes(tmp_path, ["Ann", "Zoë", "ben"])
+    first = login_codes(tmp_path, ["ann", "Zoë"])
+    again = login_codes(tmp_path, ["Ann", "Zoë", "ben"])
 
     assert again["Ann"] == first["ann"]
     assert again["Zoë"] == first["Zoë"]
     assert len({*again.values()}) == 3
     assert all(re.fullmatch(r"[A-Z2-9]{6}", code) for code in again.values())
-    assert find(again, " zoë ") == "Zoë"
-    assert find(again, "nobody") is None
+    assert find_student(again, " zoë ") == "Zoë"
+    assert find_student(again, "nobody") is None
 
 
 @pytest.mark.parametrize(
@@ -178,18 +187,18 @@ def test_codes_stay_and_new_students_get_one(tmp_path):
     [("ABC234", True), (" abc234 ", True), ("ABC235", False), ("", False), ("é", False)],
 )
 def test_a_code_may_be_typed_in_any_case(given, same):
-    assert right(given, "ABC234") is same
+    assert code_is_right(given, "ABC234") is same
 
 
 def test_a_home_is_made_once_and_work_in_it_stays(root, tmp_path):
-    packages = [common(root)]
-    course = home(tmp_path, "Zoë", packages=packages)
+    packages = [common_package(root)]
+    course = student_folder(tmp_path, "Zoë", packages=packages)
     answers = course / "exercises" / "exercise1" / "answers.toml"
     answers.write_text("forward = 3\n", encoding="utf-8")
 
-    assert home(tmp_path, "zoë", packages=packages) == course
+    assert student_folder(tmp_path, "zoë", packages=packages) == course
     assert answers.read_text("utf-8") == "forward = 3\n"
-    assert load(course)[0].student == "Zoë"
+    assert load_progress(course)[0].student == "Zoë"
     assert not (course / "solutions").exists()
 
 
@@ -210,7 +219,7 @@ def test_a_port_that_is_taken_is_one_line(root, tmp_path, monkeypatch, capsys):
 
 def test_personal_packages_are_not_served_unprotected_unasked(root, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(root)
-    monkeypatch.setattr("grader.serve.homes.can_separate", lambda: False)
+    monkeypatch.setattr("grader.serve.student_folders.can_separate", lambda: False)
     (tmp_path / "r.csv").write_text("student\nann\n", encoding="utf-8")
     command = ["serve", str(tmp_path / "homes"), "--roster", str(tmp_path / "r.csv"),
                "--packages", str(tmp_path)]  # fmt: skip
@@ -222,8 +231,8 @@ def test_personal_packages_are_not_served_unprotected_unasked(root, tmp_path, mo
 def test_jupyter_starts_in_a_home_named_by_a_relative_path(root, tmp_path, monkeypatch):
     (tmp_path / "Robotik für alle").mkdir()
     monkeypatch.chdir(tmp_path / "Robotik für alle")
-    course = home(Path("homes"), "Zoë B", packages=[common(root)])
-    rooms = Rooms("127.0.0.1")
+    course = student_folder(Path("homes"), "Zoë B", packages=[common_package(root)])
+    rooms = JupyterServers("127.0.0.1")
     try:
         room = rooms.open("Zoë B", course)
         url = f"http://127.0.0.1:{room.port}/api/contents/exercises?token={room.token}"
@@ -341,12 +350,12 @@ def calculate(room, expression, kernel=""):
 
 
 def test_two_students_cannot_reach_each_others_files(root, separate_homes, monkeypatch):
-    known = codes(separate_homes, ["ann", "ben"])
-    packages = [common(root)]
-    course = {who: home(separate_homes, who, packages=packages) for who in known}
+    known = login_codes(separate_homes, ["ann", "ben"])
+    packages = [common_package(root)]
+    course = {who: student_folder(separate_homes, who, packages=packages) for who in known}
     monkeypatch.setenv("SYSID_SECRET", "class-secret-value")
     monkeypatch.setenv("GITHUB_TOKEN", "of-the-operator")
-    rooms = Rooms("127.0.0.1", separate=True)
+    rooms = JupyterServers("127.0.0.1", separate=True)
     try:
         room = {who: rooms.open(who, course[who]) for who in known}
         url = f"http://127.0.0.1:{room['ann'].port}/api/contents/exercises?token="
@@ -367,7 +376,7 @@ def test_two_students_cannot_reach_each_others_files(root, separate_homes, monke
             return subprocess.run(
                 [sys.executable, "-c", TRY, *paths, str(separate_homes / "codes.csv")],
                 user=account[who], group=account[who], extra_groups=[], cwd=place[who],
-                env=room_environment(course[who], room[who].runtime, own=True),
+                env=server_environment(course[who], room[who].runtime, own=True),
                 capture_output=True, check=True, timeout=30,
             ).stdout.decode("utf-8", "replace")  # fmt: skip
 
@@ -383,9 +392,9 @@ def test_two_students_cannot_reach_each_others_files(root, separate_homes, monke
         assert "of-the-operator" not in own
         assert (separate_homes / "codes.csv").stat().st_mode & 0o077 == 0
         rooms.close()
-        again = Rooms("127.0.0.1", separate=True)
+        again = JupyterServers("127.0.0.1", separate=True)
         try:
-            again.open("ben", home(separate_homes, "ben", packages=packages))
+            again.open("ben", student_folder(separate_homes, "ben", packages=packages))
             assert place["ben"].stat().st_uid == account["ben"]
         finally:
             again.close()

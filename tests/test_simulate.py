@@ -16,7 +16,7 @@ from sim.mechanism import Sensor
 from sim.mechanisms import MECHANISMS, mechanism
 from sim.motors import MOTORS, motor, theoretical_kv
 from sim.routine import Routine
-from sim.simulate import motion, simulate
+from sim.simulate import move_gains_only, simulate
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)
@@ -104,7 +104,7 @@ def test_an_unknown_motor_lists_the_known():
 def test_a_step_follows_the_exponential_of_the_text_book():
     time = np.arange(0, 2, 0.02)
 
-    position, velocity = motion(GAINS, time=time, voltage=np.full(time.size, 7.0))
+    position, velocity = move_gains_only(GAINS, time=time, voltage=np.full(time.size, 7.0))
 
     top, tau = (7.0 - 0.25) / 2.0, 0.15
     assert velocity == pytest.approx(top * (1 - np.exp(-time / tau)), abs=1e-12)
@@ -115,7 +115,7 @@ def test_a_step_follows_the_exponential_of_the_text_book():
 def test_at_rest_it_stays_at_rest_while_friction_holds(volts):
     time = np.arange(0, 1, 0.02)
 
-    position, velocity = motion(GAINS, time=time, voltage=np.full(time.size, volts))
+    position, velocity = move_gains_only(GAINS, time=time, voltage=np.full(time.size, volts))
 
     assert not position.any()
     assert not velocity.any()
@@ -125,7 +125,7 @@ def test_coasting_it_comes_to_rest_and_stays_there():
     time = np.arange(0, 3, 0.02)
     volts = np.where(time < 1.0, 4.0, 0.0)
 
-    _, velocity = motion(GAINS, time=time, voltage=volts)
+    _, velocity = move_gains_only(GAINS, time=time, voltage=volts)
 
     assert velocity[50] > 1.5
     assert velocity[-1] == 0.0
@@ -137,8 +137,8 @@ def test_a_turn_within_one_step_is_met_at_its_exact_time():
     fine = np.linspace(0.0, 1.0, 100_001)
     volts = np.where(fine < 0.5, 5.0, -3.0)
 
-    x_coarse, v_coarse = motion(GAINS, time=coarse, voltage=np.array([5.0, -3.0, -3.0]))
-    x_fine, v_fine = motion(GAINS, time=fine, voltage=volts)
+    x_coarse, v_coarse = move_gains_only(GAINS, time=coarse, voltage=np.array([5.0, -3.0, -3.0]))
+    x_fine, v_fine = move_gains_only(GAINS, time=fine, voltage=volts)
 
     assert v_coarse[-1] == pytest.approx(v_fine[-1], abs=1e-9)
     assert x_coarse[-1] == pytest.approx(x_fine[-1], abs=1e-9)
@@ -154,8 +154,8 @@ def test_mirrored_volts_give_mirrored_motion(volts, ks, kv, ka):
     gains = {"kS": ks, "kV": kv, "kA": ka}
     time = np.arange(len(volts)) * 0.02
 
-    there = motion(gains, time=time, voltage=np.array(volts))
-    back = motion(gains, time=time, voltage=-np.array(volts))
+    there = move_gains_only(gains, time=time, voltage=np.array(volts))
+    back = move_gains_only(gains, time=time, voltage=-np.array(volts))
 
     assert (np.array(there) == -np.array(back)).all()
 
@@ -164,7 +164,9 @@ def test_mirrored_volts_give_mirrored_motion(volts, ks, kv, ka):
 def test_no_speed_exceeds_what_the_voltage_allows(volts, ks):
     time = np.arange(len(volts)) * 0.02
 
-    _, velocity = motion({"kS": ks, "kV": 2.0, "kA": 0.1}, time=time, voltage=np.array(volts))
+    _, velocity = move_gains_only(
+        {"kS": ks, "kV": 2.0, "kA": 0.1}, time=time, voltage=np.array(volts)
+    )
 
     assert np.abs(velocity).max() <= max(0.0, np.abs(volts).max() - ks) / 2.0 + 1e-12
 

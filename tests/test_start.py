@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from grader import foreground
+from grader import exec_process
 from grader import start as starting
 from grader.cli import run
-from grader.course import load
+from grader.course import load_progress
 
 MAKER = '''
 """An exercise with data of its own."""
@@ -58,7 +58,7 @@ def course(tmp_path, monkeypatch):
     for name in ("01_motor.ipynb", "00_guess.ipynb"):
         (tmp_path / "lessons" / name).write_text("{}", "utf-8")
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(foreground.subprocess, "Popen", Lab)
+    monkeypatch.setattr(exec_process.subprocess, "Popen", Lab)
     monkeypatch.setattr(Lab, "ends", (0,))
     monkeypatch.setattr(Lab, "command", ())
     return tmp_path
@@ -82,7 +82,7 @@ def test_who_one_is_is_remembered(course, capsys):
     run(["start", "--no-lab"])
     capsys.readouterr()
 
-    assert load(course)[0].student == "ann"
+    assert load_progress(course)[0].student == "ann"
     assert run([]) == 0
     assert "(ann)" in capsys.readouterr().out
 

@@ -15,7 +15,7 @@ from sim.feedback import (
     Feedback,
     Plant,
     StepResponse,
-    judged,
+    judge_step_response,
     position_loop,
     step_response,
     velocity_loop,
@@ -74,7 +74,7 @@ def test_a_delay_makes_a_loop_swing_from_the_gain_of_paper_on(share, kind):
         preset=QUICK, delay=wait, seconds=10.0,
     )  # fmt: skip
 
-    assert judged(took).kind == kind
+    assert judge_step_response(took).kind == kind
 
 
 @pytest.mark.parametrize("name", PRESETS)
@@ -107,7 +107,7 @@ def test_a_position_loop_too_weak_for_friction_stops_short_by_what_friction_hold
     weak = Feedback(2.0, 0.0)
     took = step_response(PLANTS["simple"], loop="position", feedback=weak, target=0.5, seconds=10.0)
 
-    told = judged(took)
+    told = judge_step_response(took)
 
     assert told.kind == "stays-short"
     assert told.left == pytest.approx(0.15, abs=0.01)
@@ -119,8 +119,8 @@ def test_a_negative_gain_runs_away():
         PLANTS["simple"], loop="position", feedback=Feedback(-9.0, 0.0), target=0.5
     )
 
-    assert judged(took).kind == "runs-away"
-    assert judged(took).words == "runs away from the target"
+    assert judge_step_response(took).kind == "runs-away"
+    assert judge_step_response(took).words == "runs away from the target"
 
 
 @pytest.mark.parametrize("loop", ["velocity", "position"])
@@ -131,7 +131,7 @@ def test_what_sysid_suggests_without_a_delay_settles(kind, loop):
         kv=2.5, ka=0.19, velocity_error=1.2
     )
 
-    told = judged(
+    told = judge_step_response(
         step_response(plant, loop=loop, feedback=suggested, target=plant.step(loop), delay=0.0)
     )
 
@@ -145,7 +145,7 @@ def test_the_numbers_of_a_verdict_are_those_of_the_curve():
     # the sample after 0.75 s on, where it is 1.05
     time = np.linspace(0.0, 2.0, 2001)
     value = np.interp(time, [0.0, 0.6, 0.8, 2.0], [0.0, 1.2, 1.0, 1.0])
-    told = judged(
+    told = judge_step_response(
         StepResponse("position", 2.0, tuple(time), tuple(2.0 * value), (0.0,) * time.size)
     )
 
@@ -173,7 +173,7 @@ def test_whatever_the_gains_the_answer_is_numbers_and_a_sentence(kp, kd, delay, 
     )
 
     assert all(map(math.isfinite, took.value))
-    assert "nan" not in judged(took).words
+    assert "nan" not in judge_step_response(took).words
 
 
 @pytest.mark.parametrize(

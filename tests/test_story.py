@@ -31,15 +31,15 @@ from story_made import (
 
 import sim
 from sim.cli import sysid
-from sim.command import run
+from sim.cli_support import run
 from sim.effects import EFFECTS
 from sim.errors import BadRequest
 from sim.mechanisms import MECHANISMS
 from sim.report.story import story_page, write_story
 from sim.routine import Routine
 from sim.simulate import simulate
-from sim.storyteller import progress_bar, show_story
-from sim.telling import headline, looks, measured, next_tests
+from sim.story_terminal import progress_bar, show_story
+from sim.story_text import format_estimate, headline, list_inspections, list_next_tests
 
 BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
 EXPLAINED = STORIES["explained"]
@@ -125,7 +125,7 @@ def test_nothing_is_called_complete_that_is_far_off():
 def test_a_number_has_the_digits_it_deserves(value, error, said):
     estimate = replace(DRAG.parameters["drag"], value=value, error=error)
 
-    assert measured(estimate) == said
+    assert format_estimate(estimate) == said
 
 
 @pytest.mark.parametrize(
@@ -139,18 +139,18 @@ def test_a_place_is_told_in_numbers_that_a_person_reads(error, said):
 def test_each_look_alike_says_what_to_look_at():
     unsure = STORIES["ambiguous"].findings[0]
 
-    assert looks(unsure) == (
+    assert list_inspections(unsure) == (
         ("Look at", "Grease that has become stiff."),
         ("If it is stribeck", EFFECTS["stribeck"].inspect),
     )
-    assert looks(SLIP) == (("What to do", "Tighten what holds the sensor."),)
+    assert list_inspections(SLIP) == (("What to do", "Tighten what holds the sensor."),)
 
 
 def test_tests_to_run_next_are_told_once():
     unsure = STORIES["ambiguous"].findings[0]
 
-    assert next_tests(story(unsure, unsure)) == ("Record a coast: only drag is felt there.",)
-    assert next_tests(EXPLAINED) == ()
+    assert list_next_tests(story(unsure, unsure)) == ("Record a coast: only drag is felt there.",)
+    assert list_next_tests(EXPLAINED) == ()
 
 
 # -- terminal ------------------------------------------------------------------------------------
@@ -511,7 +511,7 @@ def test_a_validation_that_is_not_there_is_one_line(reconcile, drive):
 UNSEEN = """
 import sys
 from sim.cli import sysid
-from sim.command import run
+from sim.cli_support import run
 run(sysid, name="sysid", arguments=["reconcile", {path!r}, "--json"])
 seen = [name for name in ("matplotlib", "jinja2", "rich", "IPython") if name in sys.modules]
 print(seen, file=sys.stderr)

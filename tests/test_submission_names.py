@@ -5,9 +5,9 @@ import zipfile
 import pytest
 from small_course import HALF, RIGHT, lay_out
 
-from grader.classroom.handed_in import find_all, stray_files
-from grader.classroom.roster import members
+from grader.classroom.roster import read_members
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
+from grader.classroom.submissions import find_submissions, stray_files
 from grader.cli import run
 from grader.exercise import exercises
 from sim.errors import BadRequest
@@ -30,7 +30,7 @@ def course(tmp_path):
 def people(tmp_path, text):
     path = tmp_path / "roster.csv"
     path.write_text(text, encoding="utf-8")
-    return members(path).identities
+    return read_members(path).identities
 
 
 @pytest.mark.parametrize(
@@ -108,7 +108,7 @@ def test_a_canvas_download_is_graded_as_it_is(tmp_path, course):
     (place / "delacruzanamara_103_5557_answers.toml").write_text(RIGHT, encoding="utf-8")
     (place / "roster.csv").write_text(CANVAS, encoding="utf-8")
     roster = people(tmp_path, CANVAS)
-    found = {one.student: one for one in find_all(place, course, roster=roster)}
+    found = {one.student: one for one in find_submissions(place, course, roster=roster)}
 
     assert set(found) == {"jdoe", "zoe", "ana"}
     assert all(list(one.files) == ["exercise1"] for one in found.values())
@@ -128,7 +128,7 @@ def test_several_files_of_one_student_are_one_hand_in(tmp_path, course):
     place.mkdir()
     (place / "Jane Doe - answers.toml").write_text(RIGHT, encoding="utf-8")
     (place / "Jane Doe - code.toml").write_text(HALF, encoding="utf-8")
-    (one,) = find_all(place, exercises(tmp_path / "course"))
+    (one,) = find_submissions(place, exercises(tmp_path / "course"))
 
     assert one.student == "Jane Doe"
     assert {name: list(files) for name, files in one.files.items()} == {
@@ -144,7 +144,7 @@ def test_one_exercise_alone_is_found_in_a_whole_course_and_in_a_flat_folder(tmp_
     (place / "ann" / "answers.toml").write_text(HALF, encoding="utf-8")
     (place / "ben").mkdir()
     (place / "ben" / "my answers.toml").write_text(HALF, encoding="utf-8")
-    ann, ben = find_all(place, course, asked=course)
+    ann, ben = find_submissions(place, course, asked=course)
 
     assert ann.files == {"exercise1": {"answers.toml": RIGHT.encode()}}
     assert ben.files == {"exercise1": {"my answers.toml": HALF.encode()}}
@@ -155,7 +155,7 @@ def test_two_files_that_could_be_one_answer_are_refused_by_name(tmp_path, course
         place = tmp_path / "in" / "ann" / folder / "exercise1"
         place.mkdir(parents=True)
         (place / "answers.toml").write_text(RIGHT + f"# {folder}\n", encoding="utf-8")
-    (one,) = find_all(tmp_path / "in", course)
+    (one,) = find_submissions(tmp_path / "in", course)
 
     assert one.problems == {
         "exercise1": "there are two different files answers.toml; keep the one that counts"
@@ -178,7 +178,7 @@ def test_a_stranger_is_told_with_the_likely_student_and_not_graded(tmp_path, cou
     place = tmp_path / "in" / "Jane Dow" / "exercise1"
     place.mkdir(parents=True)
     (place / "answers.toml").write_text(RIGHT, encoding="utf-8")
-    (one,) = find_all(tmp_path / "in", course, roster=people(tmp_path, CANVAS))
+    (one,) = find_submissions(tmp_path / "in", course, roster=people(tmp_path, CANVAS))
 
     assert one.files == {}
     assert "Jane Dow belongs to nobody on the roster; perhaps jdoe" in one.problem
@@ -189,4 +189,4 @@ def test_two_folders_of_one_student_are_refused(tmp_path, course):
         (tmp_path / "in" / name).mkdir(parents=True)
 
     with pytest.raises(BadRequest, match="are one student's"):
-        find_all(tmp_path / "in", course, roster=people(tmp_path, CANVAS))
+        find_submissions(tmp_path / "in", course, roster=people(tmp_path, CANVAS))

@@ -7,9 +7,9 @@ import pytest
 from small_course import RIGHT, lay_out
 
 from grader.classroom import workers
-from grader.classroom.handed_in import find_all
-from grader.classroom.run import Class, grade_all, plan
+from grader.classroom.run import Class, grade_all, plan_grading
 from grader.classroom.store import Store
+from grader.classroom.submissions import find_submissions
 from grader.cli import run
 from grader.exercise import exercises
 
@@ -56,9 +56,9 @@ def hand_in(place, **does):
 
 def graded(course, there, out, *, seconds):
     """Student -> score and reason, and who was graded in this run."""
-    work = Class(find_all(there, exercises(course)), exercises(course), course)
+    work = Class(find_submissions(there, exercises(course)), exercises(course), course)
     store = Store(out)
-    left = plan(work, store, travel=False, again=False)
+    left = plan_grading(work, store, travel=False, again=False)
     store.open()
     found = list(left.kept)
     for one in workers.grade_in_workers(left.todo, processes=2, seconds=seconds):
@@ -85,7 +85,7 @@ def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_pa
 
 def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):
     there = hand_in(tmp_path / "in", ben="hang")
-    work = Class(find_all(there, exercises(course)), exercises(course), course)
+    work = Class(find_submissions(there, exercises(course)), exercises(course), course)
     store = Store(tmp_path / "out")
     looks = []
 
@@ -96,7 +96,7 @@ def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         grade_all(
-            work, plan(work, store, travel=False, again=False), store, processes=1, cluster=None,
+            work, plan_grading(work, store, travel=False, again=False), store, processes=1, cluster=None,
             say=lambda: None, stop_if_asked=stop_if_asked,
         )  # fmt: skip
     assert multiprocessing.active_children() == []
@@ -151,6 +151,6 @@ def test_the_worst_bomb_that_is_read_stays_small(course, tmp_path):
         archive.writestr("exercise1/answers.toml", b"#" * 5_000_000)
     (tmp_path / "in").mkdir()
     (tmp_path / "ann.zip").rename(tmp_path / "in" / "ann.zip")
-    (one,) = find_all(tmp_path / "in", exercises(course))
+    (one,) = find_submissions(tmp_path / "in", exercises(course))
 
     assert len(one.files["exercise1"]["answers.toml"]) == 1_000_001

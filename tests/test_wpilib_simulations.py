@@ -21,7 +21,7 @@ from sim.mechanism import Mechanism, Sensor
 from sim.mechanisms import MECHANISMS
 from sim.motors import MOTORS, Motor
 from sim.routine import Routine
-from sim.simulate import connected, simulate
+from sim.simulate import power_path_arrays, simulate
 
 pytestmark = pytest.mark.robot
 
@@ -96,7 +96,7 @@ def apart_at_stops(built: Mechanism, name: str, twin, step: float | None = None)
     begin = 0.5 * (low + high)
     theirs = twin(bare(name), begin).follow(time, voltage)
     assert (theirs["position"].min(), theirs["position"].max()) == (low, high)
-    state, wires = State.at(begin), connected(built)
+    state, wires = State.at(begin), power_path_arrays(built)
     ours = move(built.model, time=time, voltage=voltage, state=state, wires=wires, step=step)
     return apart(built, ours, theirs, voltage)
 

@@ -18,7 +18,7 @@ from wpilog_file import (
 
 from sim.formats.wpilog.contents import Contents, contents_of
 from sim.formats.wpilog.entry import KINDS, Entry
-from sim.formats.wpilog.records import fields, load
+from sim.formats.wpilog.records import load_records, read_headers
 
 TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 
@@ -26,7 +26,7 @@ TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 def contents_in(tmp_path: Path, *parts: bytes) -> Contents:
     path = tmp_path / "log.wpilog"
     path.write_bytes(HEADER + b"".join(parts))
-    return contents_of(load(path))
+    return contents_of(load_records(path))
 
 
 def values(entry: Entry) -> list[object]:
@@ -50,8 +50,8 @@ def test_any_records_with_any_headers_are_found_where_they_are(
     body = b"".join(record(*one) for one in several)
     path.write_bytes(HEADER[:8] + struct.pack("<I", len(extra)) + extra + body)
 
-    found = load(path)
-    head = fields(found.file.buffer, found.start)
+    found = load_records(path)
+    head = read_headers(found.file.buffer, found.start)
 
     assert found.end == found.file.size
     assert [
@@ -83,7 +83,7 @@ def test_a_long_file_is_followed_through_all_its_windows(tmp_path: Path, seed: i
         body.append(record(1 + index % 300, index * 5_000, payload, (1, 1 + kind, 1)))
     path.write_bytes(HEADER + b"".join(body))
 
-    found = load(path)
+    found = load_records(path)
 
     lengths = np.array([len(one) for one in body])
     assert np.array_equal(found.start, 12 + np.concatenate(([0], np.cumsum(lengths)[:-1])))

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import number
+from grader.answer import read_answer_number
 from grader.check import Wrong, check
 from grader.consequence import Consequence
-from grader.given import hand_out
-from grader.measure import NotAUnitError, read_unit
+from grader.quantity import NotAUnitError, read_unit
+from grader.student_files import write_student_files
 from grader.submission import read_answers
 
 from .budget import MOMENTS, Variant
@@ -46,7 +46,7 @@ class Answers:
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Write down the learner's numbers, where they are not there as they were."""
     made = {FILE_MADE: _told(draw(student))}
-    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
+    write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
 
 
 def _told(variant: Variant) -> str:
@@ -113,7 +113,7 @@ def backward(answers: Answers) -> None:
 
 def _voltage(name: str, answers: Answers) -> None:
     asked = answers.variant.asked(name)
-    value = number(answers.given.get(name), asked)
+    value = read_answer_number(answers.given.get(name), asked)
     if asked.right(value):
         return
     found = suspects(value, answers.variant, name)

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from itertools import product
 
-from grader.slip import MANY, Slip
+from grader.wrong_number import MANY, WrongNumber
 
 from .budget import MOMENTS, SHOWN, Variant
 
@@ -18,7 +18,7 @@ class Guess:
     """What one slip, or two, would give."""
 
     volts: float
-    slips: tuple[Slip, ...]
+    slips: tuple[WrongNumber, ...]
 
     def fits(self, value: float) -> bool:
         """Whether a voltage looks like this."""
@@ -37,7 +37,7 @@ def guesses(variant: Variant, name: str) -> list[Guess]:
     return found + _wholes(variant, name)
 
 
-Way = tuple[float, Slip | None]
+Way = tuple[float, WrongNumber | None]
 
 
 def _frictions(variant: Variant, name: str) -> list[Way]:
@@ -50,12 +50,12 @@ def _frictions(variant: Variant, name: str) -> list[Way]:
             "friction opposes the motion: moving backward, sgn(v) is -1, so kS·sgn(v) is negative "
             "as kV·v is"
         )
-    turned = Slip("sgn", says)
+    turned = WrongNumber("sgn", says)
     missing = "kS is missing. Friction takes its volts at every speed, as long as it moves at all"
-    return [(volts, None), (0.0, Slip("no-ks", missing)), (-volts, turned)]
+    return [(volts, None), (0.0, WrongNumber("no-ks", missing)), (-volts, turned)]
 
 
-_BACKWARD = Slip(
+_BACKWARD = WrongNumber(
     "backward",
     "the sign is not right. Moving backward, v is negative: look at sgn(v), and at kV·v",
 )
@@ -64,11 +64,11 @@ _BACKWARD = Slip(
 def _speeds(variant: Variant, name: str) -> list[Way]:
     volts = variant.terms(name)[1]
     says = "the velocity has the wrong sign. Forward is positive, also while it brakes"
-    turned = _BACKWARD if name == "backward" else Slip("v-sign", says)
+    turned = _BACKWARD if name == "backward" else WrongNumber("v-sign", says)
     missing = "kV·v is missing. Every speed takes its volts, also where the speed changes"
     return [
         (volts, None),
-        (0.0, Slip("no-kv", missing)),
+        (0.0, WrongNumber("no-kv", missing)),
         (-volts, turned),
         *((volts * times, slip) for times, slip in _units(variant, name)),
     ]
@@ -80,16 +80,21 @@ def _pushes(variant: Variant, name: str) -> list[Way]:
         way = "getting slower, a is negative" if name == "braking" else "getting faster, it is not"
         return [
             (volts, None),
-            (0.0, Slip("no-ka", "kA·a is missing. The speed changes here, and that takes volts")),
-            (-volts, Slip("a-sign", f"a has the wrong sign. Moving forward and {way}")),
+            (
+                0.0,
+                WrongNumber(
+                    "no-ka", "kA·a is missing. The speed changes here, and that takes volts"
+                ),
+            ),
+            (-volts, WrongNumber("a-sign", f"a has the wrong sign. Moving forward and {way}")),
             *((volts * times, slip) for times, slip in _units(variant, name)),
         ]
-    extra = Slip("extra-ka", "there is a kA·a too many. At a steady speed, what is a?")
+    extra = WrongNumber("extra-ka", "there is a kA·a too many. At a steady speed, what is a?")
     others = [one.acceleration for one in variant.moments.values() if one.acceleration]
     return [(0.0, None), *((variant.gains["kA"] * a, extra) for a in others)]
 
 
-def _units(variant: Variant, name: str) -> list[tuple[float, Slip]]:
+def _units(variant: Variant, name: str) -> list[tuple[float, WrongNumber]]:
     """Factors that a velocity is off by, in another unit than kV's."""
     (shown, times), right = SHOWN[variant.kind], f"{variant.symbol}/s"
     raw = f"this speed is given in {shown}, and your kV is made for {right}. Convert it first"
@@ -103,7 +108,7 @@ def _units(variant: Variant, name: str) -> list[tuple[float, Slip]]:
     else:
         turn = "2π = 6.28. Were radians and rotations taken for each other?"
         found += [(2 * math.pi, turn), (0.5 / math.pi, turn)]
-    return [(factor, Slip(f"unit {factor:.3g}", says, "M-UNITS")) for factor, says in found]
+    return [(factor, WrongNumber(f"unit {factor:.3g}", says, "M-UNITS")) for factor, says in found]
 
 
 def _wholes(variant: Variant, name: str) -> list[Guess]:
@@ -113,19 +118,19 @@ def _wholes(variant: Variant, name: str) -> list[Guess]:
     turned = [(-volts, _BACKWARD)] if name == "backward" else []
     found = [
         *turned,
-        (volts / 12, Slip("duty", duty, "M-DUTY")),
-        (volts * 1000, Slip("milli", "1 V is 1000 mV. Are these millivolts?", "M-UNITS")),
+        (volts / 12, WrongNumber("duty", duty, "M-DUTY")),
+        (volts * 1000, WrongNumber("milli", "1 V is 1000 mV. Are these millivolts?", "M-UNITS")),
     ]
     if name != "backward":
-        found.append((-volts, Slip("sign", "the size is right, the sign is not")))
+        found.append((-volts, WrongNumber("sign", "the size is right, the sign is not")))
     for other in MOMENTS:
         if other != name:
             says = f"that would be right for {other}. Are two answers swapped?"
-            found.append((sum(variant.terms(other)), Slip("swapped", says, "M-ARGORDER")))
+            found.append((sum(variant.terms(other)), WrongNumber("swapped", says, "M-ARGORDER")))
     return [Guess(value, (slip,)) for value, slip in found]
 
 
-def suspects(value: float, variant: Variant, name: str) -> tuple[tuple[Slip, ...], ...]:
+def suspects(value: float, variant: Variant, name: str) -> tuple[tuple[WrongNumber, ...], ...]:
     """The slips, or pairs of them, that would give this voltage; the simplest only."""
     near = {
         tuple(slip.code for slip in guess.slips): guess.slips

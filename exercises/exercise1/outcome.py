@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.answer import number
+from grader.answer import read_answer_number
 from grader.check import Wrong
 from grader.consequence import Consequence, Drawn
 
@@ -45,7 +45,7 @@ def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None
     for name in MOMENTS:
         asked = variant.asked(name)
         try:
-            value = number(given.get(name), asked)
+            value = read_answer_number(given.get(name), asked)
         except Wrong:
             continue
         if not asked.right(value):
@@ -55,13 +55,13 @@ def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None
     words = " ".join(_words(one, variant) for one in motions)
 
     def draw() -> Drawn:
-        from sim.plot import outcome as plot  # noqa: PLC0415 - only who draws waits for it
+        from sim.plot import consequence as plot  # noqa: PLC0415 - only who draws waits for it
 
         ylabel, done = f"velocity [{variant.symbol}/s]", "what it does"
         shown = [
             plot.Trace(one.name, ylabel, one.time, one.wanted, {done: one.found}) for one in motions
         ]
-        return plot.outcome(shown, words=words)
+        return plot.consequence(shown, words=words)
 
     return Consequence(words, draw)
 

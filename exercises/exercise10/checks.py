@@ -7,11 +7,11 @@ from pathlib import Path
 
 from grader.check import NotReached, Wrong, check
 from grader.consequence import Consequence
-from grader.given import hand_out
-from grader.robotcode.deployed import Constant, DeployFacts, Feedforward, gains_of
+from grader.robotcode.gain_constants import DeployFacts, Feedforward, GainConstant, gains_of
+from grader.student_files import write_student_files
 from grader.submission import read_text
-from grader.wiring import READ as READ_ONLY
-from grader.wiring import check_compiles
+from grader.sysid_routine_checks import READ as READ_ONLY
+from grader.sysid_routine_checks import check_compiles
 from sim.errors import UnreadableFile
 
 from .drawn import draw
@@ -42,7 +42,7 @@ class Code:
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Write down what the analyzer showed for the learner's mechanism."""
     made = {GIVEN: told(draw(student))}
-    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
+    write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
 
 
 def told(variant: Variant) -> str:
@@ -156,7 +156,7 @@ def _valued(gain: str, code: Code) -> None:
     raise Wrong(_at(constant), hint=slip.says, misconception=slip.misconception)
 
 
-def _right(constant: Constant, variant: Variant) -> bool:
+def _right(constant: GainConstant, variant: Variant) -> bool:
     """Whether a constant is the analyzer's number, or the one the robot needs."""
     value, gain = constant.value, constant.gain
     return value is not None and (
@@ -164,7 +164,7 @@ def _right(constant: Constant, variant: Variant) -> bool:
     )
 
 
-def _constant(gain: str, code: Code) -> Constant:
+def _constant(gain: str, code: Code) -> GainConstant:
     found = code.facts.constant(gain)
     if found is None:
         raise NotReached(f"looked at once there is a constant {gain}")
@@ -180,7 +180,7 @@ def _known(value: float | None, text: str, line: int) -> float:
     return value
 
 
-def _at(constant: Constant) -> str:
+def _at(constant: GainConstant) -> str:
     worked = "" if f"{constant.value:g}" in constant.text else f", which is {constant.value:.4g}"
     return f"{constant.name} = {constant.text} in line {constant.line}{worked}"
 
@@ -207,7 +207,7 @@ def units(code: Code) -> None:
             )
 
 
-def _unit_told(one: Constant, code: Code) -> bool | None:
+def _unit_told(one: GainConstant, code: Code) -> bool | None:
     """Whether a gain's unit is told; where the number itself is not right, either will do."""
     used = one.value is not None and near(one.value, code.variant.needed(one.gain))
     either = (True, False) if not _right(one, code.variant) else (used,)

@@ -3,7 +3,7 @@
 import re
 
 from grader.check import NotReached, Wrong
-from grader.robotcode.deployed import Argument, DeployFacts, Feedforward
+from grader.robotcode.gain_constants import Argument, DeployFacts, Feedforward
 
 from .key import Variant, near
 

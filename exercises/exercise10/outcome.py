@@ -4,8 +4,8 @@ import math
 from typing import TYPE_CHECKING
 
 from grader.check import NotReached, Wrong
-from grader.consequence import Consequence, motions
-from grader.robotcode.deployed import DeployFacts, Feedforward
+from grader.consequence import Consequence, follow_profiles
+from grader.robotcode.gain_constants import DeployFacts, Feedforward
 
 from .handed import feedforward_of
 from .key import CLASSES, Variant, near
@@ -25,7 +25,7 @@ RISING, STEADY, STILL = 0.25, 0.75, 0.5  # [s]
 def outcome(facts: DeployFacts, variant: Variant) -> Consequence | None:
     """What the feedforward would do; None where it is as it should be, or cannot be told."""
     from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
-    from sim.feedback.following import INFINITE, follow  # noqa: PLC0415 - the same
+    from sim.feedback.following import INFINITE, follow_profile  # noqa: PLC0415 - the same
 
     try:
         one = feedforward_of(facts, variant)
@@ -36,7 +36,7 @@ def outcome(facts: DeployFacts, variant: Variant) -> Consequence | None:
         return None
     truth = {name: variant.needed(name) for name in variant.gains}
     plant, believed = Plant(variant.analysis.lower(), truth), Plant(TYPES[one.kind], gains)
-    followed = follow(
+    followed = follow_profile(
         plant,
         believed,
         _profile(plant, variant.kind),
@@ -45,7 +45,7 @@ def outcome(facts: DeployFacts, variant: Variant) -> Consequence | None:
         place=PLACES.get(variant.kind, "way"),
         stops=ROOM.get(variant.kind, INFINITE),
     )
-    return motions([followed])
+    return follow_profiles([followed])
 
 
 def _gains(one: Feedforward) -> dict[str, float] | None:
@@ -66,10 +66,10 @@ def _right(one: Feedforward, gains: dict[str, float], variant: Variant) -> bool:
 
 
 def _profile(plant: "Plant", kind: str) -> "Profile":
-    from sim.feedback.profile import brisk, there_and_back  # noqa: PLC0415 - numpy, when needed
+    from sim.feedback.profile import brisk_profile, there_and_back  # noqa: PLC0415 - numpy, when needed
 
     if kind in SPEED:
         return there_and_back(
             SPEED[kind], rising=RISING, steady=STEADY, still=STILL, start=START[kind]
         )
-    return brisk(plant)
+    return brisk_profile(plant)

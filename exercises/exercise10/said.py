@@ -4,14 +4,14 @@ import math
 import re
 from collections.abc import Iterator
 
-from grader.measure import Measure, NotAUnitError, read_unit
+from grader.quantity import NotAUnitError, Quantity, read_unit
 
 MOST_WORDS = 6  # of one unit: volts times seconds squared per meter
 _PER = re.compile(r"\b(for|per|each|every)\b(\s+(an?|the|each|every|one|1)\b)*(?=\s+[a-z°])")
 _OF = re.compile(r"\b(an?\s+)?(velocity|speed|acceleration|change|error)\s+of(\s+1\b)?")
 
 
-def units_of(comment: str, name: str = "") -> Iterator[Measure]:
+def units_of(comment: str, name: str = "") -> Iterator[Quantity]:
     """Every unit that a comment, or a name, can be read to tell."""
     text = _OF.sub("", comment.lower())
     text = re.sub(r"\s+", " ", _PER.sub("per", text))
@@ -23,7 +23,7 @@ def units_of(comment: str, name: str = "") -> Iterator[Measure]:
     yield from _read(" ".join(camel))
 
 
-def _read(text: str) -> Iterator[Measure]:
+def _read(text: str) -> Iterator[Quantity]:
     bare = text.strip(" ,;:.![]")
     for one in dict.fromkeys((bare, bare.strip("()"))):
         try:

@@ -1,6 +1,6 @@
 """What may have gone wrong with a number on its way from the analyzer into the code."""
 
-from grader.slip import Slip
+from grader.wrong_number import WrongNumber
 
 from .key import FULL, Variant, near
 
@@ -8,27 +8,27 @@ ROUNDED = 0.10  # [share] what rounding to one digit may take away
 MINUTE = 60.0
 
 
-def constant_slip(value: float, gain: str, variant: Variant, *, text: str) -> Slip:
+def constant_slip(value: float, gain: str, variant: Variant, *, text: str) -> WrongNumber:
     """Why a constant is neither the analyzer's number nor the one the robot needs."""
     shown = variant.shown[gain]
     return _known(value, gain, variant, text=text) or (
-        Slip("rounded", "near it, but rounded too far. Keep three digits or more")
+        WrongNumber("rounded", "near it, but rounded too far. Keep three digits or more")
         if near(value, shown, share=ROUNDED) or near(value, variant.needed(gain), share=ROUNDED)
-        else Slip("other", "not what the analyzer showed. Look at given.toml once more")
+        else WrongNumber("other", "not what the analyzer showed. Look at given.toml once more")
     )
 
 
-INTEGER = Slip("integer", "Whole numbers divide to a whole number in Java: 1 / 2 is 0")
-Way = tuple[tuple[float, ...], Slip]  # what a number may be, and what it then comes from
+INTEGER = WrongNumber("integer", "Whole numbers divide to a whole number in Java: 1 / 2 is 0")
+Way = tuple[tuple[float, ...], WrongNumber]  # what a number may be, and what it then comes from
 
 
-def _known(value: float, gain: str, variant: Variant, *, text: str) -> Slip | None:
+def _known(value: float, gain: str, variant: Variant, *, text: str) -> WrongNumber | None:
     if value == 0:
         return INTEGER if "/" in text else None
     return _first(value, [*_others(gain, variant), *_scaled(gain, variant)])
 
 
-def _first(value: float, ways: list[Way]) -> Slip | None:
+def _first(value: float, ways: list[Way]) -> WrongNumber | None:
     """The first slip that would give a number."""
     found = (slip for sizes, slip in ways if any(near(value, size) for size in sizes))
     return next(found, None)
@@ -39,7 +39,7 @@ def _others(gain: str, variant: Variant) -> list[Way]:
     return [
         (
             (variant.shown[other], variant.needed(other)),
-            Slip("other-gain", f"that is the analyzer's {other}", "M-ARGORDER"),
+            WrongNumber("other-gain", f"that is the analyzer's {other}", "M-ARGORDER"),
         )
         for other in variant.shown
         if other not in {gain, "kP"}
@@ -54,18 +54,18 @@ def _scaled(gain: str, variant: Variant) -> list[Way]:
     turned = "converted the wrong way round: where the unit is larger, one of it costs more volts"
     twice = "converted twice. kA has the unit of length only once, too: the seconds are squared"
     ways = [
-        ((shown / times,), Slip("turned", turned, "M-UNITS")),
-        ((shown * times * times,), Slip("twice", twice, "M-UNITS")),
+        ((shown / times,), WrongNumber("turned", turned, "M-UNITS")),
+        ((shown * times * times,), WrongNumber("twice", twice, "M-UNITS")),
     ]
     if gain in {"kS", "kG"}:
-        ways = [((shown * times, shown / times), Slip("volts", units, "M-UNITS"))]
+        ways = [((shown * times, shown / times), WrongNumber("volts", units, "M-UNITS"))]
     duty = "12 times off. A feedforward's gains are in volts, whatever the loop puts out"
     minutes = "60 times off. Are these minutes in place of seconds?"
     return [
-        ((-shown, -needed), Slip("sign", "the size is right, the sign is not")),
+        ((-shown, -needed), WrongNumber("sign", "the size is right, the sign is not")),
         *ways,
-        (_times(both, FULL), Slip("duty", duty, "M-DUTY")),
-        (_times(both, MINUTE), Slip("minutes", minutes, "M-UNITS")),
+        (_times(both, FULL), WrongNumber("duty", duty, "M-DUTY")),
+        (_times(both, MINUTE), WrongNumber("minutes", minutes, "M-UNITS")),
     ]
 
 
@@ -73,7 +73,7 @@ def _times(sizes: tuple[float, ...], factor: float) -> tuple[float, ...]:
     return tuple(size * times for size in sizes for times in (factor, 1 / factor))
 
 
-def handed_slip(value: float, gain: str, variant: Variant) -> Slip:
+def handed_slip(value: float, gain: str, variant: Variant) -> WrongNumber:
     """Why what a feedforward is given does not fit the robot's unit."""
     shown, times = variant.shown[gain], variant.times
     used, given = variant.symbol(used=True), variant.symbol(used=False)
@@ -84,15 +84,15 @@ def handed_slip(value: float, gain: str, variant: Variant) -> Slip:
             f"as the analyzer shows it, for {given}. Your code counts in {used}: its volts will be "
             f"{factor:.3g} times too {way}"
         )
-        return Slip("unconverted", says, "M-UNITS")
+        return WrongNumber("unconverted", says, "M-UNITS")
     if near(value, shown * times * times):
         says = "converted twice, in the constant and once more here"
-        return Slip("twice", says, "M-UNITS")
+        return WrongNumber("twice", says, "M-UNITS")
     found = _known(value, gain, variant, text="")
-    return found or Slip("other", f"look at the constant {gain} first")
+    return found or WrongNumber("other", f"look at the constant {gain} first")
 
 
-def feedback_slip(value: float, variant: Variant, *, text: str) -> Slip:
+def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:
     """Why a kP does not fit the robot's loop."""
     shown, times, needed = variant.shown["kP"], variant.times, variant.needed("kP")
     used, given = variant.symbol(used=True), variant.symbol(used=False)
@@ -101,22 +101,29 @@ def feedback_slip(value: float, variant: Variant, *, text: str) -> Slip:
     unmodified = f"as the analyzer shows it, for {given}. Your code counts in {used}{also}"
     right, still = "the unit is right, the output is not", f"still for {given}"
     ways = [
-        ((shown,), Slip("unmodified", unmodified, "M-UNITS")),
+        ((shown,), WrongNumber("unmodified", unmodified, "M-UNITS")),
         (
             tuple(size for size in (shown * times, shown * times / FULL) if size != needed),
-            Slip("duty", f"{right}: it is {output}", "M-DUTY"),
+            WrongNumber("duty", f"{right}: it is {output}", "M-DUTY"),
         ),
         (
             (shown * times * FULL,),
-            Slip("duty-turned", f"the output is {output}: 12 is on the wrong side", "M-DUTY"),
+            WrongNumber(
+                "duty-turned", f"the output is {output}: 12 is on the wrong side", "M-DUTY"
+            ),
         ),
-        ((shown / FULL,), Slip("unit", f"{still}, while your code counts in {used}", "M-UNITS")),
+        (
+            (shown / FULL,),
+            WrongNumber("unit", f"{still}, while your code counts in {used}", "M-UNITS"),
+        ),
         (
             (shown / times, shown / times / FULL),
-            Slip("turned", "the unit is converted the wrong way round", "M-UNITS"),
+            WrongNumber("turned", "the unit is converted the wrong way round", "M-UNITS"),
         ),
     ]
     found = INTEGER if value == 0 and "/" in text else _first(value, ways)
     if found is None and near(value, needed, share=ROUNDED):
-        found = Slip("rounded", "near it, but rounded too far. Keep three digits or more")
-    return found or Slip("other", "not what becomes of the suggestion. Look at given.toml again")
+        found = WrongNumber("rounded", "near it, but rounded too far. Keep three digits or more")
+    return found or WrongNumber(
+        "other", "not what becomes of the suggestion. Look at given.toml again"
+    )

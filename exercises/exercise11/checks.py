@@ -4,11 +4,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import Key, judge, number
-from grader.check import Check, NotReached, Wrong, check, shortened
-from grader.given import hand_out
+from grader.answer import Key, judge_number, read_answer_number
+from grader.check import Check, NotReached, Wrong, check, shorten
+from grader.choice_answer import check_choice, read_choice
+from grader.student_files import write_student_files
 from grader.submission import read_answers
-from grader.word import judge_word, word
 
 from .drawn import QUESTIONS, Variant, draw
 from .knowledge import STORIES
@@ -34,7 +34,7 @@ class Answers:
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Write down the learner's questions, where they are not there as they were made."""
     made = {GIVEN: _told(draw(student))}
-    hand_out(made, exercise=HERE, student=student, what="questions", say=say)
+    write_student_files(made, exercise=HERE, student=student, what="questions", say=say)
 
 
 def _told(variant: Variant) -> str:
@@ -106,12 +106,12 @@ kc1_reason = _question("KC1_reason", "KC1: what that does to the gains.", points
 def kc2_volts(answers: Answers) -> str | None:
     """KC2: the voltage that the feedforward asks for."""
     asked, raw = answers.variant.volts, answers.given.get("kc2_volts")
-    value = number(raw, asked)
+    value = read_answer_number(raw, asked)
     if not asked.right(value):
         for slipped, says, code in answers.variant.slips:
             if abs(value - slipped) <= ROUNDED * slipped:
                 raise Wrong(f"{value:.4g} V", hint=says, misconception=code)
-    return judge(asked.name, {asked.name: raw}, Key({asked.name: asked}), points=SINGLE)
+    return judge_number(asked.name, {asked.name: raw}, Key({asked.name: asked}), points=SINGLE)
 
 
 kc2_answer = _question("KC2_answer", "KC2: what to do about the missing speed.", points=TIER)
@@ -125,14 +125,14 @@ def _decision(row: Row) -> Check[Answers]:
 
     def look(answers: Answers) -> str | None:
         raw = answers.given.get(row.name)
-        found = word(raw, DECISIONS, also=ALSO)
+        found = read_choice(raw, DECISIONS, also=ALSO)
         if found != row.decision and row.argues(found, _argued(row, answers)):
             return "Argued, and accepted: with that reason, yours may be the better choice."
 
         def why(_: str) -> tuple[str, str]:
             return f"{row.ask} Choose one of: {', '.join(DECISIONS)}.", ""
 
-        judge_word(raw, row.decision, DECISIONS, why=why, also=ALSO)
+        check_choice(raw, row.decision, DECISIONS, why=why, also=ALSO)
         return None
 
     look.__name__ = f"decision_{row.name}"
@@ -146,7 +146,7 @@ def _reason(row: Row) -> Check[Answers]:
     def look(answers: Answers) -> None:
         chosen = _argued(row, answers, asked=True)
         try:
-            decided = word(answers.given.get(row.name), DECISIONS, also=ALSO)
+            decided = read_choice(answers.given.get(row.name), DECISIONS, also=ALSO)
         except Wrong:
             raise NotReached("a reason is looked at beside a decision") from None
         if chosen in row.reasons or row.argues(decided, chosen):
@@ -169,7 +169,7 @@ def _argued(row: Row, answers: Answers, *, asked: bool = False) -> str:
         return letters[text]
     if not asked:
         return ""
-    seen = "nothing yet" if raw is None or raw == "" else f"{shortened(raw)}, which is none of them"
+    seen = "nothing yet" if raw is None or raw == "" else f"{shorten(raw)}, which is none of them"
     ask = "Write the letter of a reason: the list is at the end of your questions.md."
     raise Wrong(seen, hint=ask)
 

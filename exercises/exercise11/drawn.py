@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from grader.answer import Asked, Band
-from grader.variant import generator, once_each
+from grader.variant import cache_draws, student_rng
 
 from .knowledge import CHECKS
 from .question import LETTERS, Option, lettered
@@ -62,10 +62,10 @@ class Variant:
         )
 
 
-@once_each
+@cache_draws
 def draw(student: str) -> Variant:
     """A learner's questions, always the same."""
-    rng = generator(student, "exercise11")
+    rng = student_rng(student, "exercise11")
     target = int(rng.choice(TARGETS))
     before = round(float(rng.uniform(*KS_BEFORE)), 2)
     numbers = {

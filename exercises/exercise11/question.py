@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from grader.check import Wrong, shortened
+from grader.check import Wrong, shorten
 
 LETTERS = "abcdefghijklmnop"
 SHORTEST = 4  # [characters] of an option's beginning that may stand for it
@@ -56,14 +56,14 @@ class Question:
         if raw is None or raw == "":
             raise Wrong("nothing yet", hint=ask)
         if not isinstance(raw, str):
-            raise Wrong(f"{shortened(raw)}, which is not a letter", hint=ask)
+            raise Wrong(f"{shorten(raw)}, which is not a letter", hint=ask)
         given = plain(raw)
         if given in letters:
             return letters[given]
         same = [one for one in self.options if plain(one.text) == given]
         like = same or [one for one in self.options if plain(one.text).startswith(given)]
         if (len(given) < SHORTEST and not same) or len(like) != 1:
-            raise Wrong(f'"{shortened(raw)}", which is none of them', hint=ask)
+            raise Wrong(f'"{shorten(raw)}", which is none of them', hint=ask)
         return like[0]
 
 

@@ -7,9 +7,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Band, number
+from grader.answer import Asked, Band, read_answer_number
 from grader.check import NotReached, Wrong, check
-from grader.given import hand_out, written
+from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 from grader.variant import folder_name
 
@@ -80,11 +80,11 @@ def prepare(student: str, *, say: Callable[[str], None]) -> None:
         "held-out": variant.held_out,
     }
     made = {
-        f"{name}{suffix}": written(log)
+        f"{name}{suffix}": format_log(log)
         for name, log in logs.items()
         for suffix in (".wpilog", ".csv")
     }
-    hand_out(made, exercise=HERE, student=student, what="logs", say=say)
+    write_student_files(made, exercise=HERE, student=student, what="logs", say=say)
 
 
 def read(path: Path, *, student: str) -> Answers:
@@ -171,7 +171,7 @@ def _reported(answers: Answers, *, before: float, after: float, seen: str) -> st
     for name, expected, bounds in (("gap_before", before, BASE), ("gap_after", after, SAME)):
         asked = Asked(name, expected, "", Band(0.0, 0.0))
         try:
-            _near(number(answers.given.get(name), asked), expected, bounds)
+            _near(read_answer_number(answers.given.get(name), asked), expected, bounds)
         except Wrong as wrong:
             wrong.seen, wrong.earned = f"{name}: {wrong.seen}", 3.0 - REPORTED
             raise

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.kept import kept
-from grader.variant import generator, once_each
+from grader.draw_cache import read_draw
+from grader.variant import cache_draws, student_rng
 
 if TYPE_CHECKING:
     from sim.log import Log
@@ -59,15 +59,15 @@ class Variant:
         return tuple(part.effect for part in self.mechanism.hidden)
 
 
-@once_each
-@kept
+@cache_draws
+@read_draw
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one."""
     from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
     from sim.routine import Routine  # noqa: PLC0415 - the same
     from sim.simulate import simulate  # noqa: PLC0415 - the same
 
-    rng = generator(student, "exercise12")
+    rng = student_rng(student, "exercise12")
     kind, effects = HIDDEN[int(rng.integers(len(HIDDEN)))]
     mechanism = MECHANISMS[kind].draw(rng)
     for effect, size in effects:

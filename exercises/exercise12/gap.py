@@ -87,12 +87,12 @@ def with_effects(log: "Log", names: Sequence[str], *, like: "Model | None" = Non
     from itertools import product  # noqa: PLC0415 - only where something is searched
 
     from sim.effects import effect  # noqa: PLC0415 - the same
-    from sim.evidence import gather  # noqa: PLC0415 - the same
     from sim.model import Part  # noqa: PLC0415 - the same
+    from sim.voltage_residual import compute_voltage_residual  # noqa: PLC0415 - the same
 
     gains = _start(log) if like is None else dict(like.gains)
     there = {part.effect: part.parameters for part in (like.parts if like else ())}
-    seen = gather(log, gains, type="simple")
+    seen = compute_voltage_residual(log, gains, type="simple")
     begins = [
         [there[name]] if name in there else list(effect(name).starts(seen))[:STARTS]
         for name in names

@@ -5,7 +5,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Band, number
+from grader.answer import Asked, Band, read_answer_number
 from grader.check import Wrong
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def _value(name: str, known: "Parameter", raw: object, per: "Unit") -> float:
     """A parameter, in SI."""
     asked = Asked(f"{name}.{known.name}", 0.0, known.unit.format(u=per.symbol), Band(0.0, 0.0))
     try:
-        value = number(raw, asked)
+        value = read_answer_number(raw, asked)
     except Wrong as wrong:
         wrong.seen = f"{asked.name}: {wrong.seen}"
         raise

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from grader.course import find_course, load
-from grader.exercise import find
+from grader.course import find_course, load_progress
+from grader.exercise import find_exercise
 from sim import read
 from sim.errors import Refusal
-from sim.reconcile.where import map_of
+from sim.reconcile.residual_map import residual_map
 from sim.replay import replay
 from sim.units import gains_per, unit
 
@@ -30,8 +30,8 @@ def main() -> int:
     parser.add_argument("--held-out", action="store_true", help="show that gap, too: at the end")
     asked = parser.parse_args()
     course = find_course(Path(__file__).resolve().parent)
-    exercise = find("12", course)
-    student = asked.student or load(course)[0].student
+    exercise = find_exercise("12", course)
+    student = asked.student or load_progress(course)[0].student
     exercise.prepare(student, say=_say)
     room = exercise.module
     data = room.HERE / "data" / room.folder_name(student)
@@ -51,7 +51,7 @@ def main() -> int:
     _say("Where the validation disagrees most:")
     shown = logs["validation"]
     tracks = [np.column_stack((one.position, one.seen)) for one in replay(model, shown)]
-    found = map_of(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
+    found = residual_map(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
     places = found.places(TOLD, signal="velocity") if found else ()
     for place in places:
         _say(f"  {place.sentence}")

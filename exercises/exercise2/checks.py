@@ -4,12 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grader.answer import Asked, Band, Key, judge, number
+from grader.answer import Asked, Band, Key, judge_number, read_answer_number
 from grader.check import Wrong, check
-from grader.given import hand_out
-from grader.slip import Scene
+from grader.choice_answer import check_choice
+from grader.student_files import write_student_files
 from grader.submission import read_answers
-from grader.word import judge_word
+from grader.wrong_number import Scene
 
 from .drawn import draw
 from .ranked import judge_list
@@ -33,7 +33,7 @@ class Answers:
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Write down the learner's numbers, where they are not there as they were made."""
     made = {FILE_MADE: _told(draw(student))}
-    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
+    write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
 
 
 def _told(variant: Variant) -> str:
@@ -78,13 +78,13 @@ def read(path: Path, *, student: str) -> Answers:
 def kv_theory(answers: Answers) -> str | None:
     """The kV that the free speed promises, on paper."""
     variant = answers.variant
-    value = number(answers.given.get("kv_theory"), variant.asked)
+    value = read_answer_number(answers.given.get("kv_theory"), variant.asked)
     nearest = min(variant.theories, key=lambda one: abs(one - value))
     key = Key(
         {"kV_theory": replace(variant.asked, expected=nearest)},
         Scene(lookalikes={"kV_theory": lookalikes(variant)}),
     )
-    return judge("kV_theory", {"kV_theory": answers.given["kv_theory"]}, key, points=3)
+    return judge_number("kV_theory", {"kV_theory": answers.given["kv_theory"]}, key, points=3)
 
 
 @check(points=2)
@@ -92,7 +92,7 @@ def difference(answers: Answers) -> None:
     """How far the measured kV is above the one on paper, in percent."""
     variant, value = answers.variant, _percent(answers)
     try:
-        theirs = number(answers.given.get("kv_theory"), variant.asked)
+        theirs = read_answer_number(answers.given.get("kv_theory"), variant.asked)
     except Wrong:
         theirs = 0.0
     known = (*variant.theories, *((theirs,) if variant.right(theirs) else ()))
@@ -112,7 +112,7 @@ def _percent(answers: Answers) -> float:
     """
     raw = answers.given.get("difference")
     raw = raw.replace("%", "").replace("percent", "") if isinstance(raw, str) else raw
-    return number(raw, Asked("difference", 0.0, "", Band(0.0, 0.0)))
+    return read_answer_number(raw, Asked("difference", 0.0, "", Band(0.0, 0.0)))
 
 
 def _own_difference(answers: Answers) -> float | None:
@@ -165,7 +165,7 @@ def verdict(answers: Answers) -> None:
             return f"{says} {more}", ""
         return "find your difference in the README's table, sign and all", ""
 
-    judge_word(answers.given.get("verdict"), right, VERDICTS, why=why)
+    check_choice(answers.given.get("verdict"), right, VERDICTS, why=why)
 
 
 @check(points=3)
@@ -187,4 +187,4 @@ def ks_flag(answers: Answers) -> None:
             says = "is it less than 0.5 V? Then hold it against kV times the typical speed, too"
         return says, ""
 
-    judge_word(answers.given.get("ks_flag"), answers.variant.flag, FLAGS, why=why)
+    check_choice(answers.given.get("ks_flag"), answers.variant.flag, FLAGS, why=why)

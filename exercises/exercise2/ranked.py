@@ -1,7 +1,7 @@
 """A list of causes in the order in which one looks: cheap things first."""
 
 from grader.check import Wrong
-from grader.word import word
+from grader.choice_answer import read_choice
 
 from .team import KINDS, ORDER, Variant
 
@@ -95,7 +95,7 @@ def _read(raw: object) -> list[str]:
         raise Wrong("nothing yet", hint=ask)
     if not isinstance(raw, list):
         raise Wrong(f"{raw}, which is not a list", hint=ask)
-    return list(dict.fromkeys(word(one, sorted(KINDS)) for one in raw))
+    return list(dict.fromkeys(read_choice(one, sorted(KINDS)) for one in raw))
 
 
 def _impossible(cause: str, variant: Variant) -> tuple[str, str]:

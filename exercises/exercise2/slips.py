@@ -3,7 +3,7 @@
 import math
 from itertools import combinations
 
-from grader.slip import Lookalike, Slip
+from grader.wrong_number import Lookalike, WrongNumber
 
 from .team import Variant
 
@@ -51,4 +51,4 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
     if parts.motors == 4:
         many = "four motors share the work, but none of them turns faster for it"
         found += [(parts.paper * times, many, "") for times in (0.25, 4.0)]
-    return tuple(Lookalike(value, Slip(says, says, code)) for value, says, code in found)
+    return tuple(Lookalike(value, WrongNumber(says, says, code)) for value, says, code in found)

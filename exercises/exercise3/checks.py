@@ -5,12 +5,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import HALF, Key, judge, number
+from grader.answer import HALF, Key, judge_number, read_answer_number
 from grader.check import Wrong, check
+from grader.choice_answer import check_choice
 from grader.consequence import Consequence
-from grader.given import hand_out
+from grader.student_files import write_student_files
 from grader.submission import read_answers
-from grader.word import judge_word
 
 from .drawn import draw
 from .held import Variant
@@ -37,7 +37,7 @@ class Answers:
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Write down the learner's numbers, where they are not there as they were made."""
     made = {GIVEN: _told(draw(student))}
-    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
+    write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
 
 
 def _told(variant: Variant) -> str:
@@ -71,7 +71,7 @@ def read(path: Path, *, student: str) -> Answers:
     named = {name: given.get(name.lower()) for name in variant.asked}
     offset = variant.found["arm_offset"]
     try:  # who has the offset right goes on with it as they rounded it
-        theirs = turned(number(given.get("arm_offset"), variant.offset))
+        theirs = turned(read_answer_number(given.get("arm_offset"), variant.offset))
     except Wrong:
         theirs = math.inf
     key = key_of(variant, offset=theirs if variant.offset.right(theirs) else offset)
@@ -86,13 +86,13 @@ def consequence(answers: Answers) -> Consequence | None:
 @check(points=1)
 def elevator_kg(answers: Answers) -> str | None:
     """The elevator's kG, the voltage that gravity takes."""
-    return judge("elevator_kG", answers.given, answers.key, points=1)
+    return judge_number("elevator_kG", answers.given, answers.key, points=1)
 
 
 @check(points=1)
 def elevator_ks(answers: Answers) -> str | None:
     """The elevator's kS, the voltage that friction takes."""
-    return judge("elevator_kS", answers.given, answers.key, points=1)
+    return judge_number("elevator_kS", answers.given, answers.key, points=1)
 
 
 @check(points=1)
@@ -110,13 +110,13 @@ def elevator_class(answers: Answers) -> None:
 @check(points=1)
 def arm_kg(answers: Answers) -> str | None:
     """The arm's kG, the voltage that gravity takes while the arm is horizontal."""
-    return judge("arm_kG", answers.given, answers.key, points=1)
+    return judge_number("arm_kG", answers.given, answers.key, points=1)
 
 
 @check(points=1)
 def arm_ks(answers: Answers) -> str | None:
     """The arm's kS, the voltage that friction takes."""
-    return judge("arm_kS", answers.given, answers.key, points=1)
+    return judge_number("arm_kS", answers.given, answers.key, points=1)
 
 
 @check(points=1)
@@ -135,7 +135,7 @@ def arm_class(answers: Answers) -> None:
 def arm_offset(answers: Answers) -> str | None:
     """The arm's offset, which is added to what its encoder reads."""
     raw, asked = answers.given.get("arm_offset"), answers.variant.offset
-    value = number(raw, asked)
+    value = read_answer_number(raw, asked)
     shown = f"{value:.4g} deg"
     away = abs(turned(value - asked.expected))
     full, partial = asked.band.widths(asked.expected)
@@ -164,4 +164,4 @@ def _word(name: str, right: str, answers: Answers, *, choices: Sequence[str]) ->
         says = "What gravity takes: is it the same everywhere, or does it change with an angle? "
         return says + ask, ""
 
-    judge_word(answers.given.get(name), right, choices, why=why, also=also)
+    check_choice(answers.given.get(name), right, choices, why=why, also=also)

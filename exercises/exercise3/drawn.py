@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING
 
 from grader.answer import BANDS, Asked, Band
-from grader.variant import generator, once_each
+from grader.variant import cache_draws, student_rng
 
 from .held import Hold, Variant
 from .slips import telling
@@ -24,11 +24,11 @@ MOST_DRAWS = 2000  # so many in a row whose slips cannot be told apart would be 
 OFFSET_BAND = Band(0.0, 0.0, full_size=2.0, partial_size=5.0)
 
 
-@once_each
+@cache_draws
 def draw(student: str) -> Variant:
     """A learner's numbers, always the same; drawn again until each slip shows as what it is."""
     for attempt in range(MOST_DRAWS):
-        variant = _drawn(generator(student, "exercise3", draw=attempt))
+        variant = _drawn(student_rng(student, "exercise3", draw=attempt))
         if _solvable(variant) and telling(variant):
             return variant
     raise RuntimeError(f"no solvable numbers for {student!r}")

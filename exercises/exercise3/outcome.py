@@ -8,16 +8,16 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, number
+from grader.answer import Asked, read_answer_number
 from grader.check import Wrong
-from grader.consequence import Consequence, motions
+from grader.consequence import Consequence, follow_profiles
 
 from .held import Variant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from sim.feedback.following import Followed
+    from sim.feedback.following import FollowedProfile
 
 FALLS = {"elevator": 9.81, "arm": 19.62}  # [m/s² or rad/s²] what gravity alone would do
 KV = {"elevator": 4.5, "arm": 1.2}  # [V·s/m, V·s/rad]
@@ -30,19 +30,19 @@ ROOM = {"elevator": (0.0, 1.3), "arm": (-math.pi / 4, math.pi / 2)}  # [m, rad f
 def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None:
     """What the numbers would do; None where none is wrong, or too few are there."""
     found = [*_elevator(given, variant), *_arm(given, variant)]
-    return motions(found) if found else None
+    return follow_profiles(found) if found else None
 
 
 def _numbers(given: Mapping[str, object], asked: Mapping[str, Asked]) -> dict[str, float] | None:
     """The numbers, if all of them are there, and not all of them right."""
     try:
-        values = {name: number(given.get(name), one) for name, one in asked.items()}
+        values = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
     except Wrong:
         return None
     return None if all(one.right(values[name]) for name, one in asked.items()) else values
 
 
-def _elevator(given: Mapping[str, object], variant: Variant) -> "Iterator[Followed]":
+def _elevator(given: Mapping[str, object], variant: Variant) -> "Iterator[FollowedProfile]":
     names = ("elevator_kG", "elevator_kS")
     if values := _numbers(given, {name: variant.asked[name] for name in names}):
         truth = {name[-2:]: variant.asked[name].expected for name in names}
@@ -50,7 +50,7 @@ def _elevator(given: Mapping[str, object], variant: Variant) -> "Iterator[Follow
         yield _followed("elevator", truth, theirs, start=HEIGHT, room=ROOM["elevator"])
 
 
-def _arm(given: Mapping[str, object], variant: Variant) -> "Iterator[Followed]":
+def _arm(given: Mapping[str, object], variant: Variant) -> "Iterator[FollowedProfile]":
     """From level up and back; an angle is what the encoder reads, as the learner's code has it."""
     names = ("arm_kG", "arm_kS")
     asked = {name: variant.asked[name] for name in names} | {"arm_offset": variant.offset}
@@ -70,13 +70,15 @@ def _followed(
     *,
     start: float,
     room: tuple[float, float],
-) -> "Followed":
+) -> "FollowedProfile":
     from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
-    from sim.feedback.following import follow  # noqa: PLC0415 - the same
+    from sim.feedback.following import follow_profile  # noqa: PLC0415 - the same
     from sim.feedback.profile import there_and_back  # noqa: PLC0415 - the same
 
     moves = {"kV": KV[kind], "kA": truth["kG"] / FALLS[kind]}
     symbol, place = ("m", "height") if kind == "elevator" else ("rad", "angle")
     wanted = there_and_back(SPEED[kind], rising=RISING, steady=STEADY, still=STILL, start=start)
     plant, believed = (Plant(kind, {**gains, **moves}) for gains in (truth, theirs))
-    return follow(plant, believed, wanted, name=kind, symbol=symbol, place=place, stops=room)
+    return follow_profile(
+        plant, believed, wanted, name=kind, symbol=symbol, place=place, stops=room
+    )

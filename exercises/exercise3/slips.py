@@ -4,47 +4,47 @@ import math
 from collections.abc import Iterator, Sequence
 
 from grader.answer import Key, diagnose
-from grader.slip import Lookalike, Scene, Slip
+from grader.wrong_number import Lookalike, Scene, WrongNumber
 
 from .held import Hold, Variant
 
 NEAR = (0.985, 1.0, 1.015)  # [share] a slip is named for who rounds, too
 
-EDGE = Slip(
+EDGE = WrongNumber(
     "edge",
     "that is an edge of the band in which nothing moves. On an edge friction has its say, too",
     "M-KG-EDGE",
 )
-WIDTH = Slip(
+WIDTH = WrongNumber(
     "width",
     "that is the whole width of the band. Draw the band, its middle and its edges",
     "M-KG-EDGE",
 )
-QUARTER = Slip(
+QUARTER = WrongNumber(
     "quarter",
     "that is a quarter of the width of the band. How far is it from the middle to an edge?",
     "M-KG-EDGE",
 )
-BOTH = Slip("both", "that is both edges added up. What lies between them?", "M-KG-EDGE")
-SIMPLE = Slip(
+BOTH = WrongNumber("both", "that is both edges added up. What lies between them?", "M-KG-EDGE")
+SIMPLE = WrongNumber(
     "simple",
     "that is what the analysis type Simple would make of it: gravity and friction in one",
     "M-NO-KG-IN-SYSID",
 )
-NONE = Slip(
+NONE = WrongNumber(
     "none",
     "that says gravity takes nothing. Would it stay up without a voltage?",
     "M-NO-KG-IN-SYSID",
 )
-AS_READ = Slip(
+AS_READ = WrongNumber(
     "as-read",
     "that is the middle of the band where the encoder reads 0. Is the arm horizontal there?",
 )
-LARGEST = Slip(
+LARGEST = WrongNumber(
     "largest",
     "that is the largest middle in your table. Was the arm horizontal in that row?",
 )
-DEGREES = Slip(
+DEGREES = WrongNumber(
     "degrees",
     "it looks as if degrees went into a cosine that counts in radians",
     "M-UNITS",

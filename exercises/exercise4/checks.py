@@ -16,12 +16,12 @@ from grader.logged_numbers import (
     check_sources,
 )
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, Ran, contradiction
-from grader.robotcode.bench.contradiction import Fault, stopped
+from grader.robotcode.bench import Outcome, RunFacts, findings
+from grader.robotcode.bench.findings import Fault, find_stop
 from grader.robotcode.facts import RoutineFacts
 from grader.submission import read_text
-from grader.wiring import READ as READ_ONLY
-from grader.wiring import (
+from grader.sysid_routine_checks import READ as READ_ONLY
+from grader.sysid_routine_checks import (
     Advice,
     Setting,
     cannot_tell,
@@ -99,7 +99,7 @@ def routine(code: Code) -> str | None:
         )
     if code.facts.language == "java" or not bench.installed():
         return READ_ONLY[code.facts.language]
-    return noted(code.ran, contradiction.figures)
+    return noted(code.ran, findings.format_figures)
 
 
 def _number(code: Code, wanted: Setting, said: str, *, advice: Advice = no_advice) -> str | None:
@@ -107,8 +107,8 @@ def _number(code: Code, wanted: Setting, said: str, *, advice: Advice = no_advic
     name = wanted.name.split()[0]
     got = getattr(code.facts, name)
 
-    def running(ran: Ran) -> Fault | None:
-        return contradiction.setting(
+    def running(ran: RunFacts) -> Fault | None:
+        return findings.check_setting(
             getattr(ran, name),
             wanted.value,
             said=said,
@@ -121,7 +121,7 @@ def _number(code: Code, wanted: Setting, said: str, *, advice: Advice = no_advic
     return settle(code, reading, _when_done(running), points=1)
 
 
-def _when_done(running: Callable[[Ran], Fault | None]) -> Callable[[Ran], Fault | None]:
+def _when_done(running: Callable[[RunFacts], Fault | None]) -> Callable[[RunFacts], Fault | None]:
     """Only a run that came to its end shows figures."""
     return lambda ran: running(ran) if ran.outcome is Outcome.RAN else None
 
@@ -161,19 +161,21 @@ def timeout(code: Code) -> str | None:
 @check(points=3, after=routine)
 def drive(code: Code) -> str | None:
     """The drive callback sends its voltage to every motor, as a voltage."""
-    running = _either("drive", contradiction.driven)
+    running = _either("drive", findings.check_driven_motors)
     return settle(code, partial(_drive, code.facts), running, points=3, answered=_undivided)
 
 
-def _either(where: str, running: Callable[[Ran], Fault | None]) -> Callable[[Ran], Fault | None]:
+def _either(
+    where: str, running: Callable[[RunFacts], Fault | None]
+) -> Callable[[RunFacts], Fault | None]:
     """What a run shows, or where it stopped."""
-    return lambda ran: stopped(ran, where=where) or _when_done(running)(ran)
+    return lambda ran: find_stop(ran, where=where) or _when_done(running)(ran)
 
 
-def _undivided(ran: Ran) -> bool:
+def _undivided(ran: RunFacts) -> bool:
     """Whether every motor was seen to get the voltage of the test."""
     told = all(motor.share is not None for motor in ran.motors)
-    return told and contradiction.driven(ran) is None
+    return told and findings.check_driven_motors(ran) is None
 
 
 def _drive(facts: RoutineFacts) -> str | None:
@@ -216,11 +218,11 @@ def _followed(facts: RoutineFacts, *, whole: bool) -> None:
 def log(code: Code) -> str | None:
     """The log callback records the motor's name, position, velocity and applied voltage."""
     demanded = SIDES if code.facts.class_name == TASK else 0
-    running = _either("log", partial(contradiction.recorded, demanded=demanded))
+    running = _either("log", partial(findings.check_logged_motors, demanded=demanded))
     return settle(code, partial(_log, code.facts, demanded), running, points=3, answered=_held)
 
 
-def _held(ran: Ran) -> bool:
+def _held(ran: RunFacts) -> bool:
     """Whether every motor in the log could be held against a motor of the bench."""
     return bool(ran.recorded) and all(one.voltage and one.lowered for one in ran.recorded)
 
@@ -250,11 +252,11 @@ def _log(facts: RoutineFacts, demanded: int) -> None:
 @check(points=2, after=routine)
 def units(code: Code) -> str | None:
     """Position and velocity are in units that fit each other and the mechanism."""
-    running = _when_done(contradiction.units)
+    running = _when_done(findings.check_logged_units)
     return settle(code, partial(_units, code.facts), running, points=2, answered=_moved)
 
 
-def _moved(ran: Ran) -> bool:
+def _moved(ran: RunFacts) -> bool:
     return bool(ran.recorded) and all(one.rate for one in ran.recorded)
 
 
@@ -272,7 +274,7 @@ def _units(facts: RoutineFacts) -> None:
 @check(points=1, after=routine)
 def assembled(code: Code) -> str | None:
     """The parts are in their places: Config, Mechanism, and the subsystem itself."""
-    running = _either("", contradiction.assembled)
+    running = _either("", findings.check_requirements)
     return settle(code, partial(_assembled, code.facts), running, points=1)
 
 
@@ -313,8 +315,8 @@ def open_loop(code: Code) -> str | None:
     return settle(code, partial(_open_loop, code.facts), running, points=2, answered=_undivided)
 
 
-def _as_a_share(ran: Ran) -> Fault | None:
-    fault = contradiction.driven(ran)
+def _as_a_share(ran: RunFacts) -> Fault | None:
+    fault = findings.check_driven_motors(ran)
     return fault if fault and fault.misconception else None
 
 

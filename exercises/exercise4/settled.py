@@ -8,10 +8,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from grader.check import NotReached, Wrong
-from grader.robotcode.bench import Outcome, Ran
-from grader.robotcode.bench.contradiction import IN, Fault
+from grader.robotcode.bench import Outcome, RunFacts
+from grader.robotcode.bench.findings import IN, Fault
 from grader.robotcode.facts import RoutineFacts
-from grader.wiring import cannot_tell
+from grader.sysid_routine_checks import cannot_tell
 
 QUESTION = cannot_tell("", "").split(" by ")[0].strip()  # how everything begins that is asked
 STOPPED = {Outcome.CRASHED, Outcome.ENDLESS}
@@ -27,7 +27,7 @@ class Code:
     """
 
     facts: RoutineFacts
-    ran: Ran | None = None
+    ran: RunFacts | None = None
 
 
 def asks(seen: str) -> bool:
@@ -38,10 +38,10 @@ def asks(seen: str) -> bool:
 def settle(
     code: Code,
     reading: Callable[[], str | None],
-    running: Callable[[Ran], Fault | None],
+    running: Callable[[RunFacts], Fault | None],
     *,
     points: float,
-    answered: Callable[[Ran], bool] = lambda _: True,
+    answered: Callable[[RunFacts], bool] = lambda _: True,
 ) -> str | None:
     """Look both ways.
 
@@ -101,7 +101,7 @@ def _fail(fault: Fault | None, points: float) -> None:
         )
 
 
-def noted(ran: Ran | None, figures: Callable[[Ran], str]) -> str | None:
+def noted(ran: RunFacts | None, figures: Callable[[RunFacts], str]) -> str | None:
     """Which way the file was looked at, where that is not reading alone."""
     if ran is None or ran.outcome in STOPPED:
         return None

@@ -4,13 +4,13 @@ from pathlib import Path
 
 from grader.check import NotReached, Status, Wrong, check, run_all
 from grader.robotcode import bench
-from grader.robotcode.bench import Ran, contradiction
-from grader.robotcode.bench.contradiction import Fault, stopped
+from grader.robotcode.bench import RunFacts, findings
+from grader.robotcode.bench.findings import Fault, find_stop
 from grader.robotcode.binding_facts import BindingFacts
 from grader.robotcode.bindings import bindings_of
 from grader.submission import read_text
-from grader.wiring import READ as READ_ONLY
-from grader.wiring import check_compiles
+from grader.sysid_routine_checks import READ as READ_ONLY
+from grader.sysid_routine_checks import check_compiles
 from sim.errors import UnreadableFile
 
 from .explained import check_comment
@@ -105,9 +105,9 @@ def held(facts: BindingFacts) -> str | None:
     raise Wrong(f"no button runs {named(missing(facts))}", hint=hint, earned=earned)
 
 
-def _stops(ran: Ran) -> Fault | None:
+def _stops(ran: RunFacts) -> Fault | None:
     """Where the run stopped, or a test that did not."""
-    return stopped(ran, where="") or contradiction.let_go(ran)
+    return find_stop(ran, where="") or findings.check_release(ran)
 
 
 @check(points=1)
@@ -163,7 +163,7 @@ def guard(facts: BindingFacts) -> str | None:
     reached(facts)
     note = check_guard(facts, points=2)
     if all(HOLDS.intersection(one.guards) for one in facts.bindings):
-        agreed(facts, contradiction.open_door, points=2)
+        agreed(facts, findings.check_guard, points=2)
     return note
 
 

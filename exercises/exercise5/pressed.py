@@ -6,8 +6,8 @@ from pathlib import Path
 
 from grader.check import Wrong
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, Ran
-from grader.robotcode.bench.contradiction import IN, Fault
+from grader.robotcode.bench import Outcome, RunFacts
+from grader.robotcode.bench.findings import IN, Fault
 from grader.robotcode.binding_facts import BindingFacts
 
 CONTAINER = "RobotContainer"  # what a robot's program makes first, by WPILib's own template
@@ -22,7 +22,7 @@ class Pressed(BindingFacts):
         ran: what its buttons did; None if nobody pressed them.
     """
 
-    ran: Ran | None = None
+    ran: RunFacts | None = None
 
 
 def press(path: Path, facts: BindingFacts) -> Pressed:
@@ -30,7 +30,7 @@ def press(path: Path, facts: BindingFacts) -> Pressed:
     return Pressed(**vars(facts), ran=bench.press(path, CONTAINER))
 
 
-def agreed(facts: BindingFacts, look: Callable[[Ran], Fault | None], *, points: float) -> str:
+def agreed(facts: BindingFacts, look: Callable[[RunFacts], Fault | None], *, points: float) -> str:
     """Hold a check that passed by reading against the run.
 
     Args:

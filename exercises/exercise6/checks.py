@@ -6,12 +6,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import Asked, Band, number
+from grader.answer import Asked, Band, read_answer_number
 from grader.check import Wrong, check
+from grader.choice_answer import normalize_choice
 from grader.consequence import Consequence
-from grader.given import hand_out
+from grader.student_files import write_student_files
 from grader.submission import read_answers
-from grader.word import plain
 
 from .drawn import Variant, draw
 from .outcome import outcome
@@ -38,7 +38,7 @@ class Answers:
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Write down the learner's numbers, where they are not there as they were made."""
     made = {FILE_MADE: _told(draw(student))}
-    hand_out(made, exercise=HERE, student=student, what="numbers", say=say)
+    write_student_files(made, exercise=HERE, student=student, what="numbers", say=say)
 
 
 def _told(variant: Variant) -> str:
@@ -148,7 +148,7 @@ def _plan(machine: Machine, given: Mapping[str, object]) -> Plan:
         Wrong: a part of it is missing, or no robot could do it; the message names which.
     """
     raw = given.get(f"{machine.kind}_release")
-    never = isinstance(raw, str) and plain(raw) == "timeout"
+    never = isinstance(raw, str) and normalize_choice(raw) == "timeout"
     values = [_positive(machine, name, given, *most) for name, most in MOST.items()]
     mark = math.inf if never else _positive(machine, "release", given, machine.symbol, 1e6)
     return Plan(*values, mark)
@@ -159,7 +159,7 @@ def _positive(
 ) -> float:
     name = f"{machine.kind}_{what}"
     try:
-        value = number(given.get(name), Asked(name, 1.0, unit, Band(0.0, 0.0)))
+        value = read_answer_number(given.get(name), Asked(name, 1.0, unit, Band(0.0, 0.0)))
     except Wrong as wrong:
         wrong.seen = f"{name}: {wrong.seen}"
         wrong.hint = wrong.hint.partition(", such as")[0] + f" for {name}, in {unit}."

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.variant import generator, once_each
+from grader.variant import cache_draws, student_rng
 
 from .morning import Morning, morning
 from .plan import Machine, Plan, dynamic, quasistatic
@@ -54,18 +54,18 @@ class Variant:
     morning: Morning
 
 
-@once_each
+@cache_draws
 def draw(student: str) -> Variant:
     """A learner's mechanisms, always the same; each drawn again until a plan can be made for it."""
     machines, built = {}, {}
     for kind in MOTORS:
         machines[kind], built[kind] = _feasible(student, kind)
-    return Variant(machines, built, morning(generator(student, "exercise6 morning")))
+    return Variant(machines, built, morning(student_rng(student, "exercise6 morning")))
 
 
 def _feasible(student: str, kind: str) -> "tuple[Machine, Mechanism]":
     for attempt in range(MOST_DRAWS):
-        rng = generator(student, f"exercise6 {kind}", draw=attempt)
+        rng = student_rng(student, f"exercise6 {kind}", draw=attempt)
         built = _built(kind, rng)
         machine = _machine(kind, built, rng)
         low, high = steps(machine)

@@ -47,7 +47,7 @@ def outcome(plans: Mapping[str, Plan], machines: Mapping[str, Machine]) -> Conse
     words = " ".join(one.words for one in found)
 
     def draw() -> Drawn:
-        from sim.plot import outcome as plot  # noqa: PLC0415 - only who draws waits for it
+        from sim.plot import consequence as plot  # noqa: PLC0415 - only who draws waits for it
 
         shown = [
             plot.Trace(
@@ -60,7 +60,7 @@ def outcome(plans: Mapping[str, Plan], machines: Mapping[str, Machine]) -> Conse
             )
             for one in found
         ]
-        return plot.outcome(shown, words=words)
+        return plot.consequence(shown, words=words)
 
     return Consequence(words, draw)
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from grader.check import Wrong
-from grader.word import judge_word, word
+from grader.choice_answer import check_choice, read_choice
 
 from .morning import FOLDERS, SEEN
 
@@ -97,7 +97,7 @@ def judge_choice(name: str, given: Mapping[str, object], right: str) -> None:
     """
     choice = CHOICES[name]
     try:
-        judge_word(given.get(name), right, choice.words, why=choice.why, also=choice.also)
+        check_choice(given.get(name), right, choice.words, why=choice.why, also=choice.also)
     except Wrong as wrong:
         wrong.seen = f"{name}: {wrong.seen}"
         raise
@@ -133,7 +133,7 @@ def judge_steps(raw: object) -> None:
         raise Wrong("nothing yet", hint=ask)
     if not isinstance(raw, list):
         raise Wrong(f"{raw}, which is not a list", hint=ask)
-    found = tuple(word(one, LISTED) for one in raw)
+    found = tuple(read_choice(one, LISTED) for one in raw)
     seen = ", ".join(found)
     if sorted(found) != list(LISTED):
         raise Wrong(seen, hint=f"each of the four once. {ask}")

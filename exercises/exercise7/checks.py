@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.check import Check, Wrong, check
-from grader.given import hand_out, written
+from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 
 from .drawn import LOGS, Case, draw
@@ -14,7 +14,7 @@ from .line import CLEAN, read_claims
 from .scored import scored
 
 if TYPE_CHECKING:
-    from grader.given import Made
+    from grader.student_files import Made
 
 FILES = ("answers.toml",)
 HERE = Path(__file__).resolve().parent
@@ -32,11 +32,11 @@ class Answers:
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the learner's logs, where they are not there as they were made."""
     made: dict[str, Made] = {
-        f"log{number:02}{suffix}": written(case.log)
+        f"log{number:02}{suffix}": format_log(case.log)
         for suffix in (".wpilog", ".csv")
         for number, case in enumerate(draw(student), start=1)
     }
-    hand_out(made, exercise=HERE, student=student, what="logs", say=say)
+    write_student_files(made, exercise=HERE, student=student, what="logs", say=say)
 
 
 def read(path: Path, *, student: str) -> Answers:

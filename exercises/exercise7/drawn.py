@@ -3,8 +3,8 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.kept import kept
-from grader.variant import generator, once_each
+from grader.draw_cache import read_draw
+from grader.variant import cache_draws, student_rng
 
 if TYPE_CHECKING:
     import numpy as np
@@ -63,11 +63,11 @@ class Case:
     damage: tuple[Damaged, ...]
 
 
-@once_each
-@kept
+@cache_draws
+@read_draw
 def draw(student: str) -> tuple[Case, ...]:
     """A learner's logs, always the same ones."""
-    rng = generator(student, "exercise7")
+    rng = student_rng(student, "exercise7")
     return tuple(_case(faults, rng) for faults in _plan(rng))
 
 
@@ -133,7 +133,7 @@ def _as_written(log: "Log") -> "Log":
 
 def _solvable(case: Case) -> bool:
     """Whether the faults, no others, are found in the record, each in its place."""
-    from sim.inspection import inspect  # noqa: PLC0415 - numpy only where it is needed
+    from sim.detect_faults import inspect  # noqa: PLC0415 - numpy only where it is needed
 
     found = inspect(case.log)
     if found.clean and not case.damage:

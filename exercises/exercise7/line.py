@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.check import Wrong, shortened
+from grader.check import Wrong, shorten
 
 if TYPE_CHECKING:
     from sim.log import Log
@@ -130,10 +130,10 @@ def _claim(text: str) -> Claim:
     places, left = _take(left, PLACES)
     times = [float(number.replace(",", ".")) for number in NUMBER.findall(left)]
     unknown = [word for word in re.findall(r"[^\W\d_]+", left) if word not in FILLERS]
-    shown = f'"{shortened(text)}"'
+    shown = f'"{shorten(text)}"'
     if unknown:
         hint = f"{_listed()} And of: {', '.join(ACTIONS)}. And of: {', '.join(PLACES)}."
-        raise Wrong(f'{shown}, in which "{shortened(unknown[0])}" is not known', hint=hint)
+        raise Wrong(f'{shown}, in which "{shorten(unknown[0])}" is not known', hint=hint)
     if len(faults) != 1:
         raise Wrong(f"{shown}, with {len(faults) or 'no'} faults in it", hint=_one_each(faults))
     if len(actions) > 1:

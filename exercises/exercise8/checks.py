@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.check import NotReached, Wrong, check
-from grader.given import hand_out, written
+from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 
 from .blame import blame
@@ -27,8 +27,8 @@ class Answers:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the learner's log, where it is not there as it was made."""
-    made = dict.fromkeys(("log.wpilog", "log.csv"), written(draw(student).log))
-    hand_out(made, exercise=HERE, student=student, what="log", say=say)
+    made = dict.fromkeys(("log.wpilog", "log.csv"), format_log(draw(student).log))
+    write_student_files(made, exercise=HERE, student=student, what="log", say=say)
 
 
 def read(path: Path, *, student: str) -> Answers:

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from grader.answer import Asked, gains_asked
-from grader.kept import kept
-from grader.variant import generator, once_each
+from grader.draw_cache import read_draw
+from grader.variant import cache_draws, student_rng
 
 from .left import left
 from .preparation import LONGEST, POINTS, Preparation, points
@@ -14,8 +14,8 @@ from .spoiled import noise_at_rest, sound, spiked, stopped
 if TYPE_CHECKING:
     import numpy as np
 
-    from sim.clues import Flags
     from sim.log import Array, Log
+    from sim.log_features import Flags
     from sim.mechanism import Mechanism
 
 RAMP, STEP, TIMEOUT, PERIOD = 0.5, 4.0, 8.0, 0.02  # [V/s], [V], [s], [s]
@@ -63,11 +63,11 @@ class Variant:
     reference: Preparation
 
 
-@once_each
-@kept
+@cache_draws
+@read_draw
 def draw(student: str) -> Variant:
     """A learner's log, always the same one."""
-    rng = generator(student, "exercise8")
+    rng = student_rng(student, "exercise8")
     kind = str(rng.choice(tuple(TREMBLES)))
     for _ in range(MOST_DRAWS):
         variant = _one(kind, rng)

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.answer import HALF, Asked, Band, number
+from grader.answer import HALF, Asked, Band, read_answer_number
 from grader.check import Wrong
 
 if TYPE_CHECKING:
@@ -37,11 +37,11 @@ class Preparation:
 
     def kept(self, run: "Run") -> "Run":
         """What is left of a run once it is trimmed."""
-        from sim.fault import only  # noqa: PLC0415 - numpy only where it is needed
+        from sim.fault import select_samples  # noqa: PLC0415 - numpy only where it is needed
 
         first, last = self.keep.get(run.test, (0.0, float("inf")))
         since = run.time - run.time[0]
-        return only(run, (since >= first - 1e-9) & (since <= last + 1e-9))
+        return select_samples(run, (since >= first - 1e-9) & (since <= last + 1e-9))
 
 
 def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> Preparation:
@@ -77,7 +77,7 @@ def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> 
 
 def _number(raw: object, asked: Asked) -> float:
     try:
-        return number(raw, asked)
+        return read_answer_number(raw, asked)
     except Wrong as wrong:
         wrong.seen = f"{asked.name}: {wrong.seen}"
         raise

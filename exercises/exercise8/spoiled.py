@@ -8,8 +8,8 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from sim.clues import Flags
     from sim.log import Log, Run
+    from sim.log_features import Flags
 
 PRESSED = (1.0, 2.0)  # [severity] of a hard stop: 0.6 to 1.2 s against it
 STOPS = {"quasistatic": (0.78, 0.92), "dynamic": (0.55, 0.85)}  # [share of the run] where it hits

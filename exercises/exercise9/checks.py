@@ -6,12 +6,12 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Band, Key, gains_asked, judge, number
+from grader.answer import Asked, Band, Key, gains_asked, judge_number, read_answer_number
 from grader.check import Wrong, check
 from grader.consequence import Consequence
-from grader.given import hand_out, written
+from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
-from grader.variant import generator, seed
+from grader.variant import student_rng, student_seed
 
 from .outcome import outcome
 from .scene import columns, scene
@@ -60,7 +60,7 @@ class Answers:
 
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one; drawn again until SysId's own recipe finds it."""
-    return _drawn(student, seed(student, "exercise9"))
+    return _drawn(student, student_seed(student, "exercise9"))
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -72,7 +72,7 @@ def _drawn(student: str, _seed: int) -> Variant:
     from sim.units import gains_per, unit  # noqa: PLC0415 - the same
 
     for attempt in range(MOST_DRAWS):
-        rng = generator(student, "exercise9", draw=attempt)
+        rng = student_rng(student, "exercise9", draw=attempt)
         kind = KINDS[int(rng.integers(len(KINDS)))]
         mechanism = MECHANISMS[kind].draw(rng)
         routine = Routine(ramp=RAMP, step=STEPS.get(kind, USUAL_STEP), timeout=TIMEOUT)
@@ -99,8 +99,8 @@ def _alike(asked: Mapping[str, Asked]) -> bool:
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
     """Make the learner's log, where it is not there as it was made."""
-    made = dict.fromkeys(FILES_MADE, written(draw(student).log))
-    hand_out(made, exercise=HERE, student=student, what="log", say=say)
+    made = dict.fromkeys(FILES_MADE, format_log(draw(student).log))
+    write_student_files(made, exercise=HERE, student=student, what="log", say=say)
 
 
 def read(path: Path, *, student: str, run: bool = True) -> Answers:
@@ -182,7 +182,7 @@ def _metric(name: str, answers: Answers) -> None:
         one: Asked(one, expected[one], "", Band(0, 0, METRIC_BANDS[one], METRIC_BANDS[one]))
         for one in METRICS
     }
-    value = number(answers.given[name], asked[name])
+    value = read_answer_number(answers.given[name], asked[name])
     if asked[name].right(value):
         return
     (other,) = set(METRICS) - {name}
@@ -198,7 +198,7 @@ def _metric(name: str, answers: Answers) -> None:
 def _gain(name: str, answers: Answers, *, points: float) -> str | None:
     """Judge one gain; where no slip explains it, say how far the three miss the log."""
     try:
-        return judge(name, answers.given, answers.key, points=points)
+        return judge_number(name, answers.given, answers.key, points=points)
     except Wrong as wrong:
         if "outside" in wrong.hint:
             wrong.hint += _missed(answers)
@@ -212,7 +212,9 @@ def _missed(answers: Answers) -> str:
     from sim.units import unit  # noqa: PLC0415 - the same
 
     try:
-        gains = [number(answers.given[name], one) for name, one in answers.key.asked.items()]
+        gains = [
+            read_answer_number(answers.given[name], one) for name, one in answers.key.asked.items()
+        ]
     except Wrong:
         return ""
     known, voltage = columns(answers.variant.log, si=unit(answers.variant.mechanism.units).si)

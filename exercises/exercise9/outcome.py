@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping
 
-from grader.answer import Asked, number
+from grader.answer import Asked, read_answer_number
 from grader.check import Wrong
-from grader.consequence import Consequence, motions
+from grader.consequence import Consequence, follow_profiles
 
 SPINS = {"shooter"}  # mechanisms whose place does not matter
 
@@ -21,11 +21,11 @@ def outcome(
         symbol: of its unit of position.
     """
     from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
-    from sim.feedback.following import follow  # noqa: PLC0415 - the same
-    from sim.feedback.profile import brisk  # noqa: PLC0415 - the same
+    from sim.feedback.following import follow_profile  # noqa: PLC0415 - the same
+    from sim.feedback.profile import brisk_profile  # noqa: PLC0415 - the same
 
     try:
-        gains = {name: number(given.get(name), one) for name, one in asked.items()}
+        gains = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
     except Wrong:
         return None
     if all(one.right(gains[name]) for name, one in asked.items()):
@@ -33,4 +33,10 @@ def outcome(
     plant = Plant("simple", {name: one.expected for name, one in asked.items()})
     place = "" if kind in SPINS else "way"
     believed = Plant("simple", gains)
-    return motions([follow(plant, believed, brisk(plant), name=kind, symbol=symbol, place=place)])
+    return follow_profiles(
+        [
+            follow_profile(
+                plant, believed, brisk_profile(plant), name=kind, symbol=symbol, place=place
+            )
+        ]
+    )

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from grader.answer import Asked
-from grader.slip import Lookalike, Scene, Slip
+from grader.wrong_number import Lookalike, Scene, WrongNumber
 
 if TYPE_CHECKING:
     from sim.log import Array, Log
@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 STANDSTILL = 0.02  # [share of the top speed] slower rows say nothing about a gain
 USUAL = 0.02  # [s] between two samples of a robot program, and of the learner's own log
 
-EXPLAINED = Slip(
+EXPLAINED = WrongNumber(
     "voltage-explained",
     "it is what comes out when the voltage is explained by velocity and acceleration. Explain "
     "the acceleration instead",
     "M-NOISE-AVERAGES",
 )
-ASSUMED = Slip(
+ASSUMED = WrongNumber(
     "period-assumed",
     "it is what comes out when samples are taken to be 0.02 s apart. Here they are not: divide "
     "by the difference of the times",

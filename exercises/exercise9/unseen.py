@@ -10,9 +10,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Key, diagnose, gains_asked, judge
+from grader.answer import Asked, Key, diagnose, gains_asked, judge_number
 from grader.check import NotReached, NotRun, Wrong
-from grader.variant import generator, seed
+from grader.variant import student_rng, student_seed
 
 from .scene import ASSUMED, USUAL, columns, scene
 
@@ -102,7 +102,7 @@ def _draw(student: str, number: int, recipe: Recipe) -> Hidden:
 
     routine = Routine(ramp=RAMP, step=STEPS.get(recipe.kind, USUAL_STEP), timeout=TIMEOUT)
     for attempt in range(MOST_DRAWS):
-        rng = generator(student, f"exercise9, log {number}", draw=attempt)
+        rng = student_rng(student, f"exercise9, log {number}", draw=attempt)
         built = MECHANISMS[recipe.kind].draw(rng)
         noise = built.sensor.velocity_noise * recipe.noise
         built = replace(built, sensor=replace(built.sensor, velocity_noise=noise))
@@ -153,13 +153,13 @@ def _outcome(text: bytes, student: str, of: int) -> "Outcome":
     """Run a function on all five logs; the same text gives the same numbers."""
     import tempfile  # noqa: PLC0415 - only where there is something to run
 
-    from grader.isolation import Call, Limits, run  # noqa: PLC0415 - the same
+    from grader.isolation import Call, Limits, run_functions  # noqa: PLC0415 - the same
 
     calls = [Call(FUNCTION, one.data) for one in hidden(student, of)]
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, NAME)
         source.write_bytes(text)
-        return run(source, calls=calls, limits=Limits(seconds=SECONDS))
+        return run_functions(source, calls=calls, limits=Limits(seconds=SECONDS))
 
 
 def judge_function(path: Path, *, student: str, points: float, run: bool) -> str | None:
@@ -186,7 +186,7 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
     text = read_text(path).encode()
     if not run:
         raise NotRun(f"not run: {NAME} was not to be run here, and reading it cannot tell")
-    of = seed(student, "exercise9")
+    of = student_seed(student, "exercise9")
     logs, outcome = hidden(student, of), _outcome(text, student, of)
     wrong = [found for found in map(_judge_log, logs, outcome.answers) if found]
     printed = _printed(outcome.printed)
@@ -257,7 +257,7 @@ def _judge_gain(name: str, log: Hidden, answer: "Answer") -> Miss | None:
         why = Wrong(f"{name} = {value:.4g} {one.unit}", hint=ASSUMED.says)
         return Miss(log, why, judged=True, slips=frozenset({ASSUMED.code}))
     try:
-        judge(name, answer.numbers, log.key, points=0.0)
+        judge_number(name, answer.numbers, log.key, points=0.0)
     except Wrong as why:
         why.seen = f"{name} = {why.seen}"
         slips = diagnose(name, answer.numbers, log.key)

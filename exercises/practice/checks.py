@@ -9,13 +9,13 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.answer import Asked, Band, judge, number
+from grader.answer import Asked, Band, judge_number, read_answer_number
 from grader.check import Check, NotReached, Wrong, check
+from grader.choice_answer import read_choice
 from grader.course import find_course
 from grader.exercise import Exercise
-from grader.given import hand_out, written
+from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
-from grader.word import word
 from sim.errors import Refusal
 
 from .measured import ANALYSES, Measured, noted, of_bench, of_robot, team_of
@@ -57,7 +57,7 @@ class Answers:
 
     def _file(self, place: str) -> Path:
         """A file of the learner's language, or one that they named."""
-        tongue = word(self.given.get("language"), tuple(LANGUAGES))
+        tongue = read_choice(self.given.get("language"), tuple(LANGUAGES))
         named = self.given.get(place)
         usual = LANGUAGES[tongue][PLACES.index(place)]
         name = Path(named.replace("\\", "/")).name if isinstance(named, str) and named else usual
@@ -121,8 +121,8 @@ motor = "{parts.motor.name}"
 free_speed = {rpm:.0f}  # [rpm] of the motor at 12 V, by its data sheet
 ratio = {parts.ratio:.6g}  # turns of the motor for one of the mechanism
 {wheel}"""
-    made = {"given.toml": told, "log.wpilog": written(variant.log)}
-    hand_out(made, exercise=HERE, student=student, what="log", say=say)
+    made = {"given.toml": told, "log.wpilog": format_log(variant.log)}
+    write_student_files(made, exercise=HERE, student=student, what="log", say=say)
 
 
 def read(path: Path, *, student: str, run: bool = True) -> Answers:
@@ -168,7 +168,7 @@ def _gain(name: str, *, points: float) -> None:
         if name not in key.asked:
             raise NotReached(f"your fit suggests no {name}")
         given = {one: answers.given.get(one.lower()) for one in key.asked}
-        return judge(name, given, key, points=points)
+        return judge_number(name, given, key, points=points)
 
     look.__name__, look.__doc__ = f"gains_{name.lower()}", f"{name}, as your log has it."
     globals()[look.__name__] = check(points=points)(look)
@@ -183,7 +183,7 @@ def r2(answers: Answers) -> None:
     """The simulated velocity R² of your fit."""
     found = float(answers.measured.fit.simulated_velocity_r2)
     asked = Asked("simulated_velocity_r2", found, "", Band(0.0, 0.0, 0.02, 0.02))
-    value = number(answers.given.get("simulated_velocity_r2"), asked)
+    value = read_answer_number(answers.given.get("simulated_velocity_r2"), asked)
     if not asked.right(value):
         hint = "There are two R². Asked for is the simulated velocity's, a share of 1."
         raise Wrong(f"{value:.4g}", hint=hint, misconception="M-R2")
@@ -196,7 +196,7 @@ def hypothesis(answers: Answers) -> str | None:
 
     if float(answers.measured.fit.simulated_velocity_r2) >= GOOD:
         return "Your R² is at least 0.9, so nothing has to be suspected."
-    word(answers.given.get("hypothesis"), tuple(FAULTS))
+    read_choice(answers.given.get("hypothesis"), tuple(FAULTS))
     first = answers.given.get("first_check")
     if not isinstance(first, str) or len(first.strip()) < LITTLE:
         raise Wrong("no first_check", hint="In a sentence: what would you look at first?")
@@ -215,7 +215,7 @@ def theory_verdict(answers: Answers) -> None:
     right = {TEAM.verdict(one + off) for one in percents for off in (-NEAR_BOUND, NEAR_BOUND)}
     if BELOW < max(percents) <= 0.0:
         right.add("ok")
-    found = word(answers.given.get("verdict"), TEAM.VERDICTS)
+    found = read_choice(answers.given.get("verdict"), TEAM.VERDICTS)
     if found not in right:
         hint = "find your difference in the table of exercise 2, sign and all"
         raise Wrong(f'"{found}"', hint=hint)

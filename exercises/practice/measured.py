@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Band, Key, gains_asked, number
-from grader.check import NotReached, Wrong, shortened
-from grader.word import plain
+from grader.answer import Asked, Band, Key, gains_asked, read_answer_number
+from grader.check import NotReached, Wrong, shorten
+from grader.choice_answer import normalize_choice
 from sim.errors import Refusal
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     from sim.units import unit  # noqa: PLC0415 - the same
 
     if not _is_file(path):
-        raise NotReached(f"there is no {shortened(path.name)} beside your answers.toml")
+        raise NotReached(f"there is no {shorten(path.name)} beside your answers.toml")
     try:
         log = read(path)
         kind = log.type or "simple"
@@ -104,14 +104,14 @@ def _parts(given: Mapping[str, object], units: str) -> Parts:
     from sim.motors import MOTORS  # noqa: PLC0415 - only where it is needed
 
     named = given.get("motor")
-    known = {plain(name): motor for name, motor in MOTORS.items()}
-    motor = known.get(plain(named)) if isinstance(named, str) else None
+    known = {normalize_choice(name): motor for name, motor in MOTORS.items()}
+    motor = known.get(normalize_choice(named)) if isinstance(named, str) else None
     if motor is None:
         raise Wrong("no motor that is known", hint=f"Write motor = one of: {', '.join(MOTORS)}.")
     free = Band(0.0, 0.0)
-    ratio = number(given.get("ratio"), Asked("ratio", 1.0, "", free))
+    ratio = read_answer_number(given.get("ratio"), Asked("ratio", 1.0, "", free))
     size = Asked("wheel_diameter", 1.0, "m", free)
-    diameter = number(given.get("wheel_diameter"), size) if units == "Meters" else 0.0
+    diameter = read_answer_number(given.get("wheel_diameter"), size) if units == "Meters" else 0.0
     if ratio <= 0.0 or diameter < 0.0 or (units == "Meters" and not diameter):
         raise Wrong("a ratio or a diameter that cannot be", hint="Both are larger than zero.")
     return Parts(motor, 1, ratio, diameter)
@@ -142,7 +142,7 @@ def noted(name: str, given: Mapping[str, object], measured: Measured) -> float:
     """A gain as the learner wrote it down, where it is right; else as the fit has it."""
     asked = measured.key.asked[name]
     try:
-        value = number(given.get(name.lower()), asked)
+        value = read_answer_number(given.get(name.lower()), asked)
     except Wrong:
         return asked.expected
     return value if asked.right(value) else asked.expected

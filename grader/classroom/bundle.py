@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from grader.fingerprint import files
+from grader.fingerprint import authored_files
 
 
 @dataclass(frozen=True)
@@ -28,18 +28,18 @@ class Bundle:
         return f"Bundle({self.digest[:8]})"
 
 
-def bundle(course: Path) -> Bundle:
+def pack_course(course: Path) -> Bundle:
     """The exercises of a course, packed; the same files give the same bytes."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in files(course / "exercises"):
+        for path in authored_files(course / "exercises"):
             info = zipfile.ZipInfo(path.relative_to(course).as_posix())  # its time is always 1980
             archive.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
     content = stream.getvalue()
     return Bundle(hashlib.sha256(content).hexdigest(), content)
 
 
-def course_of(given: Path | Bundle) -> Path:
+def unpack_course(given: Path | Bundle) -> Path:
     """The folder of a course: as it is, or unpacked once in each process."""
     return given if isinstance(given, Path) else _unpacked(given)
 

@@ -5,7 +5,7 @@ from sim.printable import printable
 FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
-def safe(text: str) -> str:
+def escape_formula(text: str) -> str:
     """A name that stays a name: one that begins as a formula does gets an apostrophe first.
 
     Source: OWASP, "CSV Injection".

@@ -17,7 +17,7 @@ from typing import Any
 
 import click
 
-from sim.command import INTERRUPTED
+from sim.cli_support import INTERRUPTED
 from sim.dataset.secret import VARIABLE
 from sim.errors import BadRequest
 

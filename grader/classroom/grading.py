@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.check import Status
-from grader.classroom.bundle import course_of
-from grader.classroom.handed_in import Files
+from grader.classroom.bundle import unpack_course
+from grader.classroom.submissions import Files
 from grader.exercise import Exercise, Grade, exercises
-from grader.variant import of_class
+from grader.variant import class_secret
 
 if TYPE_CHECKING:
     from grader.classroom.bundle import Bundle
@@ -70,10 +70,10 @@ class Graded:
 
 def grade_one(job: Job) -> Graded:
     """Grade everything one student handed in; whatever happens is a result."""
-    there = {one.name: one for one in exercises(course_of(job.course))}
+    there = {one.name: one for one in exercises(unpack_course(job.course))}
     with (
         tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder,
-        of_class(job.secret) if job.secret is not None else nullcontext(),
+        class_secret(job.secret) if job.secret is not None else nullcontext(),
     ):
         records = tuple(_grade(there[name], job, Path(folder) / name) for name in job.names)
     return Graded(job.student, job.digest, records)
@@ -82,21 +82,23 @@ def grade_one(job: Job) -> Graded:
 def _grade(exercise: Exercise, job: Job, folder: Path) -> Record:
     files, student = job.files.get(exercise.name, {}), job.student
     if exercise.name in job.problems:
-        return nothing(exercise, student, status="ungradable", reason=job.problems[exercise.name])
+        return missing_record(
+            exercise, student, status="ungradable", reason=job.problems[exercise.name]
+        )
     if not files:
-        return nothing(exercise, student, status=MISSING, reason=NOTHING)
+        return missing_record(exercise, student, status=MISSING, reason=NOTHING)
     try:
         folder.mkdir()
         for name, content in files.items():
             (folder / name).write_bytes(content)
         grade = exercise.grade(folder, student=job.numbers_of, run=job.run)
-        return record(replace(grade, student=student))
+        return grade_record(replace(grade, student=student))
     except MemoryError:
         reason = "grading it took more memory than there is"
-        return nothing(exercise, student, status="ungradable", reason=reason)
+        return missing_record(exercise, student, status="ungradable", reason=reason)
     except Exception as error:  # noqa: BLE001 - one student's file must not stop the class
         broken = f"our mistake ({type(error).__name__}: {error}); please report it, with the file"
-        return nothing(exercise, student, status="ungradable", reason=broken)
+        return missing_record(exercise, student, status="ungradable", reason=broken)
 
 
 def not_graded(job: Job, name: str, reason: str) -> Record:
@@ -107,11 +109,11 @@ def not_graded(job: Job, name: str, reason: str) -> Record:
         name: of the exercise.
         reason: why, one line.
     """
-    there = {one.name: one for one in exercises(course_of(job.course))}
-    return nothing(there[name], job.student, status="ungradable", reason=reason)
+    there = {one.name: one for one in exercises(unpack_course(job.course))}
+    return missing_record(there[name], job.student, status="ungradable", reason=reason)
 
 
-def nothing(exercise: Exercise, student: str, *, status: str, reason: str) -> Record:
+def missing_record(exercise: Exercise, student: str, *, status: str, reason: str) -> Record:
     """The record of an exercise of which nothing was graded."""
     checks = [
         {
@@ -131,7 +133,7 @@ def nothing(exercise: Exercise, student: str, *, status: str, reason: str) -> Re
     return {**head, "status": status, "file": "", "reason": reason, "checks": checks}
 
 
-def record(grade: Grade) -> Record:
+def grade_record(grade: Grade) -> Record:
     """A grade as plain data; of paths only the file's name, so that it is the same anywhere."""
     names = ("exercise", "student", "score", "max_score", "status")
     reason = grade.reason
@@ -145,7 +147,7 @@ def record(grade: Grade) -> Record:
     }
 
 
-def ungraded(
+def ungraded_student(
     student: str, asked: Sequence[Exercise], *, handed_in: Collection[str], reason: str,
     digest: str = "",
 ) -> Graded:  # fmt: skip
@@ -159,9 +161,9 @@ def ungraded(
         digest: as in ``Graded``; empty keeps the results from being taken for final.
     """
     records = tuple(
-        nothing(one, student, status="ungradable", reason=reason)
+        missing_record(one, student, status="ungradable", reason=reason)
         if one.name in handed_in
-        else nothing(one, student, status=MISSING, reason=NOTHING)
+        else missing_record(one, student, status=MISSING, reason=NOTHING)
         for one in asked
     )
     return Graded(student, digest, records)

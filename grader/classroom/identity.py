@@ -5,17 +5,17 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import replace
 
-from grader.classroom.handed_in import PROGRESS, HandedIn
+from grader.class_package import PLACE, ClassPackage, parse_issued
 from grader.classroom.secret import identity_seal
+from grader.classroom.submissions import PROGRESS, Submission
 from grader.course import NOBODY
-from grader.issued import PLACE, Issued, parse_issued
 from grader.variant import folder_name, same, student_name
 from sim.errors import BadRequest, Refusal
 
 
 def check_identities(
-    handed_in: Sequence[HandedIn], *, secret: bytes | None
-) -> tuple[HandedIn, ...]:
+    handed_in: Sequence[Submission], *, secret: bytes | None
+) -> tuple[Submission, ...]:
     """Find who handed in another student's package, and who worked without a name.
 
     Args:
@@ -31,7 +31,7 @@ def check_identities(
     return tuple(one if one.problem else _checked(one, secret) for one in handed_in)
 
 
-def _checked(one: HandedIn, secret: bytes | None) -> HandedIn:
+def _checked(one: Submission, secret: bytes | None) -> Submission:
     content = one.identities.get(PLACE.as_posix())
     if content is None:
         return one if secret is not None else _without_class(one)
@@ -49,7 +49,7 @@ def _checked(one: HandedIn, secret: bytes | None) -> HandedIn:
     return replace(one, problem=_foreign(one, found, secret))
 
 
-def _foreign(one: HandedIn, found: Issued, secret: bytes) -> str:
+def _foreign(one: Submission, found: ClassPackage, secret: bytes) -> str:
     """Why a class's package is not this student's; empty if it is."""
     mark = identity_seal(secret, student=found.student, name=found.name)
     if not hmac.compare_digest(mark.encode(), found.seal.encode()):
@@ -65,7 +65,7 @@ def _foreign(one: HandedIn, found: Issued, secret: bytes) -> str:
     return ""
 
 
-def _without_class(one: HandedIn) -> HandedIn:
+def _without_class(one: Submission) -> Submission:
     """The same, on the numbers of whoever the course was started as."""
     started_as = _started_as(one)
     one = _by_name(one, started_as)
@@ -86,14 +86,14 @@ def _without_class(one: HandedIn) -> HandedIn:
     )
 
 
-def _by_name(one: HandedIn, student: str) -> HandedIn:
+def _by_name(one: Submission, student: str) -> Submission:
     """The same, by the name whose folder `grade serve` gave the student; else as it is."""
     if student and one.student.casefold() == folder_name(student):
         return replace(one, student=student)
     return one
 
 
-def _started_as(one: HandedIn) -> str:
+def _started_as(one: Submission) -> str:
     """Who the course says is learning; empty where it says nothing that can be read."""
     try:
         raw = tomllib.loads(one.identities[PROGRESS].decode("utf-8"))

@@ -62,7 +62,7 @@ class Column:
     median: float
 
 
-def items(students: Sequence[Graded]) -> tuple[Item, ...]:
+def analyze_items(students: Sequence[Graded]) -> tuple[Item, ...]:
     """Every question, in the order of the course."""
     rows: dict[tuple[str, str], list[tuple[float, float, Mapping[str, Any]]]] = {}
     for one in students:
@@ -76,7 +76,7 @@ def items(students: Sequence[Graded]) -> tuple[Item, ...]:
     return tuple(_item(*key, those) for key, those in rows.items())
 
 
-def columns(students: Sequence[Graded]) -> tuple[Column, ...]:
+def summarize_exercises(students: Sequence[Graded]) -> tuple[Column, ...]:
     """Every exercise, in the order of the course."""
     rows: dict[str, list[Mapping[str, Any]]] = {}
     for one in students:
@@ -85,7 +85,7 @@ def columns(students: Sequence[Graded]) -> tuple[Column, ...]:
     return tuple(_column(name, those) for name, those in rows.items())
 
 
-def misconceptions(students: Sequence[Graded]) -> tuple[tuple[str, int], ...]:
+def count_misconceptions(students: Sequence[Graded]) -> tuple[tuple[str, int], ...]:
     """Code -> how many students were told of it, most frequent first."""
     return _ranked(
         code

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from grader.classroom.atomic_files import write_private_file
+from grader.classroom.feedback_text import feedback
 from grader.classroom.grading import MISSING, Graded
-from grader.classroom.items import FEWEST, columns, items, misconceptions
+from grader.classroom.items import FEWEST, analyze_items, count_misconceptions, summarize_exercises
 from grader.classroom.results import Results, scores, status_of
-from grader.classroom.words import feedback
-from grader.classroom.written import written
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import folder_name
 
@@ -34,15 +34,15 @@ def write_pages(results: Results, folder: Path) -> Path:
     templates = _templates()
     for one in results.students:
         text = templates.get_template("student.html.jinja").render(_of_student(one, results))
-        written(folder / _page(one), text)
+        write_private_file(folder / _page(one), text)
     text = templates.get_template("class.html.jinja").render(_of_class(results))
-    return written(folder / "index.html", text)
+    return write_private_file(folder / "index.html", text)
 
 
 def _templates() -> "Environment":
-    from sim.report.written import templates  # noqa: PLC0415 - only who writes pages needs them
+    from sim.report.page_file import load_templates  # noqa: PLC0415 - only who writes pages needs them
 
-    found = templates(FOLDER)
+    found = load_templates(FOLDER)
     found.filters |= {"percent": _percent, "signed": _signed}
     return found
 
@@ -51,7 +51,7 @@ def _page(one: Graded) -> str:
     return f"{PEOPLE}/{folder_name(one.student)}.html"
 
 
-def summary(results: Results) -> str:
+def class_summary(results: Results) -> str:
     """The class in two sentences."""
     there = [one for one in results.students if set(status_of(one).values()) != {MISSING}]
     shares = [_share(one, results) for one in there]
@@ -69,22 +69,24 @@ def _share(one: Graded, results: Results) -> float:
 
 
 def _of_class(results: Results) -> dict[str, Any]:
-    from sim.plot import heat, spread  # noqa: PLC0415 - matplotlib only where it draws
+    from sim.plot import score_heatmap, score_histogram  # noqa: PLC0415 - matplotlib only where it draws
 
     names = [one.student for one in results.students]
     table = [[_cell_share(record) for record in one.records] for one in results.students]
-    found = sorted(items(results.students), key=lambda one: (one.share, one.exercise, one.check))
+    found = sorted(
+        analyze_items(results.students), key=lambda one: (one.share, one.exercise, one.check)
+    )
     return {
         "name": results.name,
-        "verdict": summary(results),
+        "verdict": class_summary(results),
         "open": _open(results),
         "count": len(results.students),
-        "columns": columns(results.students),
-        "heat": heat(names, results.exercises, table).html,
-        "spread": spread([_share(one, results) for one in results.students]).html,
+        "columns": summarize_exercises(results.students),
+        "heat": score_heatmap(names, results.exercises, table).html,
+        "spread": score_histogram([_share(one, results) for one in results.students]).html,
         "misconceptions": [
             {"code": code, "count": count, "says": _put_right(code)}
-            for code, count in misconceptions(results.students)
+            for code, count in count_misconceptions(results.students)
         ],
         "fewest": FEWEST,
         "items": found,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.submission_names import Identities
-from sim.dataset.roster import distinct
+from sim.dataset.roster import distinct_names
 from sim.errors import BadRequest
 from sim.roster import read_roster
 
@@ -30,7 +30,7 @@ class Members:
         return Identities(self.rows)
 
 
-def members(path: Path) -> Members:
+def read_members(path: Path) -> Members:
     """Read a roster.
 
     Canvas's export has a column ``Student`` with the full name and a better one, ``SIS Login ID``,
@@ -52,7 +52,7 @@ def members(path: Path) -> Members:
         (f"{path}, line {number}", row[place].strip() if place < len(row) else "")
         for number, row in roster.rows
     ]
-    names = distinct(cells)
+    names = distinct_names(cells)
     rows = {
         name: dict(zip(roster.header, row, strict=False))
         for name, (_, row) in zip(names, roster.rows, strict=True)

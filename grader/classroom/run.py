@@ -5,14 +5,14 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from grader.classroom.bundle import bundle
-from grader.classroom.grading import Graded, Job, grade_one, ungraded
-from grader.classroom.handed_in import HandedIn
-from grader.classroom.store import Store, digest
+from grader.classroom.bundle import pack_course
+from grader.classroom.grading import Graded, Job, grade_one, ungraded_student
+from grader.classroom.store import Store, digest_job
+from grader.classroom.submissions import Submission
 from grader.classroom.workers import grade_in_workers
 from grader.exercise import Exercise
 from grader.fingerprint import fingerprint
-from sim.work.cluster import done_on_cluster
+from sim.work.cluster import run_jobs_on_cluster
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Class:
         run: whether robot code is run, too, where an exercise can; else it is only read.
     """
 
-    handed_in: tuple[HandedIn, ...]
+    handed_in: tuple[Submission, ...]
     exercises: tuple[Exercise, ...]
     course: Path
     secret: bytes | None = None
@@ -41,11 +41,11 @@ class Class:
         """
         made_by = self._made_by()
         names = tuple(one.name for one in self.exercises)
-        course = bundle(self.course) if travel else self.course
+        course = pack_course(self.course) if travel else self.course
         return tuple(
             Job(
                 one.student,
-                digest(one, names=names, made_by=made_by, secret=self.secret),
+                digest_job(one, names=names, made_by=made_by, secret=self.secret),
                 one.files,
                 one.problems,
                 one.numbers_of,
@@ -85,7 +85,7 @@ class Plan:
     todo: tuple[Job, ...]
 
 
-def plan(asked: Class, store: Store, *, travel: bool, again: bool) -> Plan:
+def plan_grading(asked: Class, store: Store, *, travel: bool, again: bool) -> Plan:
     """Look what is known already.
 
     Args:
@@ -131,7 +131,7 @@ def grade_all(
     found = list(plan.kept)
     store.open()
     grading = (
-        done_on_cluster(grade_one, plan.todo, address=cluster)
+        run_jobs_on_cluster(grade_one, plan.todo, address=cluster)
         if cluster
         else grade_in_workers(plan.todo, processes=processes, stop_if_asked=stop_if_asked)
     )
@@ -141,7 +141,7 @@ def grade_all(
         say()
     everything = {one.name for one in asked.exercises}
     unread = (
-        ungraded(one.student, asked.exercises, handed_in=everything, reason=one.problem)
+        ungraded_student(one.student, asked.exercises, handed_in=everything, reason=one.problem)
         for one in asked.handed_in
         if one.problem
     )

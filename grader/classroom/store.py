@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from grader.classroom.grading import Graded
-from grader.classroom.handed_in import HandedIn
+from grader.classroom.submissions import Submission
 from grader.variant import folder_name
 from sim.atomic_file import make_private_folder, write_atomically
 from sim.errors import BadRequest
@@ -15,7 +15,9 @@ from sim.errors import BadRequest
 RESULTS = "results"
 
 
-def digest(one: HandedIn, *, names: tuple[str, ...], made_by: str, secret: bytes | None) -> str:
+def digest_job(
+    one: Submission, *, names: tuple[str, ...], made_by: str, secret: bytes | None
+) -> str:
     """A text that changes with whatever a student's results depend on.
 
     Args:

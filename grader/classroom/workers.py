@@ -15,9 +15,9 @@ from dataclasses import dataclass, field, replace
 from pebble import ProcessExpired, ProcessPool
 
 from grader.classroom.grading import Graded, Job, Record, grade_one, not_graded
-from grader.classroom.handed_in import Files
-from sim.work.here import serve_quietly
-from sim.work.interrupt import unheard
+from grader.classroom.submissions import Files
+from sim.work.interrupt import interrupts_blocked_for_children
+from sim.work.process_pool import serve_quietly
 
 SECONDS = 50.0  # [s] for one exercise of one student; an honest one takes 0.1 to 4 s
 MEMORY = 4 * 1024**3  # [bytes] of address space; an honest worker uses a quarter of it
@@ -88,7 +88,7 @@ def _grade(
     waiting, running = iter(tasks), dict[Future[Graded], Task]()
 
     def hand_out() -> None:
-        with unheard():
+        with interrupts_blocked_for_children():
             while len(running) < AHEAD * workers and (task := next(waiting, None)):
                 job, name = task
                 part = replace(job, names=(name,), files=_only(job, name))

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, cast
 import click
 
 from grader.terminal import complain, show
-from sim import command
-from sim.command import COULD_NOT, DONE, NOT_RIGHT
+from sim import cli_support
+from sim.cli_support import COULD_NOT, DONE, NOT_RIGHT
 from sim.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -102,11 +102,11 @@ def exercise(
     plain: bool,
 ) -> int:
     """Grade an exercise, or say how far you are."""
-    from grader.exercise import exercises, find  # noqa: PLC0415 - --help has to start at once
+    from grader.exercise import exercises, find_exercise  # noqa: PLC0415 - --help has to start at once
 
-    folder, progress, who = here(student)
+    folder, progress, who = locate_course(student)
     if exercise is not None:
-        one = find(exercise, folder)
+        one = find_exercise(exercise, folder)
         if hint:
             return _hint(one, folder, progress, who)
         return grade_file(
@@ -127,32 +127,32 @@ def exercise(
 @click.option("--student", metavar="NAME", help="Who you are, from now on.")
 def start(student: str | None, *, no_lab: bool) -> int:
     """Show where you stand, make your data, open the first lesson."""
+    from grader.class_package import read_class_package  # noqa: PLC0415 - the same
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.issued import issued  # noqa: PLC0415 - the same
     from grader.start import start as begin  # noqa: PLC0415 - the same
 
-    folder, progress, who = here(student)
-    of_class = issued(folder)
+    folder, progress, who = locate_course(student)
+    of_class = read_class_package(folder)
     if who != progress.student and (of_class is None or of_class.is_for(who)):
         progress = replace(progress, student=who)
         _tell(update_progress(folder, lambda now: replace(now, student=who)))
     return begin(folder, progress, student=who, lab=not no_lab)
 
 
-def here(student: str | None) -> "tuple[Path, Progress, str]":
+def locate_course(student: str | None) -> "tuple[Path, Progress, str]":
     """The course folder, the progress kept there, and who is learning.
 
     Raises:
         BadRequest: there is no course here, or the name is none.
     """
-    from grader.course import find_course, load, other_code  # noqa: PLC0415 - --help must not wait
-    from grader.issued import learner  # noqa: PLC0415 - the same
+    from grader.class_package import find_learner  # noqa: PLC0415 - the same
+    from grader.course import find_course, load_progress, other_code  # noqa: PLC0415 - --help must not wait
 
     folder = find_course(Path.cwd())
     _tell(other_code(folder))
-    progress, said = load(folder)
+    progress, said = load_progress(folder)
     _tell(said)
-    return folder, progress, learner(folder, known=progress.student, student=student)
+    return folder, progress, find_learner(folder, known=progress.student, student=student)
 
 
 def grade_file(
@@ -167,16 +167,16 @@ def grade_file(
     picture: Path | None = None,
 ) -> int:
     """Grade an answer, note the score, and show the result; the exit code."""
+    from grader.class_package import explain_no_grading, read_class_package  # noqa: PLC0415 - the same
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.issued import issued, only_there  # noqa: PLC0415 - the same
-    from grader.kept import keeping  # noqa: PLC0415 - the same
-    from grader.report import received, to_json, to_lines  # noqa: PLC0415 - the same
+    from grader.draw_cache import cached_draws  # noqa: PLC0415 - the same
+    from grader.report import to_json, to_lines, to_receipt  # noqa: PLC0415 - the same
 
-    of_class = issued(folder)
+    of_class = read_class_package(folder)
     if of_class and one.personal and of_class.is_for(who):
-        show(received(one, file))
-        raise only_there(one.name, of_class)
-    with keeping():
+        show(to_receipt(one, file))
+        raise explain_no_grading(one.name, of_class)
+    with cached_draws():
         one.prepare(who, say=complain)
         result = one.grade(file, student=who)
     gradable = result.status != "ungradable"
@@ -227,7 +227,7 @@ def _tell(said: str) -> None:
 
 def run(arguments: list[str] | None = None) -> int:
     """Run the command and return its exit code; nothing gets out as a traceback."""
-    return command.run(grade, name="grade", arguments=arguments)
+    return cli_support.run(grade, name="grade", arguments=arguments)
 
 
 def main() -> None:

@@ -6,17 +6,17 @@ from typing import TYPE_CHECKING
 import click
 
 from grader.terminal import complain, line, show, wrapped
-from sim.command import DONE, INTERRUPTED, NOT_RIGHT
+from sim.cli_support import DONE, INTERRUPTED, NOT_RIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from grader.classroom.exports import Export
     from grader.classroom.grading import Graded
-    from grader.classroom.handed_in import HandedIn
     from grader.classroom.results import Results
     from grader.classroom.roster import Members
     from grader.classroom.run import Class
+    from grader.classroom.submissions import Submission
     from grader.exercise import Exercise
 
 PATH = click.Path(path_type=Path)
@@ -71,16 +71,16 @@ def class_(  # noqa: PLR0917 - click passes options by name
 
     Exit codes: 0 all graded, 1 some could not be, 2 could not do it.
     """
-    from grader.classroom.exports import chosen  # noqa: PLC0415 - --help must not wait for it
+    from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.identity import check_identities  # noqa: PLC0415 - the same
     from grader.classroom.results import Results  # noqa: PLC0415 - the same
-    from grader.classroom.roster import members  # noqa: PLC0415 - the same
+    from grader.classroom.roster import read_members  # noqa: PLC0415 - the same
     from grader.classroom.run import Class  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.course import find_course, other_code  # noqa: PLC0415 - the same
 
-    known = members(roster) if roster else None
-    formats = chosen(wanted, roster=known)
+    known = read_members(roster) if roster else None
+    formats = choose_exports(wanted, roster=known)
     course = find_course(Path.cwd())
     if said := other_code(course):
         complain(said)
@@ -111,11 +111,11 @@ COMMAND = class_
 
 
 def _asked(only: tuple[str, ...], course: Path) -> "tuple[Exercise, ...]":
-    from grader.exercise import exercises, find  # noqa: PLC0415 - --help must not wait for it
+    from grader.exercise import exercises, find_exercise  # noqa: PLC0415 - --help must not wait for it
 
     if not only:
         return exercises(course)
-    names = {find(one, course).name for one in only}
+    names = {find_exercise(one, course).name for one in only}
     return tuple(one for one in exercises(course) if one.name in names)
 
 
@@ -126,22 +126,22 @@ def _found(
     known: "Members | None",
     *,
     student: str | None,
-) -> "tuple[HandedIn, ...]":
+) -> "tuple[Submission, ...]":
     """What was handed in: by one student, or by everybody in the folder."""
-    from grader.classroom.handed_in import find_all, find_one, stray_files  # noqa: PLC0415 - --help
+    from grader.classroom.submissions import find_submissions, read_submission, stray_files  # noqa: PLC0415 - --help
     from grader.exercise import exercises  # noqa: PLC0415 - must not wait for any of these
 
     everything = exercises(course)
     if student:
-        return (find_one(folder, everything, asked=asked, student=student),)
+        return (read_submission(folder, everything, asked=asked, student=student),)
     roster = known.identities if known else None
-    there = find_all(folder, everything, asked=asked, roster=roster)
+    there = find_submissions(folder, everything, asked=asked, roster=roster)
     if stray := stray_files(folder):
         complain(f"left out, for their names are no student's: {', '.join(stray)}")
     return there
 
 
-def _tell_problems(there: "Sequence[HandedIn]") -> None:
+def _tell_problems(there: "Sequence[Submission]") -> None:
     """Say before the grading who is graded otherwise than their folder's name says."""
     for one in there:
         if one.problem:
@@ -166,11 +166,11 @@ def _some(names: "Sequence[str]") -> str:
 
 def _shut_in(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | None) -> bool:
     """Whether students' code is run: as told, else where it does no harm; says what that means."""
-    from grader.isolation import level  # noqa: PLC0415 - --help must not wait for it
+    from grader.isolation import isolation_level  # noqa: PLC0415 - --help must not wait for it
 
     if run is False or not any(one.runs for one in asked):
         return False
-    found = "one of a cluster, and nobody knows of all" if cluster else level()
+    found = "one of a cluster, and nobody knows of all" if cluster else isolation_level()
     if found.startswith("isolated"):
         return True
     if run:
@@ -191,16 +191,19 @@ def _run(
     work: "Class", out: Path, *, processes: int | None, cluster: str | None, again: bool
 ) -> "tuple[Graded, ...] | None":
     """Grade what is left; None where it was stopped."""
-    from grader.classroom.run import grade_all, plan  # noqa: PLC0415 - --help must not wait
+    from grader.classroom.run import grade_all, plan_grading  # noqa: PLC0415 - --help must not wait
     from grader.classroom.store import Store  # noqa: PLC0415 - the same
-    from sim.work.bar import bar  # noqa: PLC0415 - the same
-    from sim.work.here import cores  # noqa: PLC0415 - the same
-    from sim.work.interrupt import noted  # noqa: PLC0415 - the same
+    from sim.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
+    from sim.work.process_pool import available_cores  # noqa: PLC0415 - the same
+    from sim.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     store = Store(out)
-    left = plan(work, store, travel=cluster is not None, again=again)
+    left = plan_grading(work, store, travel=cluster is not None, again=again)
     total = len(left.kept) + len(left.todo)
-    with bar("students", total, done=len(left.kept)) as (step, done), noted() as stop_if_noted:
+    with (
+        progress_bar("students", total, done=len(left.kept)) as (step, done),
+        deferred_interrupt() as stop_if_noted,
+    ):
 
         def say() -> None:
             step()
@@ -208,7 +211,7 @@ def _run(
 
         try:  # one more than there are cores, for while one waits for a learner's code
             return grade_all(
-                work, left, store, processes=processes or cores() + 1, cluster=cluster, say=say,
+                work, left, store, processes=processes or available_cores() + 1, cluster=cluster, say=say,
                 stop_if_asked=stop_if_noted,
             )  # fmt: skip
         except KeyboardInterrupt:
@@ -221,23 +224,23 @@ def _with_absent(
     graded: "tuple[Graded, ...]", known: "Members | None", asked: "Sequence[Exercise]"
 ) -> "tuple[Graded, ...]":
     """Everybody, and whoever is on the roster and handed nothing in."""
-    from grader.classroom.grading import ungraded  # noqa: PLC0415 - --help must not wait for it
+    from grader.classroom.grading import ungraded_student  # noqa: PLC0415 - --help must not wait for it
     from grader.variant import same  # noqa: PLC0415 - the same
 
     present = {same(one.student) for one in graded}
     absent = [name for name in (known.rows if known else ()) if same(name) not in present]
-    found = [*graded, *(ungraded(name, asked, handed_in=(), reason="") for name in absent)]
+    found = [*graded, *(ungraded_student(name, asked, handed_in=(), reason="") for name in absent)]
     return tuple(sorted(found, key=lambda one: one.student.casefold()))
 
 
 def _written(results: "Results", out: Path, formats: "Sequence[Export]") -> int:
-    from grader.classroom.page import summary, write_pages  # noqa: PLC0415 - --help must not wait
+    from grader.classroom.page import class_summary, write_pages  # noqa: PLC0415 - --help must not wait
     from grader.classroom.results import status_of  # noqa: PLC0415 - the same
 
     page = write_pages(results, out)
     files = [path for one in formats for path in one.write(results, out)]
     unread = [one.student for one in results.students if "ungradable" in status_of(one).values()]
-    show(wrapped(summary(results), lead=""))
+    show(wrapped(class_summary(results), lead=""))
     show([line(f"Overview: {page}")])
     tops = dict.fromkeys(path.relative_to(out).parts[0] for path in files)
     show([line(f"Beside it: {', '.join([*tops, 'students', 'results'])}")])

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from grader.terminal import Span, show, wrapped
-from sim.command import DONE, NOT_RIGHT
+from sim.cli_support import DONE, NOT_RIGHT
 
 
 @click.command()

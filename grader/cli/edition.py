@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from grader.terminal import complain, line, show
-from sim.command import DONE
+from sim.cli_support import DONE
 
 
 @click.command()

@@ -7,7 +7,7 @@ import click
 
 from grader.cli.release import PATH, put, refuse_secret_inside, tell_left_out
 from grader.terminal import complain, line, show
-from sim.command import DONE
+from sim.cli_support import DONE
 from sim.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def gradescope(
     files beside one another, and an answers.toml can only belong to one exercise.
     """
     from grader.autograder import Gradescope, pack_gradescope  # noqa: PLC0415 - --help must not wait
-    from grader.classroom.roster import members  # noqa: PLC0415 - the same
+    from grader.classroom.roster import read_members  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
 
@@ -57,7 +57,7 @@ def gradescope(
         refuse_secret_inside(secret, {"course folder": course})
     kept = find_secret(secret, make=False) if secret else None
     if roster is not None:
-        members(roster)  # what is wrong with it is said here, and not on Gradescope
+        read_members(roster)  # what is wrong with it is said here, and not on Gradescope
     chosen = select_package_files(course)
     chosen.refuse_secret(kept.value if kept else b"")
     tell_left_out(chosen.left_out)
@@ -115,12 +115,12 @@ def _asked(only: tuple[str, ...]) -> "tuple[Path, tuple[Exercise, ...]]":
         BadRequest: there is no such exercise, or none at all.
     """
     from grader.course import find_course, other_code  # noqa: PLC0415 - --help must not wait for it
-    from grader.exercise import exercises, find  # noqa: PLC0415 - the same
+    from grader.exercise import exercises, find_exercise  # noqa: PLC0415 - the same
 
     course = find_course(Path.cwd())
     if said := other_code(course):
         complain(said)
-    names = {find(one, course).name for one in only}
+    names = {find_exercise(one, course).name for one in only}
     asked = tuple(one for one in exercises(course) if not only or one.name in names)
     if not asked:
         raise BadRequest(

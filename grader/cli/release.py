@@ -7,7 +7,7 @@ import click
 
 from grader.terminal import complain, line, show
 from sim.atomic_file import make_private_folder, write_atomically
-from sim.command import DONE, NOT_RIGHT
+from sim.cli_support import DONE, NOT_RIGHT
 from sim.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -104,16 +104,16 @@ def _release(
     name: str,
     processes: int | None,
 ) -> int:
-    from grader.classroom.bundle import bundle  # noqa: PLC0415 - --help must not wait for it
-    from grader.classroom.roster import members  # noqa: PLC0415 - the same
+    from grader.classroom.bundle import pack_course  # noqa: PLC0415 - --help must not wait for it
+    from grader.classroom.roster import read_members  # noqa: PLC0415 - the same
     from grader.course import other_code  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
-    from grader.release import Package, own, zip_files  # noqa: PLC0415 - the same
+    from grader.release import Package, student_package, zip_files  # noqa: PLC0415 - the same
     from grader.variant import folder_name  # noqa: PLC0415 - the same
-    from sim.work.bar import bar  # noqa: PLC0415 - the same
-    from sim.work.here import cores, done_here  # noqa: PLC0415 - the same
+    from sim.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
+    from sim.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
-    students = tuple(members(roster).rows) if roster else ()
+    students = tuple(read_members(roster).rows) if roster else ()
     said = other_code(course)
     if said:
         complain(said)
@@ -124,12 +124,14 @@ def _release(
     if secret and secret.new:
         secret.keep()
         complain(f"{secret.new}: a new secret. Keep it, and keep it to yourself.")
-    packed = bundle(course)
+    packed = pack_course(course)
     value = secret.value if secret else b""
     packages = [Package(student, value, name, packed) for student in students]
     put(output / "course.zip", everybody)
-    with bar("students", len(packages)) as (step, _):
-        made = done_here(own, packages, processes=processes or cores(), worth=WORTH)
+    with progress_bar("students", len(packages)) as (step, _):
+        made = run_jobs_locally(
+            student_package, packages, processes=processes or available_cores(), worth=WORTH
+        )
         for student, content in made:
             put(output / "students" / f"{folder_name(student)}.zip", content)
             step()
@@ -159,17 +161,17 @@ def put(path: Path, content: bytes) -> None:
 
 def _check(place: Path, secret: bytes) -> int:
     """Say what is not as the class issued it."""
-    from grader.issued import issued  # noqa: PLC0415 - --help must not wait for it
-    from grader.release import broken_seals  # noqa: PLC0415 - the same
+    from grader.class_package import read_class_package  # noqa: PLC0415 - --help must not wait for it
+    from grader.release import find_broken_seals  # noqa: PLC0415 - the same
 
-    found = issued(place)
+    found = read_class_package(place)
     if found is None:
         raise BadRequest(
             "no class issued this",
             where=str(place),
             advice="Name the folder that holds .course and exercises.",
         )
-    wrong = broken_seals(place, found, secret=secret)
+    wrong = find_broken_seals(place, found, secret=secret)
     show([line(f"{name}: not as it was issued") for name in wrong])
     if not wrong:
         show([line(f"{place}: issued to {found.student}; all {len(found.sealed)} files whole.")])

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from grader.terminal import complain, line, show
-from sim.command import COULD_NOT, DONE
+from sim.cli_support import COULD_NOT, DONE
 from sim.errors import BadRequest
 
 PATH = click.Path(path_type=Path)
@@ -31,12 +31,12 @@ def serve(
     that each comes in with. Everything runs on this machine; two students take about 1 GB. Run by
     root on Linux or macOS, each student's server has a system user of its own.
     """
-    from grader.classroom.roster import members  # noqa: PLC0415 - --help must not wait for it
+    from grader.classroom.roster import read_members  # noqa: PLC0415 - --help must not wait for it
     from grader.course import find_course  # noqa: PLC0415 - the same
-    from grader.release import common  # noqa: PLC0415 - the same
-    from grader.serve.door import House, stand  # noqa: PLC0415 - the same
-    from grader.serve.homes import codes, home  # noqa: PLC0415 - the same
-    from grader.serve.rooms import Rooms  # noqa: PLC0415 - the same
+    from grader.release import common_package  # noqa: PLC0415 - the same
+    from grader.serve.jupyter_servers import JupyterServers  # noqa: PLC0415 - the same
+    from grader.serve.login_page import ServedClass, serve_forever  # noqa: PLC0415 - the same
+    from grader.serve.student_folders import login_codes, student_folder  # noqa: PLC0415 - the same
     from grader.variant import folder_name  # noqa: PLC0415 - the same
     from sim.dataset.secret import VARIABLE  # noqa: PLC0415 - the same
 
@@ -44,8 +44,8 @@ def serve(
     folder = folder.resolve()
     separate = _separate(folder, packages, unprotected=unprotected)
     course = find_course(Path.cwd())
-    students = tuple(members(roster).rows)
-    shared = common(course)
+    students = tuple(read_members(roster).rows)
+    shared = common_package(course)
     lessons = sorted((course / "lessons").glob("*.ipynb"))
     first = lessons[0].relative_to(course).as_posix() if lessons else "exercises"
 
@@ -58,9 +58,11 @@ def serve(
                 advice="Make it with grade release --roster.",
             )
         given = [shared, *([own.read_bytes()] if own else [])]
-        return home(folder, student, packages=given)
+        return student_folder(folder, student, packages=given)
 
-    house = House(codes(folder, students), at_home, Rooms(host, separate=separate), first)
+    house = ServedClass(
+        login_codes(folder, students), at_home, JupyterServers(host, separate=separate), first
+    )
 
     def ready(taken: int) -> None:
         address = _own_address() if host == EVERYWHERE else host
@@ -71,7 +73,7 @@ def serve(
         ])  # fmt: skip
 
     try:
-        asyncio.run(stand(house, port=port, ready=ready))
+        asyncio.run(serve_forever(house, port=port, ready=ready))
     except KeyboardInterrupt:
         return DONE
     except OSError as error:
@@ -89,7 +91,7 @@ def _separate(folder: Path, packages: Path | None, *, unprotected: bool) -> bool
     Raises:
         BadRequest: personal packages would lie open, or Python does for nobody but root.
     """
-    from grader.serve.homes import can_separate, prepare_separation  # noqa: PLC0415 - as above
+    from grader.serve.student_folders import can_separate, prepare_separation  # noqa: PLC0415 - as above
 
     if can_separate() and not unprotected:
         prepare_separation(folder)

@@ -3,7 +3,7 @@
 import click
 
 from grader.terminal import line, show
-from sim.command import COULD_NOT, DONE, complain
+from sim.cli_support import COULD_NOT, DONE, complain
 from sim.errors import Refusal
 
 
@@ -16,39 +16,41 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
 
     Without EXERCISE: the first one that is not done yet.
     """
-    from grader.cli import grade_file, here  # noqa: PLC0415 - --help has to start at once
-    from grader.exercise import exercises, find  # noqa: PLC0415 - the same
-    from grader.watch import first_open, place  # noqa: PLC0415 - the same
+    from grader.cli import grade_file, locate_course  # noqa: PLC0415 - --help has to start at once
+    from grader.exercise import exercises, find_exercise  # noqa: PLC0415 - the same
+    from grader.watch import display_path, first_unfinished  # noqa: PLC0415 - the same
     from grader.watch import watch as keep_watching  # noqa: PLC0415 - the same
 
-    folder, progress, who = here(student)
+    folder, progress, who = locate_course(student)
     found = exercises(folder)
     one = (
-        find(exercise, folder)
+        find_exercise(exercise, folder)
         if exercise
-        else first_open(found, lambda name: progress.of(who, name).done)
+        else first_unfinished(found, lambda name: progress.of(who, name).done)
     )
     if one is None:
         show([line("Everything here is done.", "bold green")])
         return DONE
 
     def grade() -> int:
-        _, now, _ = here(student)
+        _, now, _ = locate_course(student)
         try:
             code = grade_file(one, None, folder, now, who, plain=plain)
         except Refusal as refusal:  # the next time it is saved, it may be readable
             complain(str(refusal), name="grade")
             code = COULD_NOT
         if code != DONE:
-            show([line(), line(f"Waiting for {place(one, folder)} to be saved; Ctrl-C ends.")])
+            show(
+                [line(), line(f"Waiting for {display_path(one, folder)} to be saved; Ctrl-C ends.")]
+            )
         return code
 
     try:
         keep_watching(one, grade=grade)
     except KeyboardInterrupt:
         return DONE
-    _, after, _ = here(student)
-    rest = first_open(found, lambda name: after.of(who, name).done)
+    _, after, _ = locate_course(student)
+    rest = first_unfinished(found, lambda name: after.of(who, name).done)
     show([line(f"Next: grade watch {rest.name}" if rest else "Everything here is done.")])
     return DONE
 

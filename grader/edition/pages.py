@@ -4,11 +4,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.classroom.written import written
+from grader.classroom.atomic_files import write_private_file
 from grader.edition.executed import execute
-from grader.edition.rendered import Part, parts
+from grader.edition.rendered import Part, split_notebook
 from sim.errors import BadRequest
-from sim.report.written import templates
+from sim.report.page_file import load_templates
 
 FOLDER = Path(__file__).parent
 SYSTEM_CHECK = "System check"
@@ -63,16 +63,16 @@ def build(
     lessons = []
     for path in notebooks:
         say(path.stem)
-        lessons.append(Lesson(path.stem, parts(execute(path))))
+        lessons.append(Lesson(path.stem, split_notebook(execute(path))))
     for place, lesson in enumerate(lessons):
         before = lessons[place - 1].page if place else ""
         after = lessons[place + 1].page if place + 1 < len(lessons) else ""
         for slides in (False, True):
             text = _page(lesson, before=before, after=after, slides=slides)
-            written(folder / (lesson.slides if slides else lesson.page), text)
-    written(folder / "handout.html", _handout(lessons))
+            write_private_file(folder / (lesson.slides if slides else lesson.page), text)
+    write_private_file(folder / "handout.html", _handout(lessons))
     text = _fill("index.html.jinja", lessons=lessons)
-    return written(folder / "index.html", text)
+    return write_private_file(folder / "index.html", text)
 
 
 def _page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str:
@@ -98,4 +98,4 @@ def _handout(lessons: Sequence[Lesson]) -> str:
 
 
 def _fill(name: str, **what: object) -> str:
-    return templates(FOLDER).get_template(name).render(what)
+    return load_templates(FOLDER).get_template(name).render(what)

@@ -31,7 +31,7 @@ class Part:
         return re.sub(r"[^a-z0-9]+", "-", self.heading.lower()).strip("-")
 
 
-def parts(notebook: Any) -> tuple[Part, ...]:  # noqa: ANN401 - nbformat has no types
+def split_notebook(notebook: Any) -> tuple[Part, ...]:  # noqa: ANN401 - nbformat has no types
     """An executed notebook, cut at its title and its sections."""
     widgets = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
     found: list[tuple[str, int, list[str]]] = []
@@ -73,11 +73,11 @@ def _markdown(text: str) -> str:
 
 def _code(cell: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types
     shown = "".join(_output(one, widgets) for one in cell.get("outputs", []))
-    source = highlighted(cell.source)
+    source = highlight_python(cell.source)
     return f"<details><summary>Code</summary>{source}</details>{shown}"
 
 
-def highlighted(source: str) -> str:
+def highlight_python(source: str) -> str:
     """Python code with bold keywords: legible on light and on dark pages alike."""
     from pygments import highlight  # type: ignore[import-untyped]  # noqa: PLC0415 - as above
     from pygments.formatters import (  # type: ignore[import-untyped]  # noqa: PLC0415 - no types

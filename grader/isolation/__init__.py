@@ -2,19 +2,19 @@
 
     outcome = run(Path("fit.py"), calls=[Call("fit", {"time": time, "voltage": voltage})])
 
-The child (``child.py``) confines itself before it reads the learner's file: no files but Python's
+The child (``sandbox_child.py``) confines itself before it reads the learner's file: no files but Python's
 own, the data and an empty folder (``landlock.py``), no network, no processes, nobody else's process
 (``seccomp.py``), so much time, memory and disk (``limits.py``). What it says is judged outside
 (``received.py``), where nothing it made is ever imported or unpickled. Where a system has no such
 confinement there are limits only, and ``level`` says so.
 
 What has to run as a whole program, as a robot does, is confined in the same way by ``run_program``
-(``program.py`` outside, ``inside.py`` in the child); it leaves files for others to judge.
+(``sandbox_program.py`` outside, ``sandbox_program_child.py`` in the child); it leaves files for others to judge.
 """
 
-from grader.isolation.apart import Call, Limits, Outcome, level, run
-from grader.isolation.program import run_program
-from grader.isolation.received import Answer, one_line
+from grader.isolation.result_parsing import Answer, one_line
+from grader.isolation.sandbox_parent import Call, Limits, Outcome, isolation_level, run_functions
+from grader.isolation.sandbox_program import run_program
 from grader.isolation.scratch import scratch_folder
 
 __all__ = [
@@ -22,9 +22,9 @@ __all__ = [
     "Call",
     "Limits",
     "Outcome",
-    "level",
+    "isolation_level",
     "one_line",
-    "run",
+    "run_functions",
     "run_program",
     "scratch_folder",
 ]

@@ -14,31 +14,27 @@ from grader.robotcode.binding_facts import (
     Guard,
 )
 from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS
+from grader.robotcode.closure import (
+    BoundNode,
+    enter_call,
+    functions_named,
+    functions_of,
+    resolve_bound,
+)
 from grader.robotcode.commands import Commands, Runs
-from grader.robotcode.comments import beside, comments
+from grader.robotcode.comments import comments, comments_near
 from grader.robotcode.compiling import compile_errors
+from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.controllers import controllers
 from grader.robotcode.factories import factories, is_private
 from grader.robotcode.facts import Problem
 from grader.robotcode.files import Files
-from grader.robotcode.meaning import last_name
-from grader.robotcode.measure import Measures
-from grader.robotcode.names import Names
+from grader.robotcode.ir import Branch, Call, Class, Function, Items, Loop, Member, Node, Place
+from grader.robotcode.name_resolution import last_name
 from grader.robotcode.scope import Scope, walk
-from grader.robotcode.sight import Seen, entered, followed, functions_named, functions_of
-from grader.robotcode.syntax import (
-    Branch,
-    Call,
-    Class,
-    Function,
-    Items,
-    Loop,
-    Member,
-    Node,
-    Place,
-)
+from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.triggers import Asks, Part, Triggers
-from grader.robotcode.vocabulary import plain
+from grader.robotcode.vocabulary import java_spelling
 
 DEEPEST = 120  # pieces of code one inside the other
 MOST_CALLS = 5  # methods followed, one inside the other
@@ -62,7 +58,7 @@ class _Way:
         depth: how many pieces of code are around it.
     """
 
-    conditions: tuple[Seen, ...] = ()
+    conditions: tuple[BoundNode, ...] = ()
     places: tuple[Place, ...] = ()
     functions: tuple[Function, ...] = ()
     depth: int = 0
@@ -77,7 +73,7 @@ def bindings_of(path: Path) -> BindingFacts:
     Raises:
         UnreadableFile: it is missing, empty, too large, not text, or neither Java nor Python.
     """
-    names = Names(Files(path))
+    names = SymbolTable(Files(path))
     if names.main.problems:
         return BindingFacts(names.main.language, problems=names.main.problems)
     return _Reader(names).facts()
@@ -86,8 +82,8 @@ def bindings_of(path: Path) -> BindingFacts:
 class _Reader:
     """Goes through one file."""
 
-    def __init__(self, names: Names) -> None:
-        measures = Measures(names)
+    def __init__(self, names: SymbolTable) -> None:
+        measures = ConstantFolder(names)
         self._names = names
         self._commands = Commands(names)
         self._triggers = Triggers(names, measures)
@@ -106,15 +102,15 @@ class _Reader:
         for node, scope in every:
             if isinstance(node, Class):
                 fields = [one for one in node.body if not isinstance(one, Function | Class)]
-                self._several(fields, Seen(node, scope.within(node)), _Way())
+                self._several(fields, BoundNode(node, scope.within(node)), _Way())
             elif isinstance(node, Function) and node.name and node not in called_:
                 before = len(self._bindings)
                 way = _Way(functions=(node,))
-                self._several(node.body, Seen(node, scope.within(node)), way)
+                self._several(node.body, BoundNode(node, scope.within(node)), way)
                 if len(self._bindings) > before and is_private(node, main.language):
                     uncalled.append((node.name, node.place.line))
         top = [one for one in main.body if not isinstance(one, Function | Class)]
-        self._several(top, Seen(top[0], Scope(main)) if top else None, _Way())
+        self._several(top, BoundNode(top[0], Scope(main)) if top else None, _Way())
         return BindingFacts(
             main.language,
             factories=tuple(factories(every, self._names, self._commands)),
@@ -127,13 +123,16 @@ class _Reader:
         )
 
     def _several(
-        self, nodes: Iterator[Node] | list[Node] | tuple[Node, ...], around: Seen | None, way: _Way
+        self,
+        nodes: Iterator[Node] | list[Node] | tuple[Node, ...],
+        around: BoundNode | None,
+        way: _Way,
     ) -> None:
         for node in nodes:
             if around is not None:
                 self._through(around.at(node), way)
 
-    def _through(self, seen: Seen, way: _Way) -> None:
+    def _through(self, seen: BoundNode, way: _Way) -> None:
         """Go through a piece of code, what is inside it first."""
         node = seen.node
         self._steps += 1
@@ -155,9 +154,9 @@ class _Reader:
         if isinstance(node, Call):
             self._call(seen, node, way)
 
-    def _loop(self, seen: Seen, loop: Loop, way: _Way) -> None:
+    def _loop(self, seen: BoundNode, loop: Loop, way: _Way) -> None:
         """Go through a loop's body for each element, where they are written out."""
-        several = followed(seen.at(loop.collection), self._names)
+        several = resolve_bound(seen.at(loop.collection), self._names)
         items = self._items(several)
         inner = replace(way, depth=way.depth + 1)
         if not items:
@@ -172,7 +171,7 @@ class _Reader:
             there = replace(inner, places=(*inner.places, item.place))
             self._several(loop.body, replace(seen, given=given), there)
 
-    def _items(self, several: Seen) -> tuple[Node, ...]:
+    def _items(self, several: BoundNode) -> tuple[Node, ...]:
         """The elements of a list that is written out, or of several side by side."""
         node = several.node
         if isinstance(node, Items):
@@ -180,12 +179,14 @@ class _Reader:
         if not isinstance(node, Call):
             return ()
         if last_name(node.target) == "zip":
-            columns = [self._items(followed(several.at(arg), self._names)) for arg in node.args]
+            columns = [
+                self._items(resolve_bound(several.at(arg), self._names)) for arg in node.args
+            ]
             return tuple(Items(row[0].place, row) for row in zip(*columns, strict=False))
         return node.args if last_name(node.target) in {"of", "asList"} else ()
 
-    def _call(self, seen: Seen, call: Call, way: _Way) -> None:
-        name = plain(last_name(call.target))
+    def _call(self, seen: BoundNode, call: Call, way: _Way) -> None:
+        name = java_spelling(last_name(call.target))
         args = [*call.args, *(node for _, node in call.named)]
         functions = functions_of(seen, self._names)
         if name in HOLDS and isinstance(call.target, Member) and args and not functions:
@@ -202,16 +203,16 @@ class _Reader:
                 functions=(*way.functions, function),
                 depth=way.depth + 1,
             )
-            self._several(function.body, entered(seen, functions[0]), into)
+            self._several(function.body, enter_call(seen, functions[0]), into)
 
-    def _chosen(self, seen: Seen, call: Call, args: list[Node]) -> None:
+    def _chosen(self, seen: BoundNode, call: Call, args: list[Node]) -> None:
         """A test that somebody chooses instead of holding a button."""
         owner = [call.target.owner] if isinstance(call.target, Member) else []
         runs = [self._commands.of(seen.at(node)) for node in [*args, *owner]]
         if any(one.tests for one in runs):
             self._elsewhere.setdefault(call.place.text, call.target.place.line)
 
-    def _bound(self, seen: Seen, call: Call, command: Seen, way: _Way) -> None:
+    def _bound(self, seen: BoundNode, call: Call, command: BoundNode, way: _Way) -> None:
         runs = self._commands.of(command)
         line = call.target.place.line
         said = f"{last_name(call.target)}({command.node.place.text})"
@@ -226,7 +227,7 @@ class _Reader:
         self._bindings.append(
             Binding(
                 runs.tests,
-                HOLDS[plain(last_name(call.target))],
+                HOLDS[java_spelling(last_name(call.target))],
                 "" if unknown else " + ".join(keys),
                 tuple(dict.fromkeys(controllers)),
                 self._guards(parts, runs, way),
@@ -259,7 +260,7 @@ class _Reader:
     def _said(self, places: tuple[Place, ...]) -> str:
         """The comments beside the places that led to a binding."""
         found = dict.fromkeys(
-            beside(self._comments, place.line, _last(place))
+            comments_near(self._comments, place.line, _last(place))
             for place in places
             if place.source is self._names.main.source
         )

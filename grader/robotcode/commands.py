@@ -6,10 +6,15 @@ from dataclasses import dataclass, replace
 
 from grader.robotcode.binding_facts import KINDS, SysIdTest
 from grader.robotcode.button_vocabulary import CONDITIONED, ENDED, EXCEPT
-from grader.robotcode.meaning import called, last_name, simple, type_from, type_of
-from grader.robotcode.names import Names
-from grader.robotcode.sight import Seen, definitions, entered, followed, functions_of, returned
-from grader.robotcode.syntax import (
+from grader.robotcode.closure import (
+    BoundNode,
+    definitions,
+    enter_call,
+    functions_of,
+    resolve_bound,
+    returned_nodes,
+)
+from grader.robotcode.ir import (
     Call,
     Choice,
     Element,
@@ -23,7 +28,15 @@ from grader.robotcode.syntax import (
     Reference,
     Return,
 )
-from grader.robotcode.vocabulary import DIRECTIONS, constant, plain
+from grader.robotcode.name_resolution import (
+    called_functions,
+    last_name,
+    simple_type_name,
+    type_from,
+    type_of,
+)
+from grader.robotcode.symbol_table import SymbolTable
+from grader.robotcode.vocabulary import DIRECTIONS, enum_constant, java_spelling
 
 DEEPEST = 12  # methods and compositions one inside the other
 KIND = re.compile(r"(quasi)|(dynamic)", re.IGNORECASE)
@@ -45,8 +58,8 @@ class Runs:
     """
 
     tests: tuple[SysIdTest, ...] = ()
-    conditions: tuple[Seen, ...] = ()
-    exceptions: tuple[Seen, ...] = ()
+    conditions: tuple[BoundNode, ...] = ()
+    exceptions: tuple[BoundNode, ...] = ()
     scheduled: bool = False
     stopped: bool = False
     unclear: Node | None = None
@@ -60,14 +73,14 @@ class Commands:
         names: the names of the program.
     """
 
-    def __init__(self, names: Names) -> None:
+    def __init__(self, names: SymbolTable) -> None:
         self._names = names
 
-    def of(self, seen: Seen, *, depth: int = 0) -> Runs:
+    def of(self, seen: BoundNode, *, depth: int = 0) -> Runs:
         """What a command, or what makes one, runs."""
         if depth > DEEPEST:
             return Runs(unclear=seen.node)
-        seen = followed(seen, self._names)
+        seen = resolve_bound(seen, self._names)
         node = seen.node
         if isinstance(node, Call):
             return self._call(seen, node, depth + 1)
@@ -78,7 +91,7 @@ class Commands:
             return Runs(unclear=node)
         return self._parts(seen, node, depth + 1)
 
-    def _parts(self, seen: Seen, node: Node, depth: int) -> Runs:
+    def _parts(self, seen: BoundNode, node: Node, depth: int) -> Runs:
         """What a choice, a list or a lambda runs."""
         parts = node.parts
         if isinstance(node, Choice):
@@ -87,32 +100,32 @@ class Commands:
             seen, parts = replace(seen, scope=seen.scope.within(node)), node.body
         elif not isinstance(node, Items | Opaque | Return):
             parts = ()
-        return joined(self.of(seen.at(one), depth=depth) for one in parts)
+        return join_runs(self.of(seen.at(one), depth=depth) for one in parts)
 
-    def _one_of(self, several: Iterable[Seen], depth: int) -> Runs:
+    def _one_of(self, several: Iterable[BoundNode], depth: int) -> Runs:
         """One of several commands; which one, only the running program knows."""
-        found = joined(self.of(one, depth=depth) for one in several)
+        found = join_runs(self.of(one, depth=depth) for one in several)
         return replace(found, either=True) if len(found.tests) > 1 else found
 
-    def _chosen(self, seen: Seen, choice: Choice) -> tuple[Node, ...]:
+    def _chosen(self, seen: BoundNode, choice: Choice) -> tuple[Node, ...]:
         """The part of a choice that holds, or both."""
-        said = followed(seen.at(choice.condition), self._names).node.place.text.lower()
+        said = resolve_bound(seen.at(choice.condition), self._names).node.place.text.lower()
         both = (choice.one, choice.other)
         return {"true": both[:1], "false": both[1:]}.get(said, both)
 
-    def _is_method(self, seen: Seen, node: Member) -> bool:
+    def _is_method(self, seen: BoundNode, node: Member) -> bool:
         """Whether a member is a method that is named, not called."""
         if isinstance(node, Reference):
             return True
         call = Call(node.place, node, ())
-        return bool(called(call, seen.scope, self._names))
+        return bool(called_functions(call, seen.scope, self._names))
 
-    def _call(self, seen: Seen, call: Call, depth: int) -> Runs:
-        name = plain(last_name(call.target))
+    def _call(self, seen: BoundNode, call: Call, depth: int) -> Runs:
+        name = java_spelling(last_name(call.target))
         functions = functions_of(seen, self._names)
         if len(functions) == 1:
-            inner = entered(seen, functions[0])
-            results = returned(functions[0][0])
+            inner = enter_call(seen, functions[0])
+            results = returned_nodes(functions[0][0])
             return self._one_of(map(inner.at, results), depth)
         if len(functions) > 1:
             return Runs(unclear=call)
@@ -124,14 +137,14 @@ class Commands:
         return self._library(seen, name, owner, args, depth) or self._by_name(seen, name, args)
 
     def _library(
-        self, seen: Seen, name: str, owner: list[Node], args: list[Node], depth: int
+        self, seen: BoundNode, name: str, owner: list[Node], args: list[Node], depth: int
     ) -> Runs | None:
         """What a library's method makes of the commands it is given; None if there are none."""
         asked = CONDITIONED.get(name)
         parts = [*owner, *args]
         if asked is not None:
             parts = [*owner, *args[:asked]]
-        found = joined(self.of(seen.at(part), depth=depth) for part in parts)
+        found = join_runs(self.of(seen.at(part), depth=depth) for part in parts)
         if not found.tests:
             return None
         if asked is not None:
@@ -145,7 +158,7 @@ class Commands:
         )
 
     def _conditioned(
-        self, found: Runs, args: tuple[Seen, ...], name: str, asked: int, depth: int
+        self, found: Runs, args: tuple[BoundNode, ...], name: str, asked: int, depth: int
     ) -> Runs:
         """A command with the condition of a decorator, or of a choice between two commands."""
         condition = args[asked : asked + 1]
@@ -154,12 +167,14 @@ class Commands:
             return replace(found, exceptions=(*found.exceptions, *condition))
         return replace(found, conditions=(*found.conditions, *condition))
 
-    def _type(self, seen: Seen) -> str:
+    def _type(self, seen: BoundNode) -> str:
         """The class of what a method is called on, by its own name; empty if unknown."""
         found = type_of(seen.node, seen.scope, self._names)
-        return simple(found or type_from(tuple(definitions(seen, self._names)), self._names))
+        return simple_type_name(
+            found or type_from(tuple(definitions(seen, self._names)), self._names)
+        )
 
-    def _by_name(self, seen: Seen, name: str, args: list[Node]) -> Runs:
+    def _by_name(self, seen: BoundNode, name: str, args: list[Node]) -> Runs:
         """A method of a class that is not in these files: only its name can tell."""
         kind = KIND.search(name)
         if kind is None or name[:1].isupper():
@@ -170,21 +185,21 @@ class Commands:
             ways = ["forward" if way[1] else "reverse"]
         return Runs((SysIdTest("quasistatic" if kind[1] else "dynamic", ways[0], read=False),))
 
-    def _direction(self, seen: Seen) -> str:
-        seen = followed(seen, self._names)
+    def _direction(self, seen: BoundNode) -> str:
+        seen = resolve_bound(seen, self._names)
         node = seen.node
         if isinstance(node, Choice):
             ways = [self._direction(seen.at(one)) for one in self._chosen(seen, node)]
-            asked = followed(seen.at(node.condition), self._names)
+            asked = resolve_bound(seen.at(node.condition), self._names)
             return ways[0] if len(ways) == 1 else "any" if self._is_open(asked) else ""
         if self._is_open(seen):
             return "any"
         if isinstance(node, Name | Member):
-            word = constant(node.name)
+            word = enum_constant(node.name)
             return word if word in DIRECTIONS else ""
         return ""
 
-    def _is_open(self, seen: Seen) -> bool:
+    def _is_open(self, seen: BoundNode) -> bool:
         """Whether a name is a parameter that nobody has given anything yet."""
         if not isinstance(seen.node, Name):
             return False
@@ -192,7 +207,7 @@ class Commands:
         return any(isinstance(one.value, Parameter) for one in found)
 
 
-def joined(several: Iterable[Runs]) -> Runs:
+def join_runs(several: Iterable[Runs]) -> Runs:
     """What several commands together run, each test once."""
     found = list(several)
     return Runs(

@@ -6,7 +6,7 @@ import tokenize
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from grader.robotcode.syntax import Module
+from grader.robotcode.ir import Module
 
 _JAVA = re.compile(
     r"(?P<line>//[^\n]*)|(?P<block>/\*.*?(?:\*/|\Z))"
@@ -62,7 +62,7 @@ def _in_python(text: str) -> Iterator[Comment]:
         return  # what does not parse has been said before
 
 
-def beside(found: tuple[Comment, ...], first: int, last: int) -> str:
+def comments_near(found: tuple[Comment, ...], first: int, last: int) -> str:
     """The comments on some lines, and the block of comments directly above them."""
     said = [one.text for one in found if first <= one.first <= last]
     top = first

@@ -4,20 +4,20 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from grader.robotcode.binding_facts import Controller
-from grader.robotcode.names import Names
+from grader.robotcode.closure import BoundNode, functions_named
+from grader.robotcode.ir import Call, Member, Name, Node
 from grader.robotcode.scope import Scope
-from grader.robotcode.sight import Seen, functions_named
-from grader.robotcode.syntax import Call, Member, Name, Node
+from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.triggers import Triggers
 
 
 def controllers(
-    every: Sequence[tuple[Node, Scope]], names: Names, triggers: Triggers
+    every: Sequence[tuple[Node, Scope]], names: SymbolTable, triggers: Triggers
 ) -> tuple[Controller, ...]:
     """The controllers of the file, with what else is done with their buttons and sticks."""
     found: dict[str, Controller] = {}
     for node, scope in every:
-        seen = Seen(node, scope)
+        seen = BoundNode(node, scope)
         if isinstance(node, Name | Member):
             name = triggers.controller(seen)
             if name and name not in found:
@@ -29,13 +29,13 @@ def controllers(
 
 
 def _other_uses(
-    every: Sequence[tuple[Node, Scope]], names: Names, triggers: Triggers
+    every: Sequence[tuple[Node, Scope]], names: SymbolTable, triggers: Triggers
 ) -> Iterator[tuple[Node, str]]:
     """Where a controller does something that no test's trigger asks for."""
     asked = triggers.asked
     mine = asked | {node.target for node in asked if isinstance(node, Call)}
     for node, scope in every:
-        seen = Seen(node, scope)
+        seen = BoundNode(node, scope)
         if isinstance(node, Member) and node not in mine:
             name = triggers.controller(seen.at(node.owner))
             if name:

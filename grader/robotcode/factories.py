@@ -4,16 +4,16 @@ import re
 from collections.abc import Iterator, Sequence
 
 from grader.robotcode.binding_facts import Factory
+from grader.robotcode.closure import BoundNode, returned_nodes
 from grader.robotcode.commands import Commands
-from grader.robotcode.meaning import class_of, type_of
-from grader.robotcode.names import Names
+from grader.robotcode.ir import Class, Function, Member, Node, Self
+from grader.robotcode.name_resolution import class_of, type_of
 from grader.robotcode.scope import Scope
-from grader.robotcode.sight import Seen, returned
-from grader.robotcode.syntax import Class, Function, Member, Node, Self
+from grader.robotcode.symbol_table import SymbolTable
 
 
 def factories(
-    every: Sequence[tuple[Node, Scope]], names: Names, commands: Commands
+    every: Sequence[tuple[Node, Scope]], names: SymbolTable, commands: Commands
 ) -> Iterator[Factory]:
     """The methods that make a test's command, of the classes here and of those they own."""
     main = names.main
@@ -32,8 +32,8 @@ def factories(
                 continue
             line = method.place.line if home.module is main else 0
             public = is_public(method, home.module.language)
-            seen = Seen(method, home.within(method))
-            for value in returned(method):
+            seen = BoundNode(method, home.within(method))
+            for value in returned_nodes(method):
                 for test in commands.of(seen.at(value)).tests:
                     if test.read:
                         yield Factory(test, method.name, public, line)

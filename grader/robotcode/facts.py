@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 
-class Known(Enum):
+class Certainty(Enum):
     """How a fact was come by."""
 
     STATED = "stated"  # written in the code, through constants and arithmetic where need be
@@ -30,7 +30,7 @@ class Quantity:
         line: line in the source, from 1; 0 if it is not there.
     """
 
-    known: Known
+    known: Certainty
     value: float | None = None
     dimension: str = ""
     text: str = ""
@@ -163,9 +163,9 @@ class RoutineFacts:
     class_name: str = ""
     is_subsystem: bool = False
     routine_line: int = 0
-    ramp: Quantity = Quantity(Known.UNKNOWN)
-    step: Quantity = Quantity(Known.UNKNOWN)
-    timeout: Quantity = Quantity(Known.UNKNOWN)
+    ramp: Quantity = Quantity(Certainty.UNKNOWN)
+    step: Quantity = Quantity(Certainty.UNKNOWN)
+    timeout: Quantity = Quantity(Certainty.UNKNOWN)
     motors: tuple[str, ...] = ()
     drive_found: bool = False
     log_found: bool = False

@@ -3,8 +3,8 @@
 import os
 from pathlib import Path
 
+from grader.robotcode.ir import Module
 from grader.robotcode.source import language_of, text_of
-from grader.robotcode.syntax import Module
 from sim.errors import UnreadableFile
 
 MOST_FILES = 200  # neighbours looked at; a robot program has about fifty

@@ -3,10 +3,7 @@
 from collections.abc import Iterator
 from itertools import islice
 
-from grader.robotcode.meaning import Placed, last_name, resolve, simple, type_from, type_of
-from grader.robotcode.names import Names
-from grader.robotcode.scope import Scope, walk
-from grader.robotcode.syntax import (
+from grader.robotcode.ir import (
     Assign,
     Call,
     Element,
@@ -18,16 +15,26 @@ from grader.robotcode.syntax import (
     Parameter,
     Reference,
     Self,
-    inside,
+    iter_nodes,
 )
+from grader.robotcode.name_resolution import (
+    Placed,
+    last_name,
+    resolve,
+    simple_type_name,
+    type_from,
+    type_of,
+)
+from grader.robotcode.scope import Scope, walk
+from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
     COLLECTIONS,
     DRIVES,
     FOLLOWERS,
     GROUPS,
-    constant,
+    enum_constant,
     is_motor,
-    plain,
+    java_spelling,
 )
 
 DEEPEST = 3  # a list of groups of motors
@@ -35,7 +42,7 @@ MOST = 16  # motors in one list
 MOST_NODES = 200  # of an expression that may make settings
 
 
-def label(node: Node) -> str:
+def motor_label(node: Node) -> str:
     """What a motor is called in messages: ``m_left``, ``io.motor``."""
     if isinstance(node, Name):
         return node.name
@@ -44,14 +51,14 @@ def label(node: Node) -> str:
     return node.place.text
 
 
-def elements(node: Node, scope: Scope, names: Names) -> tuple[Placed, ...]:
+def motor_elements(node: Node, scope: Scope, names: SymbolTable) -> tuple[Placed, ...]:
     """The motors in an array, a list, a motor group or a drive, if they have names of their own."""
     found = _listed(node, scope, names)
     named = all(isinstance(item, Name | Member | Element | Items) for item, _ in found)
     return found[:MOST] if named else ()
 
 
-def _listed(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tuple[Placed, ...]:
+def _listed(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> tuple[Placed, ...]:
     """What is in an array, a list or a group, whatever it is."""
     value, where = resolve(node, scope, names)
     several: tuple[Node, ...] = ()
@@ -70,7 +77,7 @@ def _listed(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tuple[
     return tuple((item.owner if isinstance(item, Reference) else item, where) for item in several)
 
 
-def _paired(call: Call, scope: Scope, names: Names, depth: int) -> tuple[Placed, ...]:
+def _paired(call: Call, scope: Scope, names: SymbolTable, depth: int) -> tuple[Placed, ...]:
     """What Python's enumerate, zip and a dictionary's items and values run over."""
     name = last_name(call.target)
     lists: list[tuple[Placed, ...]] = []
@@ -91,12 +98,12 @@ def _paired(call: Call, scope: Scope, names: Names, depth: int) -> tuple[Placed,
     )
 
 
-def motor_names(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tuple[str, ...]:
+def motor_names(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> tuple[str, ...]:
     """The motors that a node stands for: itself, or all that are in it."""
     if isinstance(node, Element):
         node = node.owner
     if depth < DEEPEST:
-        members = elements(node, scope, names) or _motor_behind(node, scope, names)
+        members = motor_elements(node, scope, names) or _motor_behind(node, scope, names)
         if not members and isinstance(node, Name):
             members = tuple(
                 (d.value, d.scope)
@@ -106,10 +113,10 @@ def motor_names(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> tu
         if members:
             several = (motor_names(n, s, names, depth=depth + 1) for n, s in members[:MOST])
             return tuple(dict.fromkeys(name for some in several for name in some))
-    return (label(node),)
+    return (motor_label(node),)
 
 
-def _motor_behind(node: Node, scope: Scope, names: Names) -> tuple[Placed, ...]:
+def _motor_behind(node: Node, scope: Scope, names: SymbolTable) -> tuple[Placed, ...]:
     """The motor whose part this is: ``m_motor`` of ``m_motor.getClosedLoopController()``."""
     value, where = resolve(node, scope, names)
     if isinstance(value, Call) and isinstance(value.target, Member):
@@ -119,16 +126,16 @@ def _motor_behind(node: Node, scope: Scope, names: Names) -> tuple[Placed, ...]:
     return ()
 
 
-def owned(home: Scope, names: Names) -> tuple[str, ...]:
+def owned_motors(home: Scope, names: SymbolTable) -> tuple[str, ...]:
     """The motor controllers a class has, without those set to follow another."""
     classes = names.lineage(home)
     found: dict[str, None] = {}
     for place in classes:
         for name, definitions in names.fields(place).items():
             first = next((d for d in definitions if d.value is not None), None)
-            named = bool(first and first.value and elements(first.value, first.scope, names))
+            named = bool(first and first.value and motor_elements(first.value, first.scope, names))
             type_ = type_from(definitions, names)
-            if (is_motor(type_) or simple(type_) in GROUPS) and not named:
+            if (is_motor(type_) or simple_type_name(type_) in GROUPS) and not named:
                 found[name] = None
     following = {name for place in classes for name in _Followers(names).of(place)}
     return tuple(name for name in found if name not in following)
@@ -137,7 +144,7 @@ def owned(home: Scope, names: Names) -> tuple[str, ...]:
 class _Followers:
     """Finds the motors of a class that are told to follow another, in the order of the text."""
 
-    def __init__(self, names: Names) -> None:
+    def __init__(self, names: SymbolTable) -> None:
         self._names = names
         self._configs: set[tuple[str, Node | None]] = set()  # settings that make a follower
 
@@ -156,7 +163,7 @@ class _Followers:
 
     def _followers(self, call: Call, target: Member, scope: Scope) -> list[Placed]:
         """The motors that one call makes followers."""
-        name = plain(target.name)
+        name = java_spelling(target.name)
         motor = (target.owner, scope)
         first = call.args[0] if call.args else None
         if name == "addFollower":
@@ -166,9 +173,11 @@ class _Followers:
                 return [motor]
             self._configs.add(self._key(_root(target), scope))
         elif name == "setControl" and first is not None:
-            return [motor] if simple(type_of(first, scope, self._names)) in FOLLOWERS else []
+            return (
+                [motor] if simple_type_name(type_of(first, scope, self._names)) in FOLLOWERS else []
+            )
         elif name == "set" and first is not None:
-            return [motor] if constant(last_name(first)) == "follower" else []
+            return [motor] if enum_constant(last_name(first)) == "follower" else []
         elif name == "configure" and first is not None:
             follows = self._key(first, scope) in self._configs or self._settings_follow(
                 first, scope
@@ -189,7 +198,7 @@ class _Followers:
     def _key(self, node: Node, scope: Scope) -> tuple[str, Node | None]:
         """A variable, told apart from those of the same name in other methods."""
         local = self._names.local(node.name, scope) if isinstance(node, Name) else ()
-        return label(node), local[0].scope.functions[-1] if local else None
+        return motor_label(node), local[0].scope.functions[-1] if local else None
 
     def _called_with(self, motor: Node, scope: Scope, home: Scope) -> Iterator[str]:
         """The motor's name; where it is a method's parameter, the motors it is called with."""
@@ -199,13 +208,13 @@ class _Followers:
             return
         function = local[0].scope.functions[-1]
         at = function.parameters.index(local[0].value)
-        for node in inside(*home.classes[-1].body):
+        for node in iter_nodes(*home.classes[-1].body):
             if isinstance(node, Call) and last_name(node.target) == function.name:
-                yield from (label(arg) for arg in node.args[at : at + 1])
+                yield from (motor_label(arg) for arg in node.args[at : at + 1])
 
 
 def _follow_calls(node: Node) -> list[Call]:
-    nodes = islice(inside(node), MOST_NODES)
+    nodes = islice(iter_nodes(node), MOST_NODES)
     return [n for n in nodes if isinstance(n, Call) and last_name(n.target) == "follow"]
 
 

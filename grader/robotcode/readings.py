@@ -8,12 +8,18 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from grader.robotcode.meaning import last_name, resolve, simple, type_from, type_of
-from grader.robotcode.measure import Measures
-from grader.robotcode.motors import label
-from grader.robotcode.names import Names
+from grader.robotcode.constant_folding import ConstantFolder
+from grader.robotcode.ir import Assign, Call, Member, Name, Node, Self, Text
+from grader.robotcode.motors import motor_label
+from grader.robotcode.name_resolution import (
+    last_name,
+    resolve,
+    simple_type_name,
+    type_from,
+    type_of,
+)
 from grader.robotcode.scope import Scope, bindings, walk
-from grader.robotcode.syntax import Assign, Call, Member, Name, Node, Self, Text
+from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
     APPLIED_DUTY,
     APPLIED_VOLTAGE,
@@ -22,7 +28,7 @@ from grader.robotcode.vocabulary import (
     ROTATIONS,
     SPARKS,
     is_motor,
-    plain,
+    java_spelling,
 )
 
 PARTS = {  # methods of a motor controller that hand out its encoder
@@ -93,16 +99,16 @@ def quantity_of(method: str, *, motor: bool) -> str:
     return next((name for name, form in QUANTITIES if form.fullmatch(method)), "")
 
 
-def device_of(node: Node, scope: Scope, names: Names) -> tuple[str, str]:
+def device_of(node: Node, scope: Scope, names: SymbolTable) -> tuple[str, str]:
     """The name and the class of a motor controller or encoder; two empty texts for other nodes."""
-    type_ = simple(type_of(node, scope, names))
+    type_ = simple_type_name(type_of(node, scope, names))
     value, _ = resolve(node, scope, names)
     if isinstance(value, Call) and isinstance(value.target, Member):
-        made = PARTS.get(plain(value.target.name), "")
+        made = PARTS.get(java_spelling(value.target.name), "")
         if made and not value.target.name[:1].isupper():
-            return label(value.target.owner), made
+            return motor_label(value.target.owner), made
     known = is_motor(type_) or bool(ENCODER.fullmatch(type_))
-    return (label(node), type_) if known else ("", "")
+    return (motor_label(node), type_) if known else ("", "")
 
 
 def native_unit(reading: Reading, settings: Settings) -> tuple[str, float | None]:
@@ -137,7 +143,7 @@ def native_unit(reading: Reading, settings: Settings) -> tuple[str, float | None
     return found
 
 
-def settings_of(home: Scope, names: Names, measures: Measures) -> Settings:
+def settings_of(home: Scope, names: SymbolTable, measures: ConstantFolder) -> Settings:
     """What a class, and the file it is in, sets its devices to."""
     return _SettingsReader(names, measures).read(home)
 
@@ -145,7 +151,7 @@ def settings_of(home: Scope, names: Names, measures: Measures) -> Settings:
 class _SettingsReader:
     """Goes through the code for what sets a device."""
 
-    def __init__(self, names: Names, measures: Measures) -> None:
+    def __init__(self, names: SymbolTable, measures: ConstantFolder) -> None:
         self._names = names
         self._measures = measures
         self._found = Settings()
@@ -166,13 +172,13 @@ class _SettingsReader:
     def _assigned(self, name: str, value: Node) -> None:
         if _is_ratio(name):
             self._found.ratios.append(value.place.text)
-        elif plain(name).lower() == "inverted":
+        elif java_spelling(name).lower() == "inverted":
             self._found.inverted.add(ANY)
 
     def _called(self, target: Member, first: Node, scope: Scope) -> None:
-        name = plain(target.name).removeprefix("set").removeprefix("with")
+        name = java_spelling(target.name).removeprefix("set").removeprefix("with")
         name = name[:1].lower() + name[1:]
-        device = ANY if _is_open(target.owner, scope, self._names) else label(target.owner)
+        device = ANY if _is_open(target.owner, scope, self._names) else motor_label(target.owner)
         measure = self._measures.of(first, scope)
         amount = None if measure is None else measure.value
         if name == "distancePerPulse":
@@ -197,14 +203,14 @@ def _configured(node: Node) -> str:
     inner = node.target if isinstance(node, Call) else node
     if isinstance(inner, Member) and isinstance(node, Call):
         inner = inner.owner
-    return label(inner)
+    return motor_label(inner)
 
 
 def _is_ratio(name: str) -> bool:
-    return plain(name).lower().endswith(("sensortomechanismratio", "rotortosensorratio"))
+    return java_spelling(name).lower().endswith(("sensortomechanismratio", "rotortosensorratio"))
 
 
-def _is_open(node: Node, scope: Scope, names: Names) -> bool:
+def _is_open(node: Node, scope: Scope, names: SymbolTable) -> bool:
     """Whether a device is a parameter, an element of a list, or another object's."""
     if isinstance(node, Member) and isinstance(node.owner, Self):
         return False
@@ -215,7 +221,9 @@ def _is_open(node: Node, scope: Scope, names: Names) -> bool:
     return bool(names.local(node.name, scope))
 
 
-def impossible_numbers(home: Scope, names: Names, measures: Measures) -> list[tuple[str, float]]:
+def impossible_numbers(
+    home: Scope, names: SymbolTable, measures: ConstantFolder
+) -> list[tuple[str, float]]:
     """A class's devices that are made with what can be no port and no CAN ID."""
     found = []
     for name, value in _made(home, names):
@@ -228,22 +236,24 @@ def impossible_numbers(home: Scope, names: Names, measures: Measures) -> list[tu
     return found
 
 
-def _made(home: Scope, names: Names) -> Iterator[tuple[str, Call]]:
+def _made(home: Scope, names: SymbolTable) -> Iterator[tuple[str, Call]]:
     """The motor controllers and encoders of a class that are made with a number."""
     for name, definitions in (names.fields(home) if home.classes else {}).items():
         value = next((one.value for one in definitions if isinstance(one.value, Call)), None)
         if isinstance(value, Call) and value.args:
-            type_ = simple(type_of(value, home, names))
+            type_ = simple_type_name(type_of(value, home, names))
             if is_motor(type_) or type_ == "Encoder":
                 yield name, value
 
 
-def same_numbers(home: Scope, names: Names, measures: Measures) -> list[tuple[str, str]]:
+def same_numbers(
+    home: Scope, names: SymbolTable, measures: ConstantFolder
+) -> list[tuple[str, str]]:
     """Pairs of a class's devices that are made with the same number of a port or a CAN ID."""
     made: dict[tuple[object, ...], str] = {}
     found: list[tuple[str, str]] = []
     for name, value in _made(home, names):
-        kind = simple(type_of(value, home, names))
+        kind = simple_type_name(type_of(value, home, names))
         amounts = [measures.of(arg, home) for arg in value.args]
         known = [one.value for one in amounts if one is not None]
         texts = [arg.value for arg in value.args if isinstance(arg, Text)]
@@ -254,16 +264,18 @@ def same_numbers(home: Scope, names: Names, measures: Measures) -> list[tuple[st
     return list(dict.fromkeys(found))
 
 
-def devices(home: Scope, names: Names) -> Iterator[tuple[str, str]]:
+def devices(home: Scope, names: SymbolTable) -> Iterator[tuple[str, str]]:
     """The motor controllers and encoders that a class owns: name and class."""
     for place in names.lineage(home) if home.classes else ():
         for name, definitions in names.fields(place).items():
-            type_ = simple(type_from(definitions, names))
+            type_ = simple_type_name(type_from(definitions, names))
             if is_motor(type_) or ENCODER.fullmatch(type_):
                 yield name, type_
 
 
-def numbers(home: Scope, names: Names, measures: Measures) -> Iterator[tuple[str, float]]:
+def numbers(
+    home: Scope, names: SymbolTable, measures: ConstantFolder
+) -> Iterator[tuple[str, float]]:
     """The numbers among a class's fields, and in Python among those of its file: name and value."""
     at_top = bindings(home.module.body, Scope(home.module))
     for several in (names.fields(home) if home.classes else {}, at_top):

@@ -3,24 +3,25 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from grader.robotcode.abstract_value import MotorLog, Value
 from grader.robotcode.compiling import compile_errors
-from grader.robotcode.drive import DriveTrace
-from grader.robotcode.facts import Known, Problem, Quantity, RoutineFacts
+from grader.robotcode.constant_folding import ConstantFolder
+from grader.robotcode.drive_callback import DriveTrace
+from grader.robotcode.facts import Certainty, Problem, Quantity, RoutineFacts
 from grader.robotcode.files import Files
-from grader.robotcode.logged import LogTrace
-from grader.robotcode.meaning import (
+from grader.robotcode.ir import Assign, Call, Function, Member, Node, Null, Number, Self, Text
+from grader.robotcode.log_callback import LogTrace
+from grader.robotcode.motors import owned_motors
+from grader.robotcode.name_resolution import (
     Placed,
     brought_name,
-    constructed,
+    constructed_class,
     last_name,
     methods,
     resolve,
-    simple,
+    simple_type_name,
     type_of,
 )
-from grader.robotcode.measure import Measures
-from grader.robotcode.motors import owned
-from grader.robotcode.names import Names
 from grader.robotcode.readings import (
     devices,
     impossible_numbers,
@@ -29,15 +30,14 @@ from grader.robotcode.readings import (
     settings_of,
 )
 from grader.robotcode.scope import Scope, walk
-from grader.robotcode.syntax import Assign, Call, Function, Member, Node, Null, Number, Self, Text
-from grader.robotcode.value import MotorLog, Value
+from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
     CONFIG,
     DEFAULTS,
     MECHANISM,
     ROUTINE,
     SUBSYSTEMS,
-    plain,
+    java_spelling,
 )
 
 
@@ -64,14 +64,14 @@ class _Routine:
 
 def facts_of(path: Path) -> RoutineFacts:
     """Read the facts from a file; see ``grader.robotcode.read``."""
-    names = Names(Files(path))
+    names = SymbolTable(Files(path))
     module = names.main
     facts = RoutineFacts(module.language, problems=module.problems)
     routine = _find(names)
     if routine is None:
         return facts
     facts = replace(facts, compile_errors=compile_errors(names))
-    measures = Measures(names)
+    measures = ConstantFolder(names)
     home = routine.scope.home
     if home.classes:
         above = {
@@ -83,7 +83,7 @@ def facts_of(path: Path) -> RoutineFacts:
             facts,
             class_name=home.classes[-1].name,
             is_subsystem=not above.isdisjoint(SUBSYSTEMS),
-            motors=owned(home, names),
+            motors=owned_motors(home, names),
             impossible_numbers=tuple(impossible_numbers(home, names, measures)),
             same_numbers=tuple(same_numbers(home, names, measures)),
             devices=tuple(devices(home, names)),
@@ -99,17 +99,17 @@ def facts_of(path: Path) -> RoutineFacts:
     return _with_mechanism(facts, routine.argument(routine.mechanism), names, measures)
 
 
-def _find(names: Names) -> _Routine | None:
+def _find(names: SymbolTable) -> _Routine | None:
     """The first routine that is complete, else the one that has most."""
     found = [
         _routine(node, scope, names)
         for node, scope in walk(names.main.body, Scope(names.main))
-        if isinstance(node, Call) and constructed(node, scope, names) == "SysIdRoutine"
+        if isinstance(node, Call) and constructed_class(node, scope, names) == "SysIdRoutine"
     ]
     return max(found, key=lambda one: (one.config >= 0) + (one.mechanism >= 0), default=None)
 
 
-def _routine(call: Call, scope: Scope, names: Names) -> _Routine:
+def _routine(call: Call, scope: Scope, names: SymbolTable) -> _Routine:
     kinds = {at: _kind(node, scope, names) for at, node in _arguments(call, ROUTINE).items()}
     config, mechanism = (
         next((at for at, kind in kinds.items() if kind == word), -1)
@@ -123,39 +123,41 @@ def _routine(call: Call, scope: Scope, names: Names) -> _Routine:
     return _Routine(call, scope, config, mechanism)
 
 
-def _kind(node: Node, scope: Scope, names: Names) -> str:
+def _kind(node: Node, scope: Scope, names: SymbolTable) -> str:
     """The class of an argument; empty if it cannot be told."""
     value, where = resolve(node, scope, names)
     if isinstance(value, Call):
-        return constructed(value, where, names)
+        return constructed_class(value, where, names)
     if isinstance(value, Null | Text | Number | Function | Self):
         return "other"
-    return simple(type_of(node, scope, names))
+    return simple_type_name(type_of(node, scope, names))
 
 
 def _arguments(call: Call, words: tuple[str, ...]) -> dict[int, Node]:
     """Arguments by position, those given by keyword at the position of their word."""
-    named = ((plain(word), node) for word, node in call.named)
+    named = ((java_spelling(word), node) for word, node in call.named)
     by_word = {words.index(word): node for word, node in named if word in words}
     return dict(enumerate(call.args)) | by_word
 
 
 def _may_hide(call: Call, words: tuple[str, ...]) -> bool:
     """Whether an argument may be there unseen: spread from a variable, or its word misspelled."""
-    return call.spread or any(plain(word) not in words for word, _ in call.named)
+    return call.spread or any(java_spelling(word) not in words for word, _ in call.named)
 
 
 def _with_config(
-    facts: RoutineFacts, config: Placed | None, names: Names, measures: Measures
+    facts: RoutineFacts, config: Placed | None, names: SymbolTable, measures: ConstantFolder
 ) -> RoutineFacts:
     if config is None:
         return facts
     call, scope = resolve(*config, names)
-    if not isinstance(call, Call) or constructed(call, scope, names) != "Config":
-        untold = Quantity(Known.UNKNOWN, text=config[0].place.text, line=_line(config[0], names))
+    if not isinstance(call, Call) or constructed_class(call, scope, names) != "Config":
+        untold = Quantity(
+            Certainty.UNKNOWN, text=config[0].place.text, line=_line(config[0], names)
+        )
         return replace(facts, ramp=untold, step=untold, timeout=untold)
     given = _arguments(call, CONFIG)
-    found = dict.fromkeys(DEFAULTS, Quantity(Known.UNKNOWN))
+    found = dict.fromkeys(DEFAULTS, Quantity(Certainty.UNKNOWN))
     for at, (name, default) in enumerate(DEFAULTS.items()):
         if at in given:
             found[name] = _quantity(given[at], scope, default, names, measures)
@@ -163,50 +165,50 @@ def _with_config(
             found[name] = default
     for name, change in _changes(config[0], names).items():
         line = _line(change, names)
-        found[name] = Quantity(Known.UNKNOWN, text=change.place.text, line=line)
+        found[name] = Quantity(Certainty.UNKNOWN, text=change.place.text, line=line)
     return replace(facts, ramp=found["ramp"], step=found["step"], timeout=found["timeout"])
 
 
-def _changes(config: Node, names: Names) -> dict[str, Assign]:
+def _changes(config: Node, names: SymbolTable) -> dict[str, Assign]:
     """Where a Config that a variable holds gets other numbers later, as Python lets it."""
     words = dict(zip(CONFIG, DEFAULTS, strict=False))
     return {
-        words[plain(node.target.name)]: node
+        words[java_spelling(node.target.name)]: node
         for node, _ in walk(names.main.body, Scope(names.main))
         if isinstance(node, Assign)
         and isinstance(node.target, Member)
-        and plain(node.target.name) in words
+        and java_spelling(node.target.name) in words
         and last_name(node.target.owner) == last_name(config) != ""
     }
 
 
-def _line(node: Node, names: Names) -> int:
+def _line(node: Node, names: SymbolTable) -> int:
     return node.place.line if node.place.source is names.main.source else 0
 
 
 def _quantity(
-    node: Node, scope: Scope, default: Quantity, names: Names, measures: Measures
+    node: Node, scope: Scope, default: Quantity, names: SymbolTable, measures: ConstantFolder
 ) -> Quantity:
     """One number of a Config that was given something."""
     place, line = node.place, _line(node, names)
     resolved, where = resolve(node, scope, names)
     if isinstance(resolved, Null):  # only Java takes null for "your own"; Python stumbles over it
-        known = Known.DEFAULT if where.module.language == "java" else Known.UNKNOWN
-        stated = default if known is Known.DEFAULT else Quantity(known)
+        known = Certainty.DEFAULT if where.module.language == "java" else Certainty.UNKNOWN
+        stated = default if known is Certainty.DEFAULT else Quantity(known)
         return replace(stated, text=place.text, line=line)
     measure = measures.of(node, scope)
     if measure is None or measure.unit:
-        return Quantity(Known.UNKNOWN, text=place.text, line=line)
-    return Quantity(Known.STATED, measure.value, measure.dimension, place.text, line)
+        return Quantity(Certainty.UNKNOWN, text=place.text, line=line)
+    return Quantity(Certainty.STATED, measure.value, measure.dimension, place.text, line)
 
 
 def _with_mechanism(
-    facts: RoutineFacts, mechanism: Placed | None, names: Names, measures: Measures
+    facts: RoutineFacts, mechanism: Placed | None, names: SymbolTable, measures: ConstantFolder
 ) -> RoutineFacts:
     if mechanism is None:
         return facts
     call, scope = resolve(*mechanism, names)
-    if not isinstance(call, Call) or constructed(call, scope, names) != "Mechanism":
+    if not isinstance(call, Call) or constructed_class(call, scope, names) != "Mechanism":
         said = f"`{mechanism[0].place.text}` is made in code that is not in these files"
         return replace(facts, unread=(Problem(said, _line(mechanism[0], names)),))
     given = _arguments(call, MECHANISM)
@@ -239,13 +241,13 @@ def _with_mechanism(
     )
 
 
-def _callback(node: Node | None, scope: Scope, names: Names) -> Node | None:
+def _callback(node: Node | None, scope: Scope, names: SymbolTable) -> Node | None:
     """A callback argument; None if it is left out or null."""
     empty = node is None or isinstance(resolve(node, scope, names)[0], Null)
     return None if empty else node
 
 
-def _passed(node: Node | None, call: Call, scope: Scope, names: Names) -> bool | None:
+def _passed(node: Node | None, call: Call, scope: Scope, names: SymbolTable) -> bool | None:
     """Whether the subsystem argument is the object itself."""
     if node is None:
         return None if _may_hide(call, MECHANISM) else False
@@ -253,7 +255,7 @@ def _passed(node: Node | None, call: Call, scope: Scope, names: Names) -> bool |
     return True if isinstance(value, Self) else False if isinstance(value, Null) else None
 
 
-def _in_periodic(drive: DriveTrace, scope: Scope, names: Names) -> None:
+def _in_periodic(drive: DriveTrace, scope: Scope, names: SymbolTable) -> None:
     """A callback that only keeps the voltage leaves the motors to periodic()."""
     if drive.calls or not scope.classes:
         return

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from grader.robotcode.syntax import (
+from grader.robotcode.ir import (
     Assign,
     Class,
     Element,
@@ -12,7 +12,7 @@ from grader.robotcode.syntax import (
     Module,
     Name,
     Node,
-    inside,
+    iter_nodes,
 )
 
 MOST_FUNCTIONS = 20  # functions one inside the other whose variables are still seen
@@ -76,7 +76,7 @@ def bindings(nodes: tuple[Node, ...], scope: Scope) -> dict[str, Definitions]:
     """
     found: dict[str, list[Definition]] = {}
     declared = set()
-    for node in inside(*nodes, but=(Function, Class)):
+    for node in iter_nodes(*nodes, but=(Function, Class)):
         if isinstance(node, Assign) and isinstance(node.target, Name):
             name = node.target.name
             found.setdefault(name, []).append(Definition(node.value, scope, node.type))

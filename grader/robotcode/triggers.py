@@ -18,11 +18,16 @@ from grader.robotcode.button_vocabulary import (
     WRAPPERS,
     button,
 )
-from grader.robotcode.meaning import last_name, simple, type_from, type_of
-from grader.robotcode.measure import Measures
-from grader.robotcode.names import Names
-from grader.robotcode.sight import Seen, definitions, entered, followed, functions_of, returned
-from grader.robotcode.syntax import (
+from grader.robotcode.closure import (
+    BoundNode,
+    definitions,
+    enter_call,
+    functions_of,
+    resolve_bound,
+    returned_nodes,
+)
+from grader.robotcode.constant_folding import ConstantFolder
+from grader.robotcode.ir import (
     Call,
     Choice,
     Function,
@@ -34,7 +39,9 @@ from grader.robotcode.syntax import (
     Parameter,
     Return,
 )
-from grader.robotcode.vocabulary import plain
+from grader.robotcode.name_resolution import last_name, simple_type_name, type_from, type_of
+from grader.robotcode.symbol_table import SymbolTable
+from grader.robotcode.vocabulary import java_spelling
 
 DEEPEST = 12  # triggers made of triggers
 COMPARING = {"==": True, "is": True, "!=": False, "is not": False, "^": False}
@@ -79,15 +86,15 @@ class Triggers:
         measures: its constants.
     """
 
-    def __init__(self, names: Names, measures: Measures) -> None:
+    def __init__(self, names: SymbolTable, measures: ConstantFolder) -> None:
         self._names = names
         self._measures = measures
         self.asked: set[Node] = set()  # calls that were looked at as part of some trigger
 
-    def parts(self, seen: Seen, *, depth: int = 0) -> tuple[Part, ...]:
+    def parts(self, seen: BoundNode, *, depth: int = 0) -> tuple[Part, ...]:
         """The parts of a trigger, or of a condition."""
         before = seen
-        seen = followed(seen, self._names)
+        seen = resolve_bound(seen, self._names)
         node = seen.node
         if depth > DEEPEST:
             return (Part(Asks.UNKNOWN, ""),)
@@ -105,16 +112,16 @@ class Triggers:
         unknown = isinstance(node, Parameter)
         return (Part(Asks.UNKNOWN if unknown else Asks.SWITCH, node.place.text),)
 
-    def opposite(self, seen: Seen) -> tuple[Part, ...]:
+    def opposite(self, seen: BoundNode) -> tuple[Part, ...]:
         """The parts of a condition that must not hold."""
         return (self._mixed(seen, [seen.node], "not", 1),)
 
-    def controller(self, seen: Seen) -> str:
+    def controller(self, seen: BoundNode) -> str:
         """The controller that a node stands for: its port, or else its variable; empty if none."""
         node = seen.node
         if isinstance(node, Name) and node.name in seen.given:
             return self.controller(seen.given[node.name])
-        if isinstance(node, Call) and plain(last_name(node.target)) == "getHID":
+        if isinstance(node, Call) and java_spelling(last_name(node.target)) == "getHID":
             owner = node.target.owner if isinstance(node.target, Member) else node
             return self.controller(seen.at(owner))
         if not isinstance(node, Name | Member) or not CONTROLLER.fullmatch(self._type(seen)):
@@ -122,36 +129,38 @@ class Triggers:
         port = self.port(seen)
         return f"port {port}" if port is not None else node.name
 
-    def port(self, seen: Seen) -> int | None:
+    def port(self, seen: BoundNode) -> int | None:
         """The port a controller is made with; None if it cannot be told."""
-        made = followed(seen, self._names)
+        made = resolve_bound(seen, self._names)
         if not isinstance(made.node, Call):
             return None
         args = [*made.node.args, *(node for word, node in made.node.named if word == "port")]
         found = self._measures.of(args[0], made.scope) if args else None
         return None if found is None else int(found.value)
 
-    def _type(self, seen: Seen) -> str:
+    def _type(self, seen: BoundNode) -> str:
         found = type_of(seen.node, seen.scope, self._names)
-        return simple(found or type_from(tuple(definitions(seen, self._names)), self._names))
+        return simple_type_name(
+            found or type_from(tuple(definitions(seen, self._names)), self._names)
+        )
 
-    def _function(self, seen: Seen, function: Function, depth: int) -> tuple[Part, ...]:
+    def _function(self, seen: BoundNode, function: Function, depth: int) -> tuple[Part, ...]:
         """A supplier: what it returns."""
-        results = returned(function)
+        results = returned_nodes(function)
         if len(results) == 1:
             return self.parts(seen.at(results[0]), depth=depth)
         return (Part(Asks.SWITCH, function.place.text),)
 
-    def _call(self, seen: Seen, call: Call, depth: int) -> tuple[Part, ...]:
+    def _call(self, seen: BoundNode, call: Call, depth: int) -> tuple[Part, ...]:
         self.asked.add(call)
-        name, args = plain(last_name(call.target)), list(call.args)
+        name, args = java_spelling(last_name(call.target)), list(call.args)
         args += [node for _, node in call.named]
         owner = call.target.owner if isinstance(call.target, Member) else None
         functions = functions_of(seen, self._names)
         if len(functions) == 1:
-            results = returned(functions[0][0])
+            results = returned_nodes(functions[0][0])
             if len(results) == 1:
-                return self.parts(entered(seen, functions[0]).at(results[0]), depth=depth)
+                return self.parts(enter_call(seen, functions[0]).at(results[0]), depth=depth)
             return (Part(Asks.SWITCH, call.place.text),)
         if name in WRAPPERS and args:
             return self.parts(seen.at(args[-1]), depth=depth)
@@ -159,14 +168,14 @@ class Triggers:
             rest = [self._argument(seen.at(arg)) for arg in args[1:]]
             return self._button(seen.at(args[0]), "button" if name[0] == "J" else "pov", rest)
         if isinstance(call.target, Name):  # a variable that holds a method: testing()
-            held = followed(seen.at(call.target), self._names)
+            held = resolve_bound(seen.at(call.target), self._names)
             if isinstance(held.node, Member):
                 return self._named(held, held.node, depth)
         found = () if owner is None else self._method(seen, owner, name, args, depth)
         return found or self._named(seen, call.target, depth, text=call.place.text)
 
     def _method(
-        self, seen: Seen, owner: Node, name: str, args: list[Node], depth: int
+        self, seen: BoundNode, owner: Node, name: str, args: list[Node], depth: int
     ) -> tuple[Part, ...]:
         """What a library's method of a trigger or a controller asks; nothing if it is neither."""
         if name in BOTH:
@@ -179,7 +188,7 @@ class Triggers:
         return self.parts(seen.at(owner), depth=depth) if name in UNCHANGED else ()
 
     def _on_controller(
-        self, seen: Seen, owner: Node, name: str, args: list[Node], depth: int
+        self, seen: BoundNode, owner: Node, name: str, args: list[Node], depth: int
     ) -> tuple[Part, ...]:
         """A button of a controller; one that is only polled in a loop of its own has a switch."""
         loops = [arg for arg in args if self._type(seen.at(arg)) == "EventLoop"]
@@ -187,7 +196,7 @@ class Triggers:
         switches = tuple(part for arg in loops for part in self.parts(seen.at(arg), depth=depth))
         return (*self._button(seen.at(owner), name, rest), *switches)
 
-    def _button(self, owner: Seen, method: str, args: list[str]) -> tuple[Part, ...]:
+    def _button(self, owner: BoundNode, method: str, args: list[str]) -> tuple[Part, ...]:
         controller = self.controller(owner)
         word = button(method)
         if word in {"button", "raw"} and args:
@@ -196,16 +205,16 @@ class Triggers:
         key = f"{controller} {word} {' '.join(args)}".strip()
         return (Part(Asks.BUTTON if all([controller, *args]) else Asks.UNKNOWN, key, controller),)
 
-    def _numbered(self, text: str, owner: Seen) -> str:
+    def _numbered(self, text: str, owner: BoundNode) -> str:
         """A button given by its number, or by a name of the Button enum."""
         if "xbox" in self._type(owner).lower() and text.isdigit() and int(text) < len(NUMBERED):
             return NUMBERED[int(text)]
         return text
 
-    def _argument(self, seen: Seen) -> str:
+    def _argument(self, seen: BoundNode) -> str:
         """A button's number, or its name; empty if it cannot be told."""
         found = self._measures.of(seen.node, seen.scope)
-        seen = followed(seen, self._names)
+        seen = resolve_bound(seen, self._names)
         node = seen.node
         if found is None:
             found = self._measures.of(node, seen.scope)
@@ -220,7 +229,7 @@ class Triggers:
         return ""
 
     def _operation(
-        self, seen: Seen, node: Operation | Opaque | Choice, depth: int, *, named: bool
+        self, seen: BoundNode, node: Operation | Opaque | Choice, depth: int, *, named: bool
     ) -> tuple[Part, ...]:
         if isinstance(node, Choice):
             return self._choice(seen, node, depth)
@@ -241,20 +250,20 @@ class Triggers:
             return (Part(Asks.NOTHING if always else Asks.SWITCH, node.place.text),)
         return (self._mixed(seen, inside, sign or node.place.text, depth),)
 
-    def _choice(self, seen: Seen, node: Choice, depth: int) -> tuple[Part, ...]:
+    def _choice(self, seen: BoundNode, node: Choice, depth: int) -> tuple[Part, ...]:
         """``condition ? true : false``; any other choice is a switch of the program's own."""
         one, other = _truth(node.one), _truth(node.other)
         if one is None or other is None or one is other:
             return (self._mixed(seen, [node.condition, node.one, node.other], "?", depth),)
         return self._same_or_not(seen.at(node.condition), depth, same=one)
 
-    def _same_or_not(self, seen: Seen, depth: int, *, same: bool) -> tuple[Part, ...]:
+    def _same_or_not(self, seen: BoundNode, depth: int, *, same: bool) -> tuple[Part, ...]:
         """A condition as it is, or turned round."""
         if same:
             return self.parts(seen, depth=depth)
         return (self._mixed(seen, [seen.node], "not", depth),)
 
-    def _mixed(self, seen: Seen, several: list[Node], sign: str, depth: int) -> Part:
+    def _mixed(self, seen: BoundNode, several: list[Node], sign: str, depth: int) -> Part:
         """Parts of which not all have to hold, or not as they are: one, of the weakest kind."""
         found = [part for one in several for part in self.parts(seen.at(one), depth=depth)]
         turned = sign in {*NOT, "!", "~"}
@@ -275,7 +284,9 @@ class Triggers:
             asks = Asks.RELEASED
         return Part(asks, key, min(controllers, default=""))
 
-    def _named(self, seen: Seen, node: Node, depth: int, *, text: str = "") -> tuple[Part, ...]:
+    def _named(
+        self, seen: BoundNode, node: Node, depth: int, *, text: str = ""
+    ) -> tuple[Part, ...]:
         """A method or a variable that has no one value."""
         if isinstance(node, Member) and not text:
             call = Call(node.place, node, ())
@@ -299,7 +310,7 @@ class Triggers:
             return (Part(Asks.UNKNOWN, ""),)
         return (Part(Asks.SWITCH, text or node.place.text),)
 
-    def _is_open(self, seen: Seen, node: Name) -> bool:
+    def _is_open(self, seen: BoundNode, node: Name) -> bool:
         found = self._names.local(node.name, seen.scope)
         return any(isinstance(one.value, Parameter) for one in found)
 

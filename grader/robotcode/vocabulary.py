@@ -9,13 +9,13 @@ of 2027 need no table of their own. Packages (``edu.wpi.first``, ``org.wpilib``)
 import re
 from dataclasses import dataclass
 
-from grader.robotcode.facts import Known, Output, Quantity
+from grader.robotcode.facts import Certainty, Output, Quantity
 
 # What Config uses where it is given nothing. WPILib 2024 to 2026; under discussion for 2027.
 DEFAULTS = {
-    "ramp": Quantity(Known.DEFAULT, 1.0, "volts-per-second"),
-    "step": Quantity(Known.DEFAULT, 7.0, "volts"),
-    "timeout": Quantity(Known.DEFAULT, 10.0, "seconds"),
+    "ramp": Quantity(Certainty.DEFAULT, 1.0, "volts-per-second"),
+    "step": Quantity(Certainty.DEFAULT, 7.0, "volts"),
+    "timeout": Quantity(Certainty.DEFAULT, 10.0, "seconds"),
 }
 
 # Keyword arguments, in order of position.
@@ -109,7 +109,7 @@ def is_motor(type_: str) -> bool:
     return any(_MOTORS.fullmatch(word) for word in re.findall(r"\w+", type_))
 
 
-def plain(name: str) -> str:
+def java_spelling(name: str) -> str:
     """A method's name in Java's spelling: ``set_voltage`` is ``setVoltage``."""
     first, *rest = name.split("_")
     if not first or not name.islower() or not rest:
@@ -117,7 +117,7 @@ def plain(name: str) -> str:
     return first + "".join(word.capitalize() for word in rest)
 
 
-def constant(name: str) -> str:
+def enum_constant(name: str) -> str:
     """An enum constant without its season's dress: ``dutycycle`` of ``kDutyCycle``."""
     bare = name[1:] if re.match(r"k[A-Z]", name) else name
     return bare.replace("_", "").lower()
@@ -276,7 +276,7 @@ PYTHON_WORDS = frozenset(
 )
 
 
-def renamed(name: str) -> str:
+def other_season(name: str) -> str:
     """The season to which a RobotPy name belongs that was renamed: ``2027`` of ``set_voltage``.
 
     Args:
@@ -285,10 +285,10 @@ def renamed(name: str) -> str:
     Returns:
         ``2027``, ``2026`` for what was renamed then, or nothing for any other name.
     """
-    if constant(name) in DIRECTIONS and name not in DIRECTIONS:
+    if enum_constant(name) in DIRECTIONS and name not in DIRECTIONS:
         return SNAKES if name.isupper() else str(int(SNAKES) - 1)
-    if plain(name) not in PYTHON_WORDS:
+    if java_spelling(name) not in PYTHON_WORDS:
         return ""
-    if "hrottle" in name or plain(name) != name:
+    if "hrottle" in name or java_spelling(name) != name:
         return SNAKES
     return str(int(SNAKES) - 1) if name.lower() != name else ""

@@ -7,7 +7,7 @@ from pkgutil import iter_modules
 
 import click
 
-from sim.command import run
+from sim.cli_support import run
 
 __all__ = ["main", "sysid"]
 

@@ -4,12 +4,12 @@ from pathlib import Path
 
 import click
 
-from sim.cli.options import FILE, read_together, reading
+from sim.cli.options import FILE, read_together, reading_options
 
 
 @click.command()
 @click.argument("file", type=FILE)
-@reading
+@reading_options
 @click.option(
     "--fault",
     "faults",
@@ -38,10 +38,10 @@ def contaminate(
     import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
 
     from sim.contaminate import contaminate as damage  # noqa: PLC0415
-    from sim.contaminate import parse_blow  # noqa: PLC0415
+    from sim.contaminate import parse_fault_request  # noqa: PLC0415
     from sim.formats import write  # noqa: PLC0415
 
-    asked = [parse_blow(text) for text in faults]
+    asked = [parse_fault_request(text) for text in faults]
     log = read_together([file], units=units, type=type_, motor=motor, entries=entries)
     rng = np.random.default_rng(seed)
     where = []

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.options import FILE
-from sim.command import DONE, INTERRUPTED, NOT_RIGHT, complain
+from sim.cli_support import DONE, INTERRUPTED, NOT_RIGHT, complain
 from sim.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def dataset(  # noqa: PLR0917 - click passes options by name
     if output is None:
         raise click.UsageError("Missing option '-o': a folder for the logs.")
     from sim.dataset.key import key_of  # noqa: PLC0415 - as all below: --help must not wait
-    from sim.dataset.plan import plan  # noqa: PLC0415
+    from sim.dataset.plan import plan_jobs  # noqa: PLC0415
     from sim.dataset.run import Place  # noqa: PLC0415
     from sim.dataset.secret import find_secret  # noqa: PLC0415
     from sim.dataset.spec import read_spec  # noqa: PLC0415
@@ -60,7 +60,7 @@ def dataset(  # noqa: PLR0917 - click passes options by name
     place = Place(output, key or key_of(output))
     place.keep_apart(spec=spec, secret=asked.secret)
     secret = find_secret(asked, make=not check)
-    jobs = plan(asked, secret)
+    jobs = plan_jobs(asked, secret)
     if check:
         return _check(place, jobs, secret)
     return _make(
@@ -85,32 +85,37 @@ def _make(
     cluster: str | None,
 ) -> int:
     """Make what is not there yet."""
-    from sim.dataset.making import make  # noqa: PLC0415 - --help must not wait
-    from sim.dataset.run import finish, look, rehearse  # noqa: PLC0415 - the same
-    from sim.work.bar import bar  # noqa: PLC0415 - the same
-    from sim.work.cluster import done_on_cluster  # noqa: PLC0415 - the same
-    from sim.work.here import cores, done_here  # noqa: PLC0415 - the same
-    from sim.work.interrupt import noted  # noqa: PLC0415 - the same
+    from sim.dataset.making import make_log  # noqa: PLC0415 - --help must not wait
+    from sim.dataset.run import check_folder, finish_dataset, rehearse_jobs  # noqa: PLC0415 - the same
+    from sim.work.cluster import run_jobs_on_cluster  # noqa: PLC0415 - the same
+    from sim.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
+    from sim.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
+    from sim.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
-    found = look(place, jobs, secret=secret, overwrite=overwrite)
-    rehearse(found.todo)
+    found = check_folder(place, jobs, secret=secret, overwrite=overwrite)
+    rehearse_jobs(found.todo)
     if secret.new:
         secret.keep()
         click.echo(f"{secret.new}: a new secret. Keep it, and keep it to yourself.", err=True)
-    with bar("logs", len(jobs), done=len(found.kept)) as (step, done), noted() as stop_if_noted:
+    with (
+        progress_bar("logs", len(jobs), done=len(found.kept)) as (step, done),
+        deferred_interrupt() as stop_if_noted,
+    ):
 
         def say() -> None:
             step()
             stop_if_noted()
 
         try:
-            finish(
+            finish_dataset(
                 place,
                 found,
                 maker=lambda todo: (
-                    done_on_cluster(make, todo, address=cluster)
+                    run_jobs_on_cluster(make_log, todo, address=cluster)
                     if cluster
-                    else done_here(make, todo, processes=processes or cores(), worth=WORTH)
+                    else run_jobs_locally(
+                        make_log, todo, processes=processes or available_cores(), worth=WORTH
+                    )
                 ),
                 dataset=asked.name,
                 secret=secret,
@@ -132,9 +137,9 @@ def _make(
 
 def _check(place: "Place", jobs: "tuple[Job, ...]", secret: "Secret") -> int:
     """Say what is not as it was made."""
-    from sim.dataset.checking import check  # noqa: PLC0415 - --help must not wait for it
+    from sim.dataset.checking import verify_dataset  # noqa: PLC0415 - --help must not wait for it
 
-    wrong = check(place.folder, jobs, key=place.key, secret=secret)
+    wrong = verify_dataset(place.folder, jobs, key=place.key, secret=secret)
     for line in wrong:
         click.echo(line)
     if not wrong:

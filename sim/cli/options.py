@@ -18,7 +18,7 @@ FILE = click.Path(path_type=Path)
 as_json = click.option("--json", "as_json", is_flag=True, help="Plain data for other programs.")
 
 
-def reading(command: Callable[..., Any]) -> Callable[..., Any]:
+def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options that say how to read a log."""
     options = (
         click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),

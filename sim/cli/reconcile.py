@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.options import FILE, as_json, read_together, reading
-from sim.command import DONE, NOT_RIGHT
+from sim.cli.options import FILE, as_json, read_together, reading_options
+from sim.cli_support import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from contextlib import AbstractContextManager
 
     from sim.log import Log
-    from sim.reconcile import Damaged, Story
+    from sim.reconcile import DamagedInterval, Story
 
 IN_MOMENTS = "voltage-dropout"  # a fault that an inspection tells as one stretch
 UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
 
 
-def holding(command: Callable[..., Any]) -> Callable[..., Any]:
+def reconcile_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options that say what is held against the model, and what is written."""
     options = (
         click.option(
@@ -43,8 +43,8 @@ def holding(command: Callable[..., Any]) -> Callable[..., Any]:
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=FILE)
-@holding
-@reading
+@reconcile_options
+@reading_options
 @as_json
 def reconcile(  # noqa: PLR0917 - click passes options by name
     files: tuple[Path, ...],
@@ -69,9 +69,9 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     remains unexplained or ambiguous.
     """
     if html is not None:
-        from sim.report.written import page_at  # noqa: PLC0415 - draws, as all of its folder
+        from sim.report.page_file import page_path  # noqa: PLC0415 - draws, as all of its folder
 
-        page_at(html)  # a wrong name is told before the work, not after
+        page_path(html)  # a wrong name is told before the work, not after
 
     def read(*some: Path) -> "Log":
         return read_together(some, units=units, type=type_, motor=motor, entries=entries)
@@ -92,7 +92,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     if as_json:
         click.echo(json.dumps(story.to_json(), allow_nan=False))
     else:
-        from sim.storyteller import show_story  # noqa: PLC0415 - only for people
+        from sim.story_terminal import show_story  # noqa: PLC0415 - only for people
 
         show_story(story, title=", ".join(map(str, files)))
     return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
@@ -102,7 +102,7 @@ def _watched(*, seen: bool) -> "AbstractContextManager[Callable[[str, float], No
     """A progress bar for people; other programs do not wait for it to load."""
     if not seen:
         return nullcontext(lambda _, __: None)
-    from sim.storyteller import progress_bar  # noqa: PLC0415 - only for people
+    from sim.story_terminal import progress_bar  # noqa: PLC0415 - only for people
 
     return progress_bar()
 
@@ -122,29 +122,31 @@ def _solved(
         held_out=logs.get("held_out"),
         type=type_ or log.type or "simple",
         travel=travel,
-        damages={name: damages(some) for name, some in logs.items()},
+        damages={name: inspect_damage(some) for name, some in logs.items()},
         progress=progress,
     )
 
 
-def damages(log: "Log") -> "tuple[Damaged, ...]":
+def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":
     """What an inspection finds, in words that the solver understands.
 
     Args:
         log: any.
     """
-    from sim.inspection import inspect  # noqa: PLC0415 - --help must not wait for it
-    from sim.reconcile import Damaged  # noqa: PLC0415
-    from sim.reconcile.moments import moments  # noqa: PLC0415
+    from sim.detect_faults import inspect  # noqa: PLC0415 - --help must not wait for it
+    from sim.reconcile import DamagedInterval  # noqa: PLC0415
+    from sim.reconcile.dropout_intervals import dropout_intervals  # noqa: PLC0415
 
     found = []
     for one in inspect(log).damages:
         where = one.where
         stretches: tuple[tuple[float, float], ...] = ((where.start, where.end),)
         if one.fault == IN_MOMENTS and where.run is not None:
-            stretches = moments(log.runs[where.run], start=where.start, end=where.end)
+            stretches = dropout_intervals(log.runs[where.run], start=where.start, end=where.end)
         found += [
-            Damaged(where.run, *stretch, one.fault, one.confidence, one.evidence, one.advice)
+            DamagedInterval(
+                where.run, *stretch, one.fault, one.confidence, one.evidence, one.advice
+            )
             for stretch in stretches
         ]
     return tuple(found)

@@ -87,10 +87,10 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
 
     from sim.formats import write  # noqa: PLC0415
+    from sim.ground_truth import write_ground_truth  # noqa: PLC0415
     from sim.mechanisms import mechanism as find  # noqa: PLC0415
     from sim.routine import Routine  # noqa: PLC0415
     from sim.simulate import simulate as record  # noqa: PLC0415
-    from sim.truth import write_truth  # noqa: PLC0415
 
     if seed is not None and seed < 0:
         raise click.BadParameter("a seed is zero or more.", param_hint="'--seed'")
@@ -104,7 +104,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     log = record(built, routine, rng=motion, period=period, electrical=electrical)
     log, where = _damaged(log, faults, damage)
     if truth:
-        write_truth(built, routine, path=truth, faults=where)
+        write_ground_truth(built, routine, path=truth, faults=where)
     try:
         write(log, output)
     except Refusal:
@@ -150,10 +150,10 @@ def _damaged(
     log: "Log", asked: Iterable[str], rng: "np.random.Generator"
 ) -> "tuple[Log, list[tuple[str, float, Stretch]]]":
     """The log with the faults that are asked for, and where each is."""
-    from sim.contaminate import contaminate, parse_blow  # noqa: PLC0415 - only with --fault
+    from sim.contaminate import contaminate, parse_fault_request  # noqa: PLC0415 - only with --fault
 
     where = []
-    for one in [parse_blow(text) for text in asked]:
+    for one in [parse_fault_request(text) for text in asked]:
         spoilt = contaminate(
             log, one.name, severity=one.severity, test=one.test, at=one.at, rng=rng
         )

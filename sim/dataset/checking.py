@@ -3,14 +3,16 @@
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from sim.dataset.folder import digest, strangers
+from sim.dataset.folder import digest, list_unknown_logs
 from sim.dataset.key import by_file, read_key
 from sim.dataset.plan import Job
 from sim.dataset.secret import Secret
 from sim.errors import BadRequest
 
 
-def check(folder: Path, jobs: Sequence[Job], *, key: Path, secret: Secret) -> tuple[str, ...]:
+def verify_dataset(
+    folder: Path, jobs: Sequence[Job], *, key: Path, secret: Secret
+) -> tuple[str, ...]:
     """What is not as it was made, a line each; empty if all is.
 
     Args:
@@ -34,7 +36,7 @@ def check(folder: Path, jobs: Sequence[Job], *, key: Path, secret: Secret) -> tu
     try:
         return (
             *_changed(folder, {file: entry["files"][file] for file, entry in files.items()}),
-            *(f"in no key: {file}" for file in strangers(folder, known=files)),
+            *(f"in no key: {file}" for file in list_unknown_logs(folder, known=files)),
             *(f"not made yet: {file}" for file in asked if file not in files),
             *(
                 f"of another spec: {file}"

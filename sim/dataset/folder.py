@@ -32,7 +32,7 @@ class Survey:
     stale: tuple[Entry, ...]
 
 
-def survey(folder: Path, jobs: Sequence[Job], *, known: Iterable[Entry]) -> Survey:
+def survey_folder(folder: Path, jobs: Sequence[Job], *, known: Iterable[Entry]) -> Survey:
     """Look at what is there.
 
     Args:
@@ -84,7 +84,7 @@ def digest(path: Path) -> str:
         return ""
 
 
-def strangers(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
+def list_unknown_logs(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
     """Log files in the folder that are none of those known."""
     mine = set(known)
     endings = {Path(file).suffix for file in mine}
@@ -96,7 +96,7 @@ def strangers(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
     return tuple(file for file in found if file not in mine)
 
 
-def named(files: Sequence[str]) -> str:
+def name_files(files: Sequence[str]) -> str:
     """The first of some files, and how many more there are."""
     more = f" and {len(files) - LISTED} more" if len(files) > LISTED else ""
     return ", ".join(files[:LISTED]) + more

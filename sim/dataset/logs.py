@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from sim.dataset.table import Span, Table, nearest
+from sim.dataset.table import Span, Table, suggest_word
 from sim.effects import EFFECTS
 from sim.errors import Refusal
 from sim.fault import MOST, Fault
@@ -199,7 +199,7 @@ def _mistakes(
     possible = tuple(test for test in tests if test.rpartition("-")[0] in fault.kinds)
     for test in asked.tests:
         if test not in tests:
-            yield f"test {test!r} is not run", nearest(test, tests)
+            yield f"test {test!r} is not run", suggest_word(test, tests)
         elif test not in possible:
             yield (
                 f"{fault.name} cannot strike in {test}",

@@ -57,7 +57,7 @@ class Failed:
     advice: str
 
 
-def make(job: Job) -> Made | Failed:
+def make_log(job: Job) -> Made | Failed:
     """Make a log. Threads of one process take turns: they would share its one processor anyway."""
     with ALONE:
         return _made(job)

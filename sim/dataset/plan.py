@@ -89,15 +89,15 @@ class Job:
 
     def stream(self, *which: int) -> np.random.Generator:
         """A source of chance of its own for each purpose: a new fault leaves the rest as it is."""
-        return stream(self.seed, *which)
+        return random_stream(self.seed, *which)
 
 
-def stream(seed: int, *which: int) -> np.random.Generator:
+def random_stream(seed: int, *which: int) -> np.random.Generator:
     """One of the unrelated sources of chance that a seed gives."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=which)))
 
 
-def plan(spec: Spec, secret: Secret) -> tuple[Job, ...]:
+def plan_jobs(spec: Spec, secret: Secret) -> tuple[Job, ...]:
     """The jobs of a spec, in the order of their names.
 
     Args:
@@ -149,14 +149,14 @@ def _numbered(found: list[tuple[int, Logs, str]], spec: Spec, student: str) -> I
 
 def _effects(asked: tuple[Hiding, ...], seed: int) -> Iterator[Hidden]:
     for number, one in enumerate(asked):
-        rng = stream(seed, EFFECT, number)
+        rng = random_stream(seed, EFFECT, number)
         if rng.random() < one.chance:
             yield Hidden(_one_of(one.names, rng), one.size.draw(rng))
 
 
 def _strikes(asked: tuple[Spoiling, ...], seed: int) -> Iterator[Strike]:
     for number, one in enumerate(asked):
-        rng = stream(seed, FAULT, number)
+        rng = random_stream(seed, FAULT, number)
         if rng.random() < one.chance:
             yield Strike(
                 fault=_one_of(one.names, rng),

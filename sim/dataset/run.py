@@ -6,9 +6,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim.dataset.folder import Shelf, Survey, named, survey
+from sim.dataset.folder import Shelf, Survey, name_files, survey_folder
 from sim.dataset.key import Entry, Journal, read_key, write_key
-from sim.dataset.making import Failed, Made, make
+from sim.dataset.making import Failed, Made, make_log
 from sim.dataset.plan import Job
 from sim.dataset.secret import Secret
 from sim.errors import BadRequest
@@ -49,7 +49,7 @@ class Place:
                 )
 
 
-def look(place: Place, jobs: Sequence[Job], *, secret: Secret, overwrite: bool) -> Survey:
+def check_folder(place: Place, jobs: Sequence[Job], *, secret: Secret, overwrite: bool) -> Survey:
     """What is there already, or a refusal if something else is.
 
     Args:
@@ -71,17 +71,17 @@ def look(place: Place, jobs: Sequence[Job], *, secret: Secret, overwrite: bool) 
         if not overwrite:
             raise
         known = []
-    found = survey(place.folder, jobs, known=known)
+    found = survey_folder(place.folder, jobs, known=known)
     if found.foreign and not overwrite:
         raise BadRequest(
-            f"{named(found.foreign)}: there already, and not of this spec and secret",
+            f"{name_files(found.foreign)}: there already, and not of this spec and secret",
             where=str(place.folder),
             advice="Name another folder with -o, or replace what is there with --overwrite.",
         )
     if found.stale and not overwrite:
         files = [file for entry in found.stale for file in entry["files"]]
         raise BadRequest(
-            f"{named(files)}: of this dataset once, and no longer in the spec",
+            f"{name_files(files)}: of this dataset once, and no longer in the spec",
             where=str(place.folder),
             advice="Move them away, name another folder with -o, or let the key forget them with "
             "--overwrite.",
@@ -89,7 +89,7 @@ def look(place: Place, jobs: Sequence[Job], *, secret: Secret, overwrite: bool) 
     return found
 
 
-def rehearse(jobs: Sequence[Job]) -> None:
+def rehearse_jobs(jobs: Sequence[Job]) -> None:
     """Make the fullest log of each kind and throw it away: what is impossible shows at once.
 
     Raises:
@@ -101,10 +101,10 @@ def rehearse(jobs: Sequence[Job]) -> None:
         if kind not in fullest or _parts(job) > _parts(fullest[kind]):
             fullest[kind] = job
     for job in fullest.values():
-        _sound(make(job))
+        _sound(make_log(job))
 
 
-def finish(
+def finish_dataset(
     place: Place,
     found: Survey,
     *,

@@ -54,7 +54,7 @@ class Table:
         self.content: Mapping[str, object] = content
         for key in content:
             if key not in known:
-                self.refuse(f"unknown key {_shown(key)}", advice=nearest(key, known))
+                self.refuse(f"unknown key {_shown(key)}", advice=suggest_word(key, known))
 
     def __contains__(self, key: str) -> bool:
         return key in self.content
@@ -96,7 +96,7 @@ class Table:
         chosen = self.texts(key, example=options[0] if options else "")
         for one in chosen:
             if one not in options:
-                self.refuse(f"{key} {_shown(one)} is unknown", advice=nearest(one, options))
+                self.refuse(f"{key} {_shown(one)} is unknown", advice=suggest_word(one, options))
         for one in chosen:
             if chosen.count(one) > 1:
                 self.refuse(f"{key} names {_shown(one)} twice", advice="Name each once.")
@@ -161,7 +161,7 @@ class Table:
         )
 
 
-def nearest(word: str, options: Sequence[str]) -> str:
+def suggest_word(word: str, options: Sequence[str]) -> str:
     """Advice for a word that is none of some: the one it is likely to mean, or all."""
     close = get_close_matches(word, options, n=1, cutoff=0.5)
     if close:

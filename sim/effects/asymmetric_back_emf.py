@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 
 def pull(v: float, lean: float) -> float:
@@ -21,7 +21,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"lean": 0.125 * scale.kv * size}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The share of |v| in what is missing."""
     (lean,) = seen.share(np.abs(seen.velocity))
     yield {"lean": float(lean)}

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
 
@@ -25,7 +25,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"lean": 0.67 * scale.ks * size}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The mean of what is missing: more forward, less in reverse."""
     (lean,) = seen.share(np.ones_like(seen.missing))
     yield {"lean": float(lean)}

@@ -9,7 +9,7 @@ free with its own inertia (``share`` of kA), then the teeth meet.
 from collections.abc import Iterator, Mapping
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 MOMENTS = (0.001, 0.002, 0.004, 0.008, 0.016, 0.03)  # [s] that a log can show at a start
 LIGHT, HEAVY = 0.2, 0.5  # [1] shares of the motor: a search from one seldom finds the other
@@ -30,7 +30,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"slack": 0.01 * scale.speed * size, "share": 0.25}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Ways of some milliseconds at the top speed; how heavy the motor is shows beside all of kA."""
     for share in (LIGHT, HEAVY):
         for moment in MOMENTS:

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 EVERYDAY = 0.1  # [1] of a battery in good order
 NOMINAL = 12.0  # [V] that a duty cycle of one stands for
@@ -29,7 +29,7 @@ def ordinary(_: Scale, size: float) -> Mapping[str, float]:
     return {"share": 2.4 * size}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """What is missing where much current flows, and two sizes to try besides."""
     duty = np.minimum(np.abs(seen.voltage) / NOMINAL, 1.0)
     torque = seen.voltage - seen.gains["kV"] * seen.velocity

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 EVERYDAY = 0.06  # [V]
 
@@ -46,7 +46,7 @@ def span(values: Mapping[str, float]) -> float:
     return 1.0 / max(values["turns"], 1e-9)
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The strongest lines in the spectrum of what is missing over position.
 
     What comes back less than four times is not seen to come back: a bump, or a brake along a part

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 SLOWEST, NEXT, TRIED = 2.0, 1.15, 23
 """[Hz] of swings that a log can show, how many times faster the next one is, and how many: between
@@ -34,7 +34,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"softness": size / stiff, "share": 0.3}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Swings of every pace that a log can show, of a light motor and of half the inertia."""
     for share in (LIGHT, HALF):
         reduced = share * (1.0 - share) * abs(seen.gains["kA"])

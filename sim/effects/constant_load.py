@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
 
@@ -30,7 +30,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"load": 0.125 * scale.step * size}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The mean of what is missing."""
     (load,) = seen.share(np.ones_like(seen.missing))
     yield {"load": float(load)}

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 
 def passes(u: float, v: float, kv: float, limit: float) -> float:
@@ -24,7 +24,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"limit": max(0.55 * scale.step / size, 1.2 * scale.ks)}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The torque volts that the acceleration shows at most, and shares of the largest."""
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     most = float(np.max(np.abs(torque), initial=0.0))

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 STARTED = 0.02  # [share of the top speed] at which a run has begun to move
 
@@ -25,7 +25,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"band": scale.ks + 0.33 * size}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The voltages at which the ramps began to move: it acts by a threshold, so a grid is due.
 
     What a load draws along moves before any voltage does, until a ramp turns it.

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 EVERYDAY = 0.006  # [s]
 
@@ -25,7 +25,7 @@ def ordinary(_: Scale, size: float) -> Mapping[str, float]:
     return {"lag": 0.03 * size}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """A late command looks like missing volts where the voltage changes; and a few to try."""
     steps = []
     for run in seen.log.runs:

@@ -8,7 +8,7 @@ Nothing near v = 0, more than its share at full speed: the voltage-velocity line
 from collections.abc import Iterator, Mapping
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 
 def pull(v: float, drag: float) -> float:
@@ -21,7 +21,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"drag": 0.5 * size / scale.speed**2}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The share of v·|v| in what is missing."""
     (drag,) = seen.share(seen.velocity * abs(seen.velocity))
     yield {"drag": max(float(drag), 0.05 / max(seen.speed, 1e-9) ** 2)}

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 
 def pull(x: float, level: float, upright: float) -> float:
@@ -34,7 +34,7 @@ def only_angles(scale: Scale) -> str:
     return "" if scale.angular else "its positions are lengths, not angles"
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The shares of cos x and sin x in what is missing."""
     if not seen.position.size:
         return
@@ -42,7 +42,7 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     yield {"level": float(level), "upright": float(upright)}
 
 
-def simplified(values: Mapping[str, float], seen: Evidence) -> Mapping[str, float]:
+def simplified(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
     """A straight line over position, as steep as the cosine in the middle of the way."""
     middle = float(np.median(seen.position)) if seen.position.size else 0.0
     pull_there = values["level"] * math.cos(middle) + values["upright"] * math.sin(middle)

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence, follow_on
+from sim.voltage_residual import VoltageResidual, share_a_clock
 
 COOLING = 90.0  # [s] in which a motor's winding gives its heat to the case
 
@@ -35,12 +35,12 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"rate": 0.01 * size / (0.25 * scale.step) ** 2}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """How much missing volts go with the heat made so far."""
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     steps = np.diff(seen.clock, prepend=seen.clock[:1])
     heat = np.cumsum(np.clip(steps, 0.0, 0.1) * torque**2)
-    if not follow_on(seen.log):  # each run began cold
+    if not share_a_clock(seen.log):  # each run began cold
         begins = np.searchsorted(seen.run, seen.run)
         heat -= heat[begins]
     (rate,) = seen.share(torque * heat)

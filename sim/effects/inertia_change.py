@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence, clocks
+from sim.voltage_residual import VoltageResidual, run_start_times
 
 RAMP = 0.5  # [V/s] of an ordinary quasistatic test
 PARTS = 12  # moments of a run that are tried
@@ -51,7 +51,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"extra": 0.5 * scale.ka * size, "onset": onset, "until": LATER, "shared": 1.0}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The moments at which most changes: in each run to its end, and in the log for good.
 
     Before them, those at which velocity drops from one sample to the next: what joins at rest.
@@ -73,7 +73,7 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
             yield {"extra": size, "onset": onset, "until": until, "shared": shared}
 
 
-def _drops(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def _drops(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The sharpest drop of each run that has one, to its end and for good; the clearest first."""
     found = []
     for number, (began, ended) in enumerate(_every_run(seen)):
@@ -96,22 +96,22 @@ def _drops(seen: Evidence) -> Iterator[Mapping[str, float]]:
             yield {"extra": extra, "onset": onset, "until": until, "shared": 1.0}
 
 
-def _tried(seen: Evidence, onset: float, until: float) -> tuple[float, float, float, float]:
+def _tried(seen: VoltageResidual, onset: float, until: float) -> tuple[float, float, float, float]:
     """What a change at that moment explains [V²], its size, and the moments."""
     during = (seen.clock >= onset) & (seen.clock < until)
     extra, gained = seen.explained(np.where(during, seen.acceleration, 0.0))
     return gained, extra, onset, until
 
 
-def _runs(seen: Evidence) -> Iterator[tuple[float, float]]:
+def _runs(seen: VoltageResidual) -> Iterator[tuple[float, float]]:
     """[s] of the log's clock at which runs began and ended, of those that tell accelerations."""
     told = set(seen.run.tolist())
     yield from (one for number, one in enumerate(_every_run(seen)) if number in told)
 
 
-def _every_run(seen: Evidence) -> Iterator[tuple[float, float]]:
+def _every_run(seen: VoltageResidual) -> Iterator[tuple[float, float]]:
     """The same of all runs."""
-    for began, run in zip(clocks(seen.log).tolist(), seen.log.runs, strict=True):
+    for began, run in zip(run_start_times(seen.log).tolist(), seen.log.runs, strict=True):
         yield began, began + float(run.time[-1] - run.time[0])
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 
 def pull(x: float, rate: float, preload: float) -> float:
@@ -33,7 +33,7 @@ def only_bounded(scale: Scale) -> str:
     return "" if scale.bounded else "it turns without end, and a spring does not"
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """A straight line through what is missing, over position."""
     if not seen.position.size or seen.endless:
         return
@@ -42,7 +42,7 @@ def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
     yield {"rate": max(float(rate), least), "preload": float(preload)}
 
 
-def simplified(values: Mapping[str, float], seen: Evidence) -> Mapping[str, float]:
+def simplified(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
     """The same pull everywhere: that in the middle."""
     middle = float(np.median(seen.position)) if seen.position.size else 0.0
     return {"load": values["rate"] * middle + values["preload"]}

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 EVERYDAY = 0.06  # [V]
 
@@ -31,7 +31,7 @@ def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
     return gains["kA"] * values["slow"] / max(values["extra"], 1e-9)
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The best of a few speeds over which it may fade."""
     for part in (0.06, 0.02, 0.2):
         slow = max(part * seen.speed, 1e-6)

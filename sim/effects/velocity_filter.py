@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
 from sim.log import Array
+from sim.voltage_residual import VoltageResidual
 
 
 def sees(
@@ -43,7 +43,7 @@ def ordinary(_: Scale, size: float) -> Mapping[str, float]:
     return {"window": 0.08 * size}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """How long the velocity runs behind the slope of the position, and three sizes to try."""
     lags = []
     for run in seen.log.runs:

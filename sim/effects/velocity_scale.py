@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 
 def sees(seen: float, scale: float) -> float:
@@ -23,7 +23,7 @@ def ordinary(_: Scale, size: float) -> Mapping[str, float]:
     return {"scale": 1.0 + 0.1 * size}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The velocity over the slope of the position."""
     way = time = 0.0
     for run in seen.log.runs:

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.effect import Effect, Parameter, Scale
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 
 def passes(u: float, limit: float) -> float:
@@ -24,7 +24,7 @@ def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
     return {"limit": max(scale.step * (1.0 - 0.2 * size), 2.0 * scale.ks)}
 
 
-def starts(seen: Evidence) -> Iterator[Mapping[str, float]]:
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The voltage that the motion shows at most, and shares of the largest asked for."""
     had = np.abs(seen.voltage - seen.missing)
     most = float(np.max(np.abs(seen.voltage), initial=0.0))

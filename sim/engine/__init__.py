@@ -14,22 +14,21 @@ from types import ModuleType
 import numpy as np
 
 from sim.effects import EFFECTS
-from sim.engine.asked import (
+from sim.engine.compose import compose, is_compiled
+from sim.engine.kernel import Kernel
+from sim.engine.model_arrays import (
     COARSEST,
     EXACT,
     ORDER,
-    arrays,
-    constants,
-    finest,
+    effect_arrays,
+    finest_step,
+    model_constants,
     only_delays,
-    searched,
+    search_step_limits,
     slack_of,
-    steps,
+    step_limits,
 )
-from sim.engine.compose import compose, is_compiled
-from sim.engine.course import Course
-from sim.engine.joined import WAYS
-from sim.engine.kernel import Kernel
+from sim.engine.run_batch import RunBatch
 from sim.engine.stepping import (
     APPLIED,
     BUS,
@@ -41,12 +40,27 @@ from sim.engine.stepping import (
     VELOCITY,
     empty,
 )
+from sim.engine.two_body_modes import WAYS
 from sim.log import Array
 from sim.model import Model
 
 __all__ = [
-    "COARSEST", "EXACT", "EXPECTED", "NO_TRUST", "NO_WIRES", "ORDER", "Course", "State", "Track",
-    "arrays", "compiled", "constants", "finest", "follow", "move", "ready",
+    "COARSEST",
+    "EXACT",
+    "EXPECTED",
+    "NO_TRUST",
+    "NO_WIRES",
+    "ORDER",
+    "RunBatch",
+    "State",
+    "Track",
+    "effect_arrays",
+    "engine_is_cached",
+    "finest_step",
+    "follow",
+    "load_engine",
+    "model_constants",
+    "move",
 ]  # fmt: skip
 
 ONE_AT_A_TIME = Lock()
@@ -136,23 +150,23 @@ def move(
         time: (n,) [s], increasing.
         voltage: (n,) [V], each held until the next.
         state: where it begins; afterward, where it ended.
-        wires: (9,) battery and limits, see ``sim.engine.wires``; none is an ideal source.
+        wires: (9,) battery and limits, see ``sim.engine.power_path``; none is an ideal source.
         step: [s] the longest; None chooses.
         plain: in uncompiled Python, for comparison.
         measured: (n, 2) position and velocity that correct the motion as it goes, nan where there
             is none; none goes its way.
         trust: (2, 2) by how much: from both deviations to the corrections of both.
     """
-    on, parameters = arrays(model)
+    on, parameters = effect_arrays(model)
     out = empty(time.size)
     simple = not wires.any() and model.type != "arm" and all(map(only_delays, model.parts))
-    longest = EXACT if simple else steps(model)
+    longest = EXACT if simple else step_limits(model)
     if step:
         longest = np.array([step, math.inf, step])
     kernel = _plain() if plain else _compiled()
     kernel.move(
         np.array([0.0, time.size]), _doubles(time), _doubles(voltage), state.body[None],
-        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), constants(model),
+        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), model_constants(model),
         wires, on, parameters, state.memory, np.zeros(WAYS), np.array([state.clock]), longest,
         simple, _doubles(measured), _doubles(trust), out,
     )  # fmt: skip
@@ -166,7 +180,7 @@ def _doubles(array: Array) -> Array:
 
 
 def follow(
-    model: Model, course: Course, *, trust: Array, beside: Array, meshed: Array, rubs: Array
+    model: Model, course: RunBatch, *, trust: Array, beside: Array, meshed: Array, rubs: Array
 ) -> Array:
     """Move a model along many runs, quickly: what a search does some hundred times a second.
 
@@ -186,9 +200,9 @@ def follow(
         (n, 8) of all runs, one after another, as ``Track.of`` takes it; the last two columns, from
         ``EXPECTED`` on, are what was expected before a measurement corrected it.
     """
-    on, parameters = arrays(model)
+    on, parameters = effect_arrays(model)
     simple = model.type != "arm" and all(map(only_delays, model.parts))
-    longest = EXACT if simple else searched(model)
+    longest = EXACT if simple else search_step_limits(model)
     begin = course.position + beside
     load = begin - 0.5 * slack_of(model) * _leans(model, begin, meshed)
     bodies = np.column_stack([begin, course.velocity, load, course.velocity, np.zeros(begin.size)])
@@ -196,7 +210,7 @@ def follow(
     out = empty(course.time.size)
     _compiled().move(
         course.edges, course.time, course.voltage, bodies, course.low + aside, course.high + aside,
-        _doubles(rubs), course.sessions, constants(model), NO_WIRES, on, parameters,
+        _doubles(rubs), course.sessions, model_constants(model), NO_WIRES, on, parameters,
         np.zeros(len(EFFECTS)), np.zeros(WAYS), course.clocks, longest, simple,
         course.measured if trust.any() else UNSEEN, _doubles(trust), out,
     )  # fmt: skip
@@ -211,12 +225,12 @@ def _leans(model: Model, position: Array, meshed: Array) -> Array:
     return np.where(np.isnan(meshed), np.sign(load), meshed)
 
 
-def compiled() -> bool:
+def engine_is_cached() -> bool:
     """Whether the engine waits in the cache; if not, its first use takes about ten seconds."""
     return is_compiled(EFFECTS)
 
 
-def ready() -> None:
+def load_engine() -> None:
     """Compile the engine, or load it."""
     gains = {"kS": 0.0, "kV": 1.0, "kA": 1.0}
     move(Model("simple", gains), time=np.zeros(1), voltage=np.zeros(1), state=State())
@@ -231,7 +245,7 @@ def _compiled() -> Kernel | ModuleType:
 @cache
 def _made() -> Kernel | ModuleType:
     """The compiled engine; a person at a terminal is told why the first time takes a while."""
-    if sys.stderr.isatty() and not compiled():
+    if sys.stderr.isatty() and not engine_is_cached():
         sys.stderr.write("Compiling the simulation, once; this takes about ten seconds…\n")
     return compose(EFFECTS)
 

@@ -13,13 +13,13 @@ from collections.abc import Iterator, Mapping
 from types import ModuleType
 
 from sim.effect import Effect
-from sim.engine import joined, one_body, stepping, two_bodies, wires
-from sim.engine.joined import WAYS
-from sim.engine.kernel import Kernel, kept_at, kernel
+from sim.engine import one_body, power_path, stepping, two_bodies, two_body_modes
+from sim.engine.kernel import Kernel, kernel_file, load_kernel
+from sim.engine.two_body_modes import WAYS
 from sim.errors import BadRequest
-from sim.work.cache import folder
+from sim.work.cache import cache_folder
 
-MODULES = (wires, joined, one_body, two_bodies, stepping)
+MODULES = (power_path, two_body_modes, one_body, two_bodies, stepping)
 CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
 
 HOOKS: Mapping[str, tuple[str, str, str]] = {
@@ -55,7 +55,7 @@ SHAPES = {  # of the arrays that `runs` asks for, but for what effects remember
 RUNNING = {"passes": "u", "sees": "seen"}  # a chain: each effect changes what the last one left
 
 
-def places(effects: Mapping[str, Effect]) -> dict[str, slice]:
+def parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
     """Where the parameters of each effect stand in the engine's one array of parameters."""
     found, at = {}, 0
     for name, effect in effects.items():
@@ -83,7 +83,7 @@ def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel |
             )
     text = "\n".join(_text(effects, compiled=compiled))
     if compiled:
-        return kernel(text, kept_at(folder(), _seal(effects, text)))
+        return load_kernel(text, kernel_file(cache_folder(), _seal(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
     return module
@@ -92,7 +92,7 @@ def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel |
 def is_compiled(effects: Mapping[str, Effect]) -> bool:
     """Whether an engine for these effects waits in the cache."""
     text = "\n".join(_text(effects, compiled=True))
-    return kept_at(folder(), _seal(effects, text)).is_file()
+    return kernel_file(cache_folder(), _seal(effects, text)).is_file()
 
 
 def _seal(effects: Mapping[str, Effect], text: str) -> str:
@@ -120,7 +120,7 @@ def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
         for hook, act in effect.acts.items():
             yield f"import {act.__module__}"
             yield f"{_alias(effect, hook)} = step({act.__module__}.{act.__name__})"
-    at = places(effects)
+    at = parameter_slices(effects)
     for hook in HOOKS:
         yield from _chain(hook, effects, at)
     yield from _memories(effects, at)

@@ -20,11 +20,11 @@ from typing import Any
 
 import numpy as np
 
-from sim.engine.machine_code import Code, code_of, linked, machine
+from sim.engine.machine_code import Code, code_of, link_code, machine_id
 from sim.log import Array
 from sim.work import cache
 
-__all__ = ["Kernel", "kept_at", "kernel", "tried"]
+__all__ = ["Kernel", "kernel_file", "load_kernel", "try_kernel_file"]
 
 KEPT = 4  # engines of other versions that stay in the cache
 NUMBER = np.dtype(np.float64)
@@ -90,27 +90,27 @@ def _place(array: Array) -> int:
     return place
 
 
-def kept_at(folder: Path, seal: str) -> Path:
+def kernel_file(folder: Path, seal: str) -> Path:
     """The file in which the machine code of an engine is kept for this processor.
 
     Args:
         folder: the cache.
         seal: of the engine's text.
     """
-    own = hashlib.sha256(f"{seal}\n{machine()}".encode()).hexdigest()[:20]
+    own = hashlib.sha256(f"{seal}\n{machine_id()}".encode()).hexdigest()[:20]
     return folder / f"sysid_engine_{own}.kernel"
 
 
-def kernel(text: str, kept: Path) -> Kernel:
+def load_kernel(text: str, kept: Path) -> Kernel:
     """The kernel of an engine: what was kept, or else compiled, and kept if it can be.
 
     Args:
         text: of the module, as composed.
         kept: where it is kept.
     """
-    content = cache.read(kept)
+    content = cache.read_cached(kept)
     code = Code.read(content) if content else None
-    if code is not None and (found := linked(code)):
+    if code is not None and (found := link_code(code)):
         return Kernel(*found)
     if content == NO_USE:
         made = _of_file(text, kept)
@@ -146,16 +146,16 @@ def _of_file(text: str, kept: Path) -> Any:  # noqa: ANN401 - Numba has no types
 def _written(path: Path, text: str) -> Path:
     """The module's file, whole."""
     if not path.exists():
-        cache.keep(path, text.encode())
+        cache.write_cached(path, text.encode())
     return path
 
 
 def _keep(code: Code, kept: Path) -> None:
     """Keep it; where another process does not get along with it, an empty file says so."""
     try:
-        cache.keep(kept, code.written())
+        cache.write_cached(kept, code.written())
         if not _works(kept):
-            cache.keep(kept, NO_USE)
+            cache.write_cached(kept, NO_USE)
         _forget_old(kept.parent)
     except OSError:  # a home that cannot be written to: compiled anew each time
         return
@@ -178,15 +178,15 @@ def _works(kept: Path) -> bool:
 
 def _forget_old(where: Path) -> None:
     """Leave the newest few engines, with what was compiled for them."""
-    for old in cache.older(where.glob("sysid_engine_*.kernel"), than=KEPT):
+    for old in cache.oldest_files(where.glob("sysid_engine_*.kernel"), than=KEPT):
         beside = where.glob(f"__pycache__/{old.stem}.*")
-        cache.forget((old, old.with_suffix(".py"), *beside))
+        cache.remove_files((old, old.with_suffix(".py"), *beside))
 
 
-def tried(kept: Path) -> None:
+def try_kernel_file(kept: Path) -> None:
     """Load and call what was kept, for no run at all: it works, or the process ends."""
     code = Code.read(kept.read_bytes())
-    found = linked(code) if code is not None else None
+    found = link_code(code) if code is not None else None
     if found is None:
         sys.exit(1)
     none, some = np.zeros((0, 2)), np.zeros(ROOM)

@@ -13,7 +13,7 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-__all__ = ["Code", "code_of", "linked", "machine"]
+__all__ = ["Code", "code_of", "link_code", "machine_id"]
 
 OF_NUMBA = ("NRT_", "numba_")  # what only a function that raises would call, and ours never does
 
@@ -53,7 +53,7 @@ def _seal(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def machine() -> str:
+def machine_id() -> str:
     """All that decides whether machine code can be used here."""
     triple, processor = llvm.get_process_triple(), llvm.get_host_cpu_name()
     features = llvm.get_host_cpu_features().flatten()
@@ -98,7 +98,7 @@ def _target() -> Any:  # noqa: ANN401 - llvmlite has no types
     )
 
 
-def linked(code: Code) -> tuple[int, object] | None:
+def link_code(code: Code) -> tuple[int, object] | None:
     """The address of the function, and what must live as long as it is called.
 
     None where something that it needs is missing: LLVM would end the whole process.

@@ -12,7 +12,7 @@ Plain functions of numbers: ``sim/engine/compose.py`` compiles them together wit
 import math
 
 from sim.engine.hooks import Numbers, grip, passes, pull  # composed: begin
-from sim.engine.wires import reaches
+from sim.engine.power_path import reaches
 from sim.log import Array  # composed: end
 
 KS, KV, KA, LOAD, LEVEL, ANGLE, LOW, HIGH = range(8)

@@ -21,8 +21,8 @@ from sim.engine.hooks import (  # composed: begin
     share,
 )
 from sim.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bounded, single
+from sim.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_at, reaches
 from sim.engine.two_bodies import double
-from sim.engine.wires import CUT, EMF, OHM, REST, STOP, bus_at, reaches
 from sim.log import Array  # composed: end
 
 POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, EXPECTED, SEEN = range(8)

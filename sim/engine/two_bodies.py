@@ -1,7 +1,7 @@
 """Two bodies along one step: a motor with its share of the inertia, and the load it pushes.
 
 It pushes through what joins them, free play first. A spring that joins them is part of the exact
-solution (``sim/engine/joined.py``), so a step in which nothing happens is gone in one; a body that
+solution (``sim/engine/two_body_modes.py``), so a step in which nothing happens is gone in one; a body that
 turns, and teeth that meet or part, are closed in by halving.
 
 Plain functions of numbers: ``sim/engine/compose.py`` compiles them together with the effects'.
@@ -10,20 +10,6 @@ Plain functions of numbers: ``sim/engine/compose.py`` compiles them together wit
 import math
 
 from sim.engine.hooks import Numbers, pull, share, slack, softness  # composed: begin
-from sim.engine.joined import (
-    DAMP,
-    KNOWN,
-    LEVELS,
-    MOVES,
-    ROW,
-    SMALL,
-    STANDS,
-    STIFF,
-    becomes,
-    doubled,
-    prepared,
-    tabled,
-)
 from sim.engine.one_body import (
     HIGH,
     KV,
@@ -38,6 +24,20 @@ from sim.engine.one_body import (
     slides,
     through,
     within,
+)
+from sim.engine.two_body_modes import (
+    DAMP,
+    KNOWN,
+    LEVELS,
+    MOVES,
+    ROW,
+    SMALL,
+    STANDS,
+    STIFF,
+    becomes,
+    doubled,
+    prepared,
+    tabled,
 )
 from sim.log import Array  # composed: end
 

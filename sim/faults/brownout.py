@@ -15,10 +15,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, at_pace, with_run
+from sim.anomalies import Anomaly
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
 from sim.log import Log
-from sim.surprise import Surprise
+from sim.log_features import LogFeatures
 
 CUT = 0.3  # [s] without motors at severity 1
 DIP = 6.0  # [V] of the bus while it lasts: below every controller's threshold
@@ -34,9 +34,9 @@ SURE = 0.9  # [share explained] at the start of a run, where current limits look
 FASTEST = 1.2  # [times the usual speed] a cut can make what falls go, before the model is in doubt
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Let the mechanism go on without its motor for a moment."""
-    clues = Clues(log)
+    clues = LogFeatures(log)
     run = log.runs[blow.run]
     start = float(run.time[0]) + blow.start
     lasts = CUT * blow.severity * rng.uniform(0.9, 1.1)
@@ -55,14 +55,14 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
         return Spoilt(log, ())
     pace = np.ones(len(run))
     pace[first:][moves] = np.clip(without[moves] / as_it_was[moves], -FASTEST, FASTEST)
-    spoilt = at_pace(run, pace)
+    spoilt = rescale_motion(run, pace)
     if run.bus_voltage is not None:
         bus = np.where(cut, np.minimum(run.bus_voltage, DIP), run.bus_voltage)
         spoilt = replace(spoilt, bus_voltage=bus)
-    return Spoilt(with_run(log, blow.run, spoilt), (Stretch(blow.run, run.test, start, end),))
+    return Spoilt(replace_run(log, blow.run, spoilt), (Stretch(blow.run, run.test, start, end),))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find surprises that a cut of the whole voltage explains."""
     for surprise in clues.surprises:
         if surprise.again:
@@ -100,7 +100,7 @@ def _confidence(share: float, *, back: bool, seen: bool) -> float:
     return 1.0 - (1.0 - share) / (FREE * (1.0 + seen))
 
 
-def _best(clues: Clues, surprise: Surprise) -> tuple[float, int, int]:
+def _best(clues: LogFeatures, surprise: Anomaly) -> tuple[float, int, int]:
     """Share explained by a cut, its first sample of the run, and the one behind its last."""
     best = (0.0, surprise.first, surprise.last + 1)
     if float(surprise.left @ np.sign(surprise.expected)) >= 0.0:
@@ -118,7 +118,7 @@ def _best(clues: Clues, surprise: Surprise) -> tuple[float, int, int]:
     return max([best, *((_share(clues, surprise, first, end), first, end) for end in near)])
 
 
-def _share(clues: Clues, surprise: Surprise, first: int, last: int) -> float:
+def _share(clues: LogFeatures, surprise: Anomaly, first: int, last: int) -> float:
     """How much a cut of these samples of the run explains."""
     run, balance = clues.log.runs[surprise.run], clues.balance
     if balance is None:

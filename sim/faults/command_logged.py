@@ -22,10 +22,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.balance import Balance
-from sim.clues import DRIVEN, Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, at_pace, with_run
+from sim.baseline_model import BaselineModel
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
 from sim.log import Array, Log, Run
+from sim.log_features import DRIVEN, LogFeatures
 
 KEEPS = 1.0 / 3.0  # [share] of its acceleration that a start keeps at severity 1; by the cube
 # root of the severity, because what costs less than half of the acceleration leaves no mark
@@ -46,19 +46,19 @@ FLAT = 0.2  # [share] of the acceleration that must be lacking at first
 TRUE = 1.25  # [times] the balance's own speed is still the one it was found with
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:  # noqa: ARG001 - the contract
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:  # noqa: ARG001 - the contract
     """Clip the current while each dynamic test starts, and log the step as it was asked for."""
-    clues, where = Clues(log), []
+    clues, where = LogFeatures(log), []
     for index, run in enumerate(clues.log.runs):
         if run.kind == log.runs[blow.run].kind:
             spoilt = _clipped(clues, index, keeps=float(KEEPS ** np.cbrt(blow.severity)))
             if spoilt is not None:
-                log = with_run(log, index, spoilt)
+                log = replace_run(log, index, spoilt)
                 where.append(_whole(index, run))
     return Spoilt(log, tuple(where))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find perfect steps that the mechanism starts as if it did not get all of them.
 
     A limit knows no direction: where only one of several steps starts like that, it had an accident
@@ -106,7 +106,7 @@ class _Start:
     volts: float
     steady: Array
     step: float
-    balance: Balance
+    balance: BaselineModel
 
     @property
     def length(self) -> float:
@@ -137,7 +137,7 @@ class _Shape:
     delay: float
 
 
-def _clipped(clues: Clues, index: int, *, keeps: float) -> Run | None:
+def _clipped(clues: LogFeatures, index: int, *, keeps: float) -> Run | None:
     """The run with a start that keeps a share of its acceleration; None if it has no step."""
     run, balance = clues.log.runs[index], clues.balance
     driven = np.flatnonzero(np.abs(run.voltage) > DRIVEN * np.abs(run.voltage).max(initial=0.0))
@@ -154,14 +154,16 @@ def _clipped(clues: Clues, index: int, *, keeps: float) -> Run | None:
     pace[first:][moves] = np.clip(held[moves] / free[moves], 0.0, 1.0)
     voltage = run.voltage.copy()
     voltage[first:last] = asked
-    spoilt = replace(at_pace(run, pace), voltage=voltage)
+    spoilt = replace(rescale_motion(run, pace), voltage=voltage)
     if run.current is None:
         return spoilt
     most = keeps * float(np.abs(run.current).max())
     return replace(spoilt, current=np.clip(run.current, -most, most))
 
 
-def _rise(since: Array, voltage: Array, place: float, balance: Balance, *, keeps: float) -> Array:
+def _rise(
+    since: Array, voltage: Array, place: float, balance: BaselineModel, *, keeps: float
+) -> Array:
     """(n,) [m/s or rad/s] from rest at a place, in the direction of the voltage (n,) [V]."""
     way = float(np.sign(np.median(voltage)))
     fine = np.linspace(0.0, since[-1], FINE * since.size)
@@ -189,7 +191,7 @@ def _step(run: Run) -> int | None:
     return int(driven[0]) if stray <= max(PERFECT * abs(asked), ROUNDING) else None
 
 
-def _start(clues: Clues, index: int, first: int) -> _Start | None:
+def _start(clues: LogFeatures, index: int, first: int) -> _Start | None:
     """The part of a test that tells how it starts."""
     run, balance = clues.log.runs[index], clues.balance
     if balance is None:

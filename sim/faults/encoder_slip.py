@@ -16,10 +16,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, at_pace, with_run
+from sim.anomalies import Anomaly
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
 from sim.log import Array, Log
-from sim.surprise import Surprise
+from sim.log_features import LogFeatures
 
 SLIP = 0.4  # [s] as long as a slip lasts, or half of what is left of the run
 HOP = 0.08  # [s] as long as a skipped tooth takes, at least four samples
@@ -37,7 +37,7 @@ BELIEVED = 0.92  # [share explained] less is something else
 AT_END = 0.005  # [share of the travel] within which it stands, at the end of it
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Let the sensor read too little, or hop, for a moment."""
     run = log.runs[blow.run]
     start = float(run.time[0]) + blow.start
@@ -51,12 +51,12 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     slips = (run.time > start) & (run.time <= start + lasts)
     if not np.any(run.velocity[slips]):
         return Spoilt(log, ())
-    spoilt = at_pace(run, np.where(slips, pace, 1.0))
+    spoilt = rescale_motion(run, np.where(slips, pace, 1.0))
     where = Stretch(blow.run, run.test, start, min(start + lasts, float(run.time[-1])))
-    return Spoilt(with_run(log, blow.run, spoilt), (where,))
+    return Spoilt(replace_run(log, blow.run, spoilt), (where,))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find surprises that a share of the speed explains, which goes and comes back at once."""
     for surprise in clues.surprises:
         if surprise.again:
@@ -82,7 +82,7 @@ def detect(clues: Clues) -> Iterable[Damage]:
         )
 
 
-def _stands_at_its_end(clues: Clues, position: Array) -> bool:
+def _stands_at_its_end(clues: LogFeatures, position: Array) -> bool:
     """Whether it stands where it can go no further: steps up and down end on a stop."""
     every = np.concatenate([run.position for run in clues.log.runs])
     lowest, highest = float(every.min()), float(every.max())
@@ -91,7 +91,7 @@ def _stands_at_its_end(clues: Clues, position: Array) -> bool:
     return usual - lowest < near or highest - usual < near
 
 
-def _best(surprise: Surprise, period: float) -> tuple[float, float, int, int]:
+def _best(surprise: Anomaly, period: float) -> tuple[float, float, int, int]:
     """Share explained, share of the speed lost, first sample and the one behind the last.
 
     What swells and fades over a longer time is no slip, whatever share of it a slip explains.
@@ -106,7 +106,7 @@ def _best(surprise: Surprise, period: float) -> tuple[float, float, int, int]:
     return swelling if brief else (0.0, *sudden[1:])
 
 
-def _over_spans(surprise: Surprise, *, swells: bool, slack: int) -> tuple[float, float, int, int]:
+def _over_spans(surprise: Anomaly, *, swells: bool, slack: int) -> tuple[float, float, int, int]:
     """The same over all spans, for one of the two shapes."""
     best = (0.0, 0.0, 0, 1)
     for span in surprise.spans(slack=slack):
@@ -117,7 +117,7 @@ def _over_spans(surprise: Surprise, *, swells: bool, slack: int) -> tuple[float,
 
 
 def _loss(
-    surprise: Surprise, span: tuple[int, int], *, swells: bool
+    surprise: Anomaly, span: tuple[int, int], *, swells: bool
 ) -> tuple[float, float, int, int]:
     """The same for one span: all at once, or swelling and fading."""
     first, last = span

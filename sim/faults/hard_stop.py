@@ -16,10 +16,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, at_pace, only, with_run
+from sim.anomalies import find_first_motion
+from sim.fault import (
+    Damage,
+    Fault,
+    Spoilt,
+    Stretch,
+    Strike,
+    replace_run,
+    rescale_motion,
+    select_samples,
+)
 from sim.log import Array, Log, Run
-from sim.surprise import first_motion
+from sim.log_features import LogFeatures
 
 PRESSED = 0.6  # [s] against the stop at severity 1, until somebody lets go
 BOUNCE, FADES = 0.15, 0.02  # [share of the speed, s] how it comes back from the stop, and how long
@@ -39,7 +48,7 @@ LEANS = 0.7  # confidence: a chain that is pulled taut looks the same
 GIVES = 0.25  # [share of the way it would have gone] a stop that gives more is none
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Put a stop in the way, and let the voltage push on for a while."""
     pressed = PRESSED * blow.severity * rng.uniform(0.9, 1.1)
     run = log.runs[blow.run]
@@ -48,21 +57,21 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     end = int(np.searchsorted(longer.time, run.time[0] + blow.start + pressed, side="right"))
     if impact >= end - 1 or not np.any(longer.velocity[impact:end]):
         return Spoilt(log, ())
-    cut = only(longer, slice(end))
+    cut = select_samples(longer, slice(end))
     since = cut.time - cut.time[impact]
     pace = np.where(since < 0.0, 1.0, -BOUNCE * np.exp(-since / FADES) * (since < 4.0 * FADES))
-    spoilt = at_pace(cut, pace)
+    spoilt = rescale_motion(cut, pace)
     late = float(spoilt.time[-1] - run.time[-1])
-    damaged = with_run(log, blow.run, spoilt)
+    damaged = replace_run(log, blow.run, spoilt)
     if late > 0.0:  # what comes after this run comes that much later
         for index in range(blow.run + 1, len(log.runs)):
             follows = log.runs[index]
-            damaged = with_run(damaged, index, replace(follows, time=follows.time + late))
+            damaged = replace_run(damaged, index, replace(follows, time=follows.time + late))
     where = Stretch(blow.run, run.test, float(spoilt.time[impact]), float(spoilt.time[-1]))
     return Spoilt(damaged, (where,))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find runs that end at a stop with the voltage still on, or begin leaning on one."""
     yield from _leaning(clues)
     for index, run in enumerate(clues.log.runs):
@@ -113,7 +122,7 @@ def _at_once(run: Run, impact: int, *, speed: float, still: float) -> bool:
     return bool(size[impact - 1] > WHOLE * speed and np.all(size[impact + 1 :] < still))
 
 
-def _leaning(clues: Clues) -> Iterable[Damage]:
+def _leaning(clues: LogFeatures) -> Iterable[Damage]:
     """Find runs that begin pressed onto a stop which gives, and come off it too late."""
     balance = clues.balance
     if balance is None or clues.log.type == "simple":
@@ -123,7 +132,7 @@ def _leaning(clues: Clues) -> Iterable[Damage]:
     for index, run in enumerate(clues.log.runs):
         if run.kind != "quasistatic" or not len(run):
             continue
-        off = first_motion(run, still=clues.still)
+        off = find_first_motion(run, still=clues.still)
         way, volts = np.sign(run.voltage[off]), abs(float(run.voltage[off]))
         pressed = float(way * balance.gravity(run.position[:1])[0])
         given = float(way * (run.position[off] - run.position[0])) / max(highest - lowest, 1e-300)

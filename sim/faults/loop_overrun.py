@@ -15,9 +15,9 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, only, with_run
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, select_samples
 from sim.log import Log
+from sim.log_features import LogFeatures
 
 SHORTEST, LONGEST = 0.04, 0.3  # [s] a stall; shorter ones are jitter, longer ones trip a watchdog
 SPREAD = 1.5  # [s] over which stalls come at severity 1, one about every quarter of a second
@@ -28,7 +28,7 @@ TOGETHER = 1.0  # [s] stalls no further apart than this are one stretch of troub
 PROOF = 2.0  # [usual steps] lost in all: one might be a hiccup, ten are none
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Lose the samples of a few stalls."""
     run = log.runs[blow.run]
     start = float(run.time[0]) + blow.start
@@ -47,11 +47,11 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     if not stalls:
         return Spoilt(log, ())
     first, last = run.time[stalls[0][0] - 1], run.time[stalls[-1][-1] + 1]
-    spoilt = with_run(log, blow.run, only(run, keep))
+    spoilt = replace_run(log, blow.run, select_samples(run, keep))
     return Spoilt(spoilt, (Stretch(blow.run, run.test, float(first), float(last)),))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find steps in time that no jitter explains."""
     for index, run in enumerate(clues.log.runs):
         step = np.diff(run.time)

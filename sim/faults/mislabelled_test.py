@@ -15,15 +15,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.log import FOUR_TESTS, Log, Run
+from sim.log_features import LogFeatures
 
 ALL = 2.0  # [severity] from which no test keeps its name
 CONFIDENCE = 0.95  # a ramp cannot look like a step; a team's own forward may be another's reverse
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Let the struck run change names with another one; from severity 2 on, all of them move on."""
     runs = list(log.runs)
     names = [run.test for run in runs]
@@ -39,7 +39,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     return Spoilt(replace(log, runs=tuple(runs)), tuple(where))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Compare every run's name with what its voltage does."""
     for index, (run, seems) in enumerate(zip(clues.log.runs, clues.seems, strict=True)):
         if seems != run.test:

@@ -15,9 +15,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.log import FOUR_TESTS, Log
+from sim.log_features import LogFeatures
 
 CONFIDENCE = 0.98  # what is not in a log may still be in another one
 
@@ -27,7 +27,7 @@ _COST = {
 }
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Lose the struck test, and beyond severity 1 others with it; one test always stays."""
     struck = log.runs[blow.run].test
     others = sorted({run.test for run in log.runs} - {struck})
@@ -37,7 +37,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     return Spoilt(replace(log, runs=kept), tuple(_nowhere(test) for test in sorted(lost)))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Name those of the four tests that are neither filed nor recognized."""
     there = {run.test for run in clues.log.runs} | set(clues.seems)
     if not there & set(FOUR_TESTS):

@@ -16,10 +16,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.log import Array, Log, Run
-from sim.prepare import noise_floor
+from sim.log_features import LogFeatures
+from sim.sysid_rows import noise_floor
 
 ORDINARY = 0.06  # [share of the log's top speed] standard deviation at severity 1
 LOUD = 0.014  # [share of the log's top speed] less is a doubt rather than a fault
@@ -29,14 +29,14 @@ HERE = 0.3  # [share of the log's noise at rest] that a run must have to be name
 SURE = 3.0  # [times LOUD] at which the confidence is 0.95
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Let the velocity tremble while the mechanism stands, in every quasistatic test."""
     ramps = [i for i, run in enumerate(log.runs) if run.kind == "quasistatic"]
-    still = Clues(log).standing
+    still = LogFeatures(log).standing
     if all(still[i] < FEWEST for i in ramps):
         rested = (_with_rest(run) if i in ramps else run for i, run in enumerate(log.runs))
         log = replace(log, runs=tuple(rested))
-        still = Clues(log).standing
+        still = LogFeatures(log).standing
     runs = list(log.runs)
     size = ORDINARY * blow.severity * max(run.top_speed for run in runs)
     where = []
@@ -50,7 +50,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     return Spoilt(replace(log, runs=tuple(runs)), tuple(where))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Measure the velocity at the beginning of every ramp, while the position stands."""
     top = max((run.top_speed for run in clues.log.runs), default=0.0)
     rests = {}

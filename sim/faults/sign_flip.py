@@ -18,9 +18,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues, Flags, way
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.log import Array, Log, Run
+from sim.log_features import Flags, LogFeatures, majority_sign
 
 ONE_WAY, BOTH_WAYS = 0.7, 2.0  # [severity] from which all tests of a direction, or all, are struck
 HARD = 0.5  # [share of the largest voltage] less may lose against gravity and friction
@@ -28,7 +28,7 @@ FEWEST = 5  # [samples] driven and moving; fewer prove nothing
 FALLS = 3.0  # [times] faster the other way with as much voltage: gravity decides, not a sign
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Turn a signal round: in one run, in one direction's runs, or in all."""
     signals = (("voltage",), ("position", "velocity"), ("velocity",))[int(rng.integers(3))]
     struck = log.runs[blow.run]
@@ -42,7 +42,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     return Spoilt(replace(log, runs=tuple(runs)), tuple(where))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Compare the signs of voltage, velocity and the slope of position in every run."""
     for index, run in enumerate(clues.log.runs):
         slope, moving = clues.slopes[index], clues.moving[index]
@@ -65,7 +65,7 @@ def _hard(values: Array) -> Flags:
 
 
 def _against(one: Array, other: Array, judged: Flags) -> bool:
-    return bool(judged.sum() >= FEWEST) and way(one[judged] * other[judged]) < 0
+    return bool(judged.sum() >= FEWEST) and majority_sign(one[judged] * other[judged]) < 0
 
 
 def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
@@ -83,7 +83,7 @@ def _falls(run: Run, log: Log) -> bool:
     """Whether the other direction of the same test goes the same way, several times as fast."""
     mate = f"{run.kind}-{'reverse' if run.direction == 'forward' else 'forward'}"
     for other in log.of(mate):
-        goes = way(other.velocity) * way(run.velocity) > 0
+        goes = majority_sign(other.velocity) * majority_sign(run.velocity) > 0
         if goes and other.top_speed > FALLS * run.top_speed:
             return True
     return False

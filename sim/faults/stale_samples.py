@@ -17,9 +17,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues, Counts, Flags, holds
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.log import Array, Log, Run
+from sim.log_features import Counts, Flags, LogFeatures, find_held_samples
 
 ORDINARY = 3.0  # [samples] that repeat each reading at severity 1: 20 ms frames logged at 5 ms
 JUMP = 4.0  # [smallest steps of the sensor] a smaller jump may be its resolution, not its frames
@@ -27,7 +27,7 @@ FEWEST = 5  # [readings] with clear jumps; fewer prove nothing
 STALE = 2  # [samples] that the usual reading is held; a clean log repeats one only now and then
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Let every reading of the sensor stand until the next frame arrives."""
     held = max(STALE, 1 + round(ORDINARY * blow.severity))
     phases = rng.integers(held, size=len(log.runs))
@@ -38,7 +38,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     )
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find runs whose usual reading is held for several samples while they move."""
     steps = {"velocity": clues.velocity_step, "position": clues.position_step}
     held = {
@@ -56,7 +56,7 @@ def detect(clues: Clues) -> Iterable[Damage]:
 
 def _held(values: Array, moving: Flags, *, step: float) -> Counts:
     """[samples] how long those readings stand of which one can tell, by clear jumps around them."""
-    starts, lengths = holds(values)
+    starts, lengths = find_held_samples(values)
     clear = np.abs(np.diff(values[starts])) > JUMP * step
     between = clear[:-1] & clear[1:] & moving[starts[1:-1]]
     return np.asarray(lengths[1:-1][between])

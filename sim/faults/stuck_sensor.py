@@ -16,9 +16,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import MOVING, Clues, Counts, holds
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.log import Log, Run
+from sim.log_features import MOVING, Counts, LogFeatures, find_held_samples
 
 ORDINARY = 0.15  # [share of the run] that is frozen at severity 1
 ROOM = 0.9  # [share of what is left of the run] a freeze may take, so that the truth returns
@@ -29,7 +29,7 @@ WENT = 0.4  # [share] of the way that two speeds promise, which the jump at the 
 AFTER = 3  # [samples] that tell how fast it went on
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:  # noqa: ARG001 - the contract
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:  # noqa: ARG001 - the contract
     """Freeze the reading of one moment; nothing happens where nothing moves."""
     run = log.runs[blow.run]
     left = float(run.time[-1] - run.time[0]) - blow.start
@@ -40,19 +40,19 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:  # noqa: AR
     frozen = np.arange(len(run))
     frozen[first : last + 1] = first
     hidden = float(np.abs(run.position[first : last + 1] - run.position[first]).max())
-    if last - first < FEWEST or hidden <= FAR * Clues(log).position_step:
+    if last - first < FEWEST or hidden <= FAR * LogFeatures(log).position_step:
         return Spoilt(log, ())
     stuck = replace(run, position=run.position[frozen], velocity=run.velocity[frozen])
     runs = tuple(stuck if other is run else other for other in log.runs)
     return Spoilt(replace(log, runs=runs), (_stretch(blow.run, run, first, last),))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find long stretches in which neither reading changes although it moves."""
     for index, run in enumerate(clues.log.runs):
         together = np.stack((run.position, run.velocity))
         changed = np.any(np.diff(together, axis=1) != 0.0, axis=0)
-        starts, lengths = holds(np.concatenate(([0], np.cumsum(changed))).astype(float))
+        starts, lengths = find_held_samples(np.concatenate(([0], np.cumsum(changed))).astype(float))
         shortest = max(FEWEST, UNUSUAL * _usual(clues, index))
         for first, length in zip(starts[lengths >= shortest], lengths[lengths >= shortest]):  # noqa: B905 - one mask cuts both
             last = int(first + length - 1)
@@ -61,10 +61,13 @@ def detect(clues: Clues) -> Iterable[Damage]:
                 yield _damage(index, run, int(first), last, hidden)
 
 
-def _usual(clues: Clues, index: int) -> float:
+def _usual(clues: LogFeatures, index: int) -> float:
     """[samples] that a reading usually stands in motion, the slower one of the two."""
     run, moving = clues.log.runs[index], clues.moving[index]
-    return max(_median_hold(*holds(v), moving.nonzero()[0]) for v in (run.position, run.velocity))
+    return max(
+        _median_hold(*find_held_samples(v), moving.nonzero()[0])
+        for v in (run.position, run.velocity)
+    )
 
 
 def _median_hold(starts: Counts, lengths: Counts, moving: Counts) -> float:

@@ -17,9 +17,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.log import Log, Run
+from sim.log_features import LogFeatures
 
 TURN = 2.0 * math.pi
 NEAR = 0.05  # [share] how closely a factor must be met; slip and filters bend it less
@@ -41,7 +41,7 @@ KNOWN: Mapping[str, float] = {
 MILD, ORDINARY, GROSS = (TURN,), (60.0, 360.0 / TURN), (360.0, TURN * 60.0)  # by severity
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Count velocity in another unit, in every run; a harder blow takes a larger factor."""
     factors = MILD if blow.severity < 0.7 else ORDINARY if blow.severity < 2.0 else GROSS  # noqa: PLR2004 - thirds of the scale
     factor = float(rng.choice(factors)) ** int(rng.choice((-1, 1)))
@@ -51,7 +51,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     )
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Divide what the velocities sum up to by what the position changes, and look it up."""
     for index, (run, ratio) in enumerate(zip(clues.log.runs, clues.scales, strict=True)):
         said = _named(ratio)

@@ -17,9 +17,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.clues import Clues
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.log import Array, Log, Run
+from sim.log_features import LogFeatures
 
 EVERY = 0.22  # [s] between two drop-outs
 LASTS = 0.015  # [s] at severity 1; never less than a sample
@@ -47,7 +47,7 @@ class _Drop:
     ought: float
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Let the voltage drop out at a rhythm, from the blow to the end of the run."""
     run = log.runs[blow.run]
     voltage = run.voltage.copy()
@@ -65,7 +65,7 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     return Spoilt(replace(log, runs=runs), tuple(s for s, _ in _stories(blow.run, run, drops)))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find short falls of the voltage that the velocity does not answer."""
     for index, run in enumerate(clues.log.runs):
         if run.kind not in FAULT.kinds or len(run) < NARROWEST:

@@ -22,10 +22,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.balance import Balance
-from sim.clues import Clues, Counts, holds
-from sim.fault import Blow, Damage, Fault, Spoilt, Stretch, at_pace, with_run
+from sim.baseline_model import BaselineModel
+from sim.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
 from sim.log import Array, Log, Run
+from sim.log_features import Counts, LogFeatures, find_held_samples
 
 HELD = 0.4  # [share of the step] that the tires hold at severity 1
 LIGHT = 0.1  # [share of kA] that is the wheels' and rotors' own
@@ -52,9 +52,9 @@ CLEAR = 0.04  # [share of top speed] a plain rise misses by at least this much
 CAUTION = 0.8  # [share of the voltage that still held] for the next step
 
 
-def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Let the wheels of a step break loose; where the blow falls, the step decides."""
-    clues = Clues(log)
+    clues = LogFeatures(log)
     run, balance = log.runs[blow.run], clues.balance
     held = HELD ** (blow.severity * rng.uniform(0.9, 1.1))
     if balance is None:
@@ -89,17 +89,17 @@ def spoil(log: Log, blow: Blow, rng: np.random.Generator) -> Spoilt:
     slipping = np.interp(since - late, grid, spun.speed[0])
     moves &= since < lasts
     pace[moves] = np.clip(slipping[moves] / speed[moves], 0.0, SPIN)
-    spoilt = at_pace(run, pace)
+    spoilt = rescale_motion(run, pace)
     if limited:  # faster wheels leave the limit sooner
         more = np.interp(since, grid, spun.push[0]) - push
         more *= np.sign(run.voltage[first]) * ((since >= 0.0) & (since < lasts))
         spoilt = replace(spoilt, voltage=run.voltage + balance.kv * more)
     start = float(run.time[first])
     where = Stretch(blow.run, run.test, start, min(start + grips, float(run.time[-1])))
-    return Spoilt(with_run(log, blow.run, spoilt), (where,))
+    return Spoilt(replace_run(log, blow.run, spoilt), (where,))
 
 
-def detect(clues: Clues) -> Iterable[Damage]:
+def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find steps that a surge and a lull explain better than any plain rise."""
     if clues.balance is None or clues.log.type not in ("", *FAULT.types):
         return
@@ -142,13 +142,13 @@ def detect(clues: Clues) -> Iterable[Damage]:
 
 def _fresh(run: Run, first: int, last: int) -> Counts:
     """The samples to look at: not too many, and of frames that stand for long only the new ones."""
-    starts, lengths = holds(run.velocity[first:last])
+    starts, lengths = find_held_samples(run.velocity[first:last])
     if float(np.median(lengths)) < STALE:
         starts = np.arange(last - first)
     return first + starts[:: max(1, starts.size // SAMPLES)]
 
 
-def _push(run: Run, balance: Balance) -> Array:
+def _push(run: Run, balance: BaselineModel) -> Array:
     """(n,) [m/s or rad/s] the speed at which each voltage would end, in the step's direction."""
     return np.asarray(balance.top_speed(run) * np.sign(run.voltage[_step(run)]))
 

@@ -15,7 +15,7 @@ from sim.feedback.regulator import (
     velocity_loop,
 )
 from sim.feedback.response import Plant, StepResponse, step_response
-from sim.feedback.verdict import Verdict, judged
+from sim.feedback.verdict import Verdict, judge_step_response
 
 __all__ = [
     "PRESETS",
@@ -25,7 +25,7 @@ __all__ = [
     "StepResponse",
     "Verdict",
     "allowed_velocity_error",
-    "judged",
+    "judge_step_response",
     "position_loop",
     "step_response",
     "velocity_loop",

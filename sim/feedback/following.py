@@ -21,7 +21,7 @@ BESIDE = {"height": ("above", "below"), "angle": ("above", "below")}
 
 
 @dataclass(frozen=True, eq=False)
-class Followed:
+class FollowedProfile:
     """A profile, and what a mechanism made of it.
 
     Args:
@@ -109,7 +109,7 @@ class Followed:
         return f"about {float(f'{abs(value):.1g}'):g} {self.symbol}"
 
 
-def follow(
+def follow_profile(
     plant: Plant,
     believed: Plant,
     wanted: Profile,
@@ -118,7 +118,7 @@ def follow(
     symbol: str,
     place: str = "way",
     stops: tuple[float, float] = INFINITE,
-) -> Followed:
+) -> FollowedProfile:
     """Let a mechanism follow a profile by a feedforward, and by nothing else.
 
     Args:
@@ -140,7 +140,9 @@ def follow(
         moving.on(min(max(asked, -BATTERY), BATTERY))
         if not low < moving.path[-1] < high:
             moving.path[-1], moving.speed[-1] = min(max(moving.path[-1], low), high), 0.0
-    return Followed(name, symbol, wanted, tuple(moving.path), tuple(moving.speed), place, stops)
+    return FollowedProfile(
+        name, symbol, wanted, tuple(moving.path), tuple(moving.speed), place, stops
+    )
 
 
 def _volts(believed: Plant, at: float, speed: float, push: float) -> float:

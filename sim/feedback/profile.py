@@ -56,7 +56,7 @@ class Profile:
         return 0 if self.acceleration[0] else self.begins[1] - 1
 
 
-def profile(legs: Sequence[Leg], *, start: float = 0.0) -> Profile:
+def join_legs(legs: Sequence[Leg], *, start: float = 0.0) -> Profile:
     """String legs together, from rest.
 
     Args:
@@ -100,13 +100,13 @@ def there_and_back(
     push = speed / rising
     way = [Leg(still), Leg(rising, push), Leg(steady), Leg(rising, -push), Leg(still)]
     back = [Leg(one.seconds, -one.acceleration) for one in way[1:]]
-    return profile([*way, *back], start=start)
+    return join_legs([*way, *back], start=start)
 
 
-def brisk(plant: Plant) -> Profile:
+def brisk_profile(plant: Plant) -> Profile:
     """One way, worth looking at, of something that gravity leaves alone; its numbers are round."""
     gains = plant.gains
     speed = float(f"{BRISK * (12.0 - gains['kS']) / gains['kV']:.0e}")
     rising = max(QUICKEST, float(f"{speed * gains['kA'] / PUSH:.0e}"))
     push = speed / rising
-    return profile([Leg(STILL), Leg(rising, push), Leg(STEADY), Leg(rising, -push), Leg(STILL)])
+    return join_legs([Leg(STILL), Leg(rising, push), Leg(STEADY), Leg(rising, -push), Leg(STILL)])

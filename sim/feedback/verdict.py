@@ -78,7 +78,7 @@ class Verdict:
         }
 
 
-def judged(response: StepResponse) -> Verdict:
+def judge_step_response(response: StepResponse) -> Verdict:
     """Put a step response in numbers.
 
     Args:

@@ -44,17 +44,17 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
     if not type and chosen != "simple" and chosen in log.mechanism.lower():
         log = log.with_doubts(_type_from_name(log))
     if method == "sysid":
-        from sim.fit.recipe import sysid  # noqa: PLC0415 - one method does not wait for the other
+        from sim.fit.wpilib_sysid import fit_wpilib_sysid  # noqa: PLC0415 - one method does not wait for the other
 
-        return sysid(log, type=chosen, median=median)
+        return fit_wpilib_sysid(log, type=chosen, median=median)
     if median != 1:
         raise BadRequest(
             f"a median window of {median} samples with method {method}",
             advice="It belongs to SysId's recipe: ask for --method sysid; this one needs none.",
         )
-    from sim.fit.output_error import output_error  # noqa: PLC0415 - the same
+    from sim.fit.output_error import fit_output_error  # noqa: PLC0415 - the same
 
-    return output_error(log, type=chosen)
+    return fit_output_error(log, type=chosen)
 
 
 def _type_from_name(log: Log) -> Doubt:

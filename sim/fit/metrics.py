@@ -16,11 +16,11 @@ from itertools import pairwise
 import numpy as np
 
 from sim.log import Array
-from sim.prepare import Rows
+from sim.sysid_rows import Rows
 
 
 @dataclass(frozen=True)
-class Simulated:
+class SimulationScore:
     """How well the gains reproduce the velocities, open loop.
 
     Args:
@@ -32,12 +32,12 @@ class Simulated:
     rmse: float
 
 
-def simulated_velocity(
+def score_simulated_velocity(
     rows: Iterable[Rows],
     gains: Mapping[str, float],
     *,
     type: str,  # noqa: A002 - SysId's word
-) -> Simulated:
+) -> SimulationScore:
     """Compare measured velocities with those the gains give for the same voltage.
 
     Each test starts from its measured state; between samples the voltage is held, and the signs of
@@ -61,9 +61,9 @@ def simulated_velocity(
         total += float(part.velocity[1:] @ part.velocity[1:])
         count += len(part) - 1
     if not count or not math.isfinite(missed) or not total:
-        return Simulated(-math.inf, math.inf)
+        return SimulationScore(-math.inf, math.inf)
     rmse = math.sqrt(missed / count)
-    return Simulated(1.0 - rmse / math.sqrt(total / count), rmse)
+    return SimulationScore(1.0 - rmse / math.sqrt(total / count), rmse)
 
 
 def _discretize(period: Array, gains: Mapping[str, float]) -> tuple[list[float], list[float]]:

@@ -11,15 +11,30 @@ import numpy as np
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest, NotIdentifiable
-from sim.fit.another import another_type
-from sim.fit.closest import LAGS, Followed, closest, follow, misfits, wider
-from sim.fit.doubts import unsure
+from sim.fit.fit_doubts import doubt_lags, doubt_misfit, doubt_opposed_signs, doubt_small_misfit
+from sim.fit.gravity_type_hint import hint_gravity_type
+from sim.fit.identifiability import moves_both_ways, refuse_unidentifiable, refuse_unrelated
+from sim.fit.initial_guess import clamp_to_physical, orient_forward
+from sim.fit.measurements import RunMeasurements, estimate_noise, measure_runs
+from sim.fit.open_loop_fallback import (
+    LAGS,
+    OpenLoopReplay,
+    correlated_error_covariance,
+    fit_velocity_only,
+    needs_large_process_noise,
+    replay_open_loop,
+)
+from sim.fit.optimize import (
+    Estimate,
+    PredictionErrorProblem,
+    estimate_covariance,
+    fit_open_loop,
+    fit_tracking,
+    predicted_improvement,
+    refine,
+)
 from sim.fit.result import Fit
-from sim.fit.search import Point, Problem, again, covariance, far, near, promise
-from sim.fit.seen import Seen, noise, see
-from sim.fit.start import faced, sensible
-from sim.fit.told import astray, late, opposed, small
-from sim.fit.unknown import both_ways, refuse_astray, refuse_unknown
+from sim.fit.sysid_doubts import uncertain_gains
 from sim.log import Array, Log, Run
 from sim.units import unit
 
@@ -35,7 +50,7 @@ FASTEST, SLOWEST = 1e-4, 0.5  # [s] between samples; other clocks do not tell se
 HOLE = 10.0  # [s] in which anything might have happened
 
 
-def output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's word
+def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's word
     """Fit a log by simulating it.
 
     Args:
@@ -96,69 +111,76 @@ def _nonsense(log: Log) -> NotIdentifiable:
 
 
 def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
-    log, guess, way = faced(log, type=type)  # fitted as if the leads were swapped, and told
-    begin = sensible(guess, period=_period(log.runs))
-    seen = see(log, friction=None if type == "simple" else begin["kS"])
-    problem = Problem(type, seen, noise(seen), _period(seen))
-    plain = near(problem, begin)
+    log, guess, way = orient_forward(
+        log, type=type
+    )  # fitted as if the leads were swapped, and told
+    begin = clamp_to_physical(guess, period=_period(log.runs))
+    seen = measure_runs(log, friction=None if type == "simple" else begin["kS"])
+    problem = PredictionErrorProblem(type, seen, estimate_noise(seen), _period(seen))
+    plain = fit_tracking(problem, begin)
     if not math.isfinite(plain.cost) or np.isnan(plain.ahead).all():
         raise _nonsense(log)
     problem, likeliest, followed = _best(problem, plain)
-    searched, point, followed = closest(problem, likeliest, followed)
+    searched, point, followed = fit_velocity_only(problem, likeliest, followed)
     if not point.fine:
         point = searched.sloped(point, fine=True)
-    gains, errors = _gains(point, covariance(searched, point), type=type)
+    gains, errors = _gains(point, estimate_covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
     # unknown is refused
     share = searched.noise.velocity / float(np.sqrt(point.spread[1, 1]))
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
-    if type == "elevator" and not both_ways(searched.seen):
+    if type == "elevator" and not moves_both_ways(searched.seen):
         least |= {"kS": math.inf, "kG": math.inf}
-    hint = another_type(log, problem, followed)
-    refuse_unknown(gains, least, log=log, type=type, hint=hint)
-    refuse_astray(followed, log=log, hint=hint)
-    for spread in wider(searched, point, followed):
+    hint = hint_gravity_type(log, problem, followed)
+    refuse_unidentifiable(gains, least, log=log, type=type, hint=hint)
+    refuse_unrelated(followed, log=log, hint=hint)
+    for spread in correlated_error_covariance(searched, point, followed):
         others = _gains(point, spread, type=type)[1]
         errors = {name: max(error, others[name]) for name, error in errors.items()}
-    said = (*astray(followed, hint=hint), *small(misfits(searched, point, followed)))
+    said = (
+        *doubt_misfit(followed, hint=hint),
+        *doubt_small_misfit(needs_large_process_noise(searched, point, followed)),
+    )
     return _fit(
         log, problem, point, way=way, gains=gains, errors=errors, followed=followed, said=said
     )
 
 
-def _period(seen: Sequence[Seen | Run]) -> float:
+def _period(seen: Sequence[RunMeasurements | Run]) -> float:
     """[s] between two samples."""
     return float(np.median(np.concatenate([np.diff(run.time) for run in seen])))
 
 
-def _best(problem: Problem, plain: Point) -> tuple[Problem, Point, Followed]:
+def _best(
+    problem: PredictionErrorProblem, plain: Estimate
+) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
     """The best point, with a velocity that is averaged, a late answer, or both, if worth it."""
-    point = _with_lags(problem, plain, FIRST_LAGS, settle=near)
+    point = _with_lags(problem, plain, FIRST_LAGS, settle=fit_tracking)
     everything, problem = problem, problem.without_strays(point)
     same = problem is everything
-    found = far(problem, point if same else near(problem, point.values))
+    found = fit_open_loop(problem, point if same else fit_tracking(problem, point.values))
     if point is not plain:
-        without = far(problem, plain if same else near(problem, plain.values))
+        without = fit_open_loop(problem, plain if same else fit_tracking(problem, plain.values))
         found = found if found.cost < without.cost - WORTH else without
-    followed = follow(problem, found)
+    followed = replay_open_loop(problem, found)
     if followed.strays:  # a millisecond is not what is wrong
         return problem, found, followed
 
-    def settle(problem: Problem, values: Mapping[str, float]) -> Point:
-        return far(problem, again(problem, problem.at(values, found.starts, found.q)))
+    def settle(problem: PredictionErrorProblem, values: Mapping[str, float]) -> Estimate:
+        return fit_open_loop(problem, refine(problem, problem.at(values, found.starts, found.q)))
 
     found = problem.sloped(found, fine=True)
     best = _with_lags(problem, found, SHORT_LAGS, settle=settle)
-    return problem, best, followed if best is found else follow(problem, best)
+    return problem, best, followed if best is found else replay_open_loop(problem, best)
 
 
 def _with_lags(
-    problem: Problem,
-    point: Point,
+    problem: PredictionErrorProblem,
+    point: Estimate,
     lags: Mapping[str, Sequence[float]],
     *,
-    settle: Callable[[Problem, Mapping[str, float]], Point],
-) -> Point:
+    settle: Callable[[PredictionErrorProblem, Mapping[str, float]], Estimate],
+) -> Estimate:
     """A point with those lags that are worth it, one after another.
 
     Args:
@@ -171,10 +193,10 @@ def _with_lags(
     while left:
         firsts = [{name: sizes[0] * problem.period} for name, sizes in left.items()]
         # a lag of any size shows in what a short one promises
-        if not promise(problem, point, firsts).max() > HINT:
+        if not predicted_improvement(problem, point, firsts).max() > HINT:
             break
         tried = [{name: size * problem.period} for name, sizes in left.items() for size in sizes]
-        worth = promise(problem, point, tried)
+        worth = predicted_improvement(problem, point, tried)
         if not worth.max() > WORTH:
             break
         best = tried[int(np.argmax(worth))]
@@ -187,7 +209,7 @@ def _with_lags(
 
 
 def _gains(
-    point: Point,
+    point: Estimate,
     spread: Array,
     *,
     type: str,  # noqa: A002 - as above
@@ -213,8 +235,8 @@ def _gains(
 
 
 def _fit(
-    log: Log, problem: Problem, point: Point, *, way: float, gains: Mapping[str, float],
-    errors: Mapping[str, float], followed: Followed, said: tuple[Doubt, ...],
+    log: Log, problem: PredictionErrorProblem, point: Estimate, *, way: float, gains: Mapping[str, float],
+    errors: Mapping[str, float], followed: OpenLoopReplay, said: tuple[Doubt, ...],
 ) -> Fit:  # fmt: skip
     """The result: gains, how well they follow, and what to doubt."""
     change = followed.acceleration
@@ -238,15 +260,15 @@ def _fit(
         step_duration=0.0,
         doubts=(
             *log.doubts,
-            *opposed(way),
-            *late(window, lag),
+            *doubt_opposed_signs(way),
+            *doubt_lags(window, lag),
             *said,
-            *unsure(signed, errors),
+            *uncertain_gains(signed, errors),
         ),
     )
 
 
-def _used(log: Log, problem: Problem) -> dict[str, int]:
+def _used(log: Log, problem: PredictionErrorProblem) -> dict[str, int]:
     """Test -> samples in motion that were compared."""
     counts: dict[str, int] = {}
     long = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - as ``see`` has it

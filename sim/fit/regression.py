@@ -16,7 +16,7 @@ import numpy as np
 
 from sim.errors import NotIdentifiable
 from sim.log import FOUR_TESTS, Array
-from sim.prepare import Rows
+from sim.sysid_rows import Rows
 
 WEAKEST = 1e-11  # smallest eigenvalue of the scaled normal equations that still carries digits
 

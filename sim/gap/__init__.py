@@ -12,14 +12,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from sim.errors import BadRequest
-from sim.fit.seen import Noise
-from sim.gap.cells import Cells
+from sim.fit.measurements import SensorNoise
+from sim.gap.binned_residuals import BinnedResiduals
+from sim.gap.bins import ResidualBins
 from sim.gap.place import Place
-from sim.gap.repeats import Repeat, repeats
+from sim.gap.repeats import Repeat, compare_repeats
 from sim.gap.residuals import Residuals
-from sim.gap.samples import Samples
 
-__all__ = ["Cells", "GapMap", "Place", "Repeat", "Residuals", "gap_map"]
+__all__ = ["BinnedResiduals", "GapMap", "Place", "Repeat", "Residuals", "gap_map"]
 
 OF_A_KIND = 2  # places of one kind among the first that are told: the others say the same again
 
@@ -37,15 +37,15 @@ class GapMap:
         repeats: pairs of runs of the same test; empty if none was repeated.
     """
 
-    by_run: Cells
-    by_speed: Cells
-    by_position: Cells
-    after_steps: Cells
-    at_rest: Cells
+    by_run: BinnedResiduals
+    by_speed: BinnedResiduals
+    by_position: BinnedResiduals
+    after_steps: BinnedResiduals
+    at_rest: BinnedResiduals
     repeats: tuple[Repeat, ...]
 
     @property
-    def maps(self) -> tuple[Cells, ...]:
+    def maps(self) -> tuple[BinnedResiduals, ...]:
         """All of them."""
         return (self.by_run, self.by_speed, self.by_position, self.after_steps, self.at_rest)
 
@@ -63,7 +63,7 @@ class GapMap:
         return tuple(sorted(kept, key=lambda one: -one.sure)[:most])
 
 
-def gap_map(runs: Sequence[Residuals], *, noise: Noise) -> GapMap:
+def gap_map(runs: Sequence[Residuals], *, noise: SensorNoise) -> GapMap:
     """Sort what a model leaves of some runs.
 
     Args:
@@ -78,12 +78,12 @@ def gap_map(runs: Sequence[Residuals], *, noise: Noise) -> GapMap:
         raise BadRequest(
             "there is nothing to compare", advice="Give a run in which the mechanism moves."
         )
-    samples = Samples(runs, noise=noise)
+    samples = ResidualBins(runs, noise=noise)
     return GapMap(
         samples.by_run(),
         samples.by_speed(),
         samples.by_position(),
         samples.after_steps(),
         samples.at_rest(),
-        repeats(runs, noise=noise.velocity),
+        compare_repeats(runs, noise=noise.velocity),
     )

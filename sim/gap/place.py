@@ -34,11 +34,11 @@ class Place:
         ahead, behind = FASTER[self.signal]
         way = ahead if self.error > 0.0 else behind
         return (
-            f"{self.where}: the robot is {way} the model says, by {noises(abs(self.error))} times "
+            f"{self.where}: the robot is {way} the model says, by {format_noises(abs(self.error))} times "
             f"the noise of its {self.signal}"
         )
 
 
-def noises(value: float) -> str:
+def format_noises(value: float) -> str:
     """A number of noises as text: two digits, or all before the point."""
     return f"{value:.0f}" if abs(value) >= MANY else f"{value:.2g}"

@@ -47,7 +47,7 @@ class Repeat:
     verdict: str
 
 
-def repeats(runs: Sequence[Residuals], *, noise: float) -> tuple[Repeat, ...]:
+def compare_repeats(runs: Sequence[Residuals], *, noise: float) -> tuple[Repeat, ...]:
     """Every pair of runs that repeat each other.
 
     Args:

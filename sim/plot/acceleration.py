@@ -9,10 +9,10 @@ import numpy as np
 
 from sim.errors import BadRequest
 from sim.log import FOUR_TESTS, Array, Log
+from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, shown
-from sim.plot.thin import cloud
-from sim.prepare import Rows, prepare
+from sim.plot.table import Table, format_cell
+from sim.sysid_rows import Rows, prepare_rows
 from sim.units import Unit, unit
 
 MOST = 300  # samples of a test that are drawn
@@ -51,12 +51,12 @@ def acceleration_velocity(
     if gains is not None:
         _checked(gains)
     per = unit(log.units)
-    rows = prepare(log, median=median).rows
+    rows = prepare_rows(log, median=median).rows
     speeds = {test: rows[test].velocity / per.si for test in FOUR_TESTS}
     heights = {test: _height(rows[test], gains, type=log.type) / per.si for test in FOUR_TESTS}
     figure, ((axes,),) = panels(1, 1, height=3.8)
     for index, test in enumerate(FOUR_TESTS):
-        kept = cloud(speeds[test], heights[test], most=MOST)
+        kept = decimate_cloud(speeds[test], heights[test], most=MOST)
         axes.plot(
             speeds[test][kept],
             heights[test][kept],
@@ -144,15 +144,15 @@ def _words(table: Table, gains: Mapping[str, float] | None, per: Unit) -> str:
         said += "as recorded and filtered."
     else:
         said += "less what voltage, friction and gravity account for. A black line through the "
-        said += f"origin, −kV/kA · v, has the slope {shown(-gains['kV'] / gains['kA'])} per second."
+        said += f"origin, −kV/kA · v, has the slope {format_cell(-gains['kV'] / gains['kA'])} per second."
     for test, samples, slowest, fastest, first, second in table.rows:
-        said += f" {test}: {samples} samples from {shown(slowest)} to {shown(fastest)} "
+        said += f" {test}: {samples} samples from {format_cell(slowest)} to {format_cell(fastest)} "
         said += f"{per.symbol}/s"
         if gains is not None:
-            said += f" miss the line by {shown(second)} {square}, their mean by {shown(first)}."
+            said += f" miss the line by {format_cell(second)} {square}, their mean by {format_cell(first)}."
         elif isinstance(second, str):
             said += ", too few for a line."
         else:
-            said += f" lie about a line from {shown(first)} {square} at standstill with the slope "
-            said += f"{shown(second)} per second."
+            said += f" lie about a line from {format_cell(first)} {square} at standstill with the slope "
+            said += f"{format_cell(second)} per second."
     return said

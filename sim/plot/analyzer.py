@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from sim.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
+from sim.plot.decimate import decimate_cloud, decimate_curve
 from sim.plot.picture import COLORS, INK, LINES, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table
-from sim.plot.thin import cloud, outline
-from sim.prepare import Rows, prepare
+from sim.sysid_rows import Rows, prepare_rows
 from sim.units import Unit, unit
 
 KINDS = ("quasistatic", "dynamic")
@@ -48,7 +48,7 @@ def velocity_time(
         NotIdentifiable: SysId's recipe cannot use this log.
     """
     per = unit(log.units)
-    rows = prepare(log, median=median).rows
+    rows = prepare_rows(log, median=median).rows
     figure, grid = panels(2, 2, height=4.6)
     for column, kind in enumerate(KINDS):
         for row, way in enumerate(DIRECTIONS):
@@ -69,7 +69,7 @@ def velocity_time(
 
 def _draw(axes: Axes, run: Run, used: Rows, other: Run | None, *, name: str, per: Unit) -> None:
     """Draw one test."""
-    kept = cloud(run.time, run.velocity, most=MOST)
+    kept = decimate_cloud(run.time, run.velocity, most=MOST)
     axes.plot(
         run.time[kept] - run.time[0],
         run.velocity[kept] / per.si,
@@ -90,7 +90,7 @@ def _draw(axes: Axes, run: Run, used: Rows, other: Run | None, *, name: str, per
 def _curve(
     axes: Axes, time: Array, velocity: Array, *, width: float, label: str, model: bool = False
 ) -> None:
-    kept = outline(velocity, most=MOST_CURVE)
+    kept = decimate_curve(velocity, most=MOST_CURVE)
     axes.plot(
         time[kept],
         velocity[kept],

@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 
 from sim.errors import BadRequest
 from sim.log import Array
+from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, shown
-from sim.plot.thin import cloud
-from sim.prepare import Rows
+from sim.plot.table import Table, format_cell
+from sim.sysid_rows import Rows
 
 LEVEL = 5.991  # of chi square with two degrees of freedom: 95 of 100 fits fall inside
 FLAT = 1e-9  # share of the better known combination; what is below is rounding errors
@@ -34,7 +34,7 @@ def ellipses(
     """Where 95 of 100 fits of two gains fall, for several sets of rows.
 
     Args:
-        told: set of rows -> (2, 2) what it tells of both gains [1/unit²], see ``sim.fit.known``.
+        told: set of rows -> (2, 2) what it tells of both gains [1/unit²], see ``sim.fit.information_matrix``.
         names: of the two gains, with their units: ``kS [V]``.
         truth: about which the ellipses are drawn.
         reach: how far from the truth the panel goes, each way.
@@ -67,7 +67,7 @@ def information_map(
 
     Args:
         rows: test -> its rows.
-        information: (2, 2) what they tell of both gains, see ``sim.fit.known``.
+        information: (2, 2) what they tell of both gains, see ``sim.fit.information_matrix``.
         names: of the two gains, with their units.
         truth: about which the ellipse is drawn.
         reach: how far from the truth its panel goes, each way.
@@ -75,7 +75,7 @@ def information_map(
     """
     figure, ((left, right),) = panels(1, 2, height=3.8)
     for index, (test, part) in enumerate(rows.items()):
-        kept = cloud(part.velocity, part.acceleration, most=MOST)
+        kept = decimate_cloud(part.velocity, part.acceleration, most=MOST)
         left.plot(
             part.velocity[kept],
             part.acceleration[kept],
@@ -103,7 +103,7 @@ def information_map(
 
 
 def _span(values: Array) -> str:
-    return f"{shown(float(values.min()))} to {shown(float(values.max()))}"
+    return f"{format_cell(float(values.min()))} to {format_cell(float(values.max()))}"
 
 
 def _axes(information: Array) -> tuple[Array, Array]:
@@ -169,16 +169,16 @@ def _words(information: Array, names: tuple[str, str]) -> str:
     if math.isinf(half[0]):
         along = directions[:, 0] / directions[0, 0] if directions[0, 0] else directions[:, 0]
         return (
-            f"a straight strip without end; {names[1]} changes by {shown(float(along[1]))} where "
+            f"a straight strip without end; {names[1]} changes by {format_cell(float(along[1]))} where "
             f"{names[0]} changes by 1, and nobody can say where on it the truth is."
         )
     first, second = _errors(information)
-    return f"an ellipse; one standard error is {shown(first)} and {shown(second)}."
+    return f"an ellipse; one standard error is {format_cell(first)} and {format_cell(second)}."
 
 
 def _table(told: Mapping[str, Array], names: tuple[str, str]) -> Table:
     def cell(error: float) -> str:
-        return shown(error) if math.isfinite(error) else "anything"
+        return format_cell(error) if math.isfinite(error) else "anything"
 
     return Table(
         ("rows of", *(f"± {name}" for name in names)),

@@ -8,7 +8,14 @@ from matplotlib.axes import Axes
 
 from sim.errors import BadRequest
 from sim.log import DIRECTIONS, Array, Log, Run
-from sim.plot.damaged import Damaged, damage_words, keys, marks, shade
+from sim.plot.decimate import decimate_curve
+from sim.plot.fault_marks import (
+    Damaged,
+    assign_fault_marks,
+    describe_faults,
+    draw_fault_marks,
+    legend_entries,
+)
 from sim.plot.picture import (
     COLORS,
     INK,
@@ -21,7 +28,6 @@ from sim.plot.picture import (
     panels,
 )
 from sim.plot.table import Cell, Table
-from sim.plot.thin import outline
 from sim.units import Unit, unit
 
 KINDS = ("quasistatic", "dynamic")
@@ -70,7 +76,7 @@ def time_series(
     """
     per = unit(log.units)
     runs = _first_runs(log)
-    damage = marks(log, damages)
+    damage = assign_fault_marks(log, damages)
     figure, (upper, lower) = panels(2, 2, height=4.4, shared=True)
     labels = tuple(f"{names[0]}, {way}" for way in DIRECTIONS)
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
@@ -85,11 +91,11 @@ def time_series(
     lower[0].set_ylabel(f"velocity [{per.symbol}/s]", color=INK)
     if dynamic_seconds is not None:
         lower[1].set_xlim(-0.02 * dynamic_seconds, dynamic_seconds)
-    shade(log, damage, drawn=drawn)
-    legend(figure, lower, extra=keys(damage))
+    draw_fault_marks(log, damage, drawn=drawn)
+    legend(figure, lower, extra=legend_entries(damage))
     table = _tests_table(runs, per)
     alt = _time_words(table, per, names if beside is not None else names[:1])
-    return Picture(figure, alt + damage_words(log, damage, drawn=drawn), table)
+    return Picture(figure, alt + describe_faults(log, damage, drawn=drawn), table)
 
 
 def _first_runs(log: Log) -> dict[int, Run]:
@@ -126,7 +132,7 @@ def _draw(
         pen = pens[DIRECTIONS.index(run.direction)]
         drawn[index] = list(zip(axes, (run.voltage, run.velocity / per.si), strict=True))
         for panel, signal in drawn[index]:
-            kept = outline(signal, most=MOST)
+            kept = decimate_curve(signal, most=MOST)
             panel.plot(
                 run.time[kept] - run.time[0],
                 signal[kept],

@@ -7,7 +7,7 @@ from matplotlib.patches import Rectangle
 from sim.errors import BadRequest
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
 from sim.plot.table import Table
-from sim.runway import Drive
+from sim.teaching.runway import FloorTest
 
 LONG, WIDE = 0.8, 0.8  # [m] of a robot with its bumpers, as drawn
 BEHIND = 1.2  # [m] of floor behind the start
@@ -16,7 +16,7 @@ SEEN, TAPE, BUMP = COLORS[0], COLORS[3], COLORS[1]
 LIT = "#F5C2A3"  # a paler vermilion: words over it stay legible
 
 
-def runway(drive: Drive, *, moment: float = 1.0) -> Picture:
+def runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
     """A test on its floor from above, and below it speed and battery over time.
 
     Args:
@@ -47,7 +47,7 @@ def runway(drive: Drive, *, moment: float = 1.0) -> Picture:
     return Picture(figure, _words(drive, now), table)
 
 
-def _floor(axes: Axes, drive: Drive, now: int) -> None:
+def _floor(axes: Axes, drive: FloorTest, now: int) -> None:
     """The floor from above: start, tape, wall, and the robot's front where it is."""
     wall, rests = drive.floor.wall, drive.rests
     axes.set_xlim(-BEHIND, wall + 0.06 * (wall + BEHIND))
@@ -97,7 +97,9 @@ def _robot(axes: Axes, front: float, *, fill: bool) -> None:
     )  # fmt: skip
 
 
-def _over_time(axes: Axes, drive: Drive, signal: "np.typing.NDArray[np.float64]", now: int) -> None:
+def _over_time(
+    axes: Axes, drive: FloorTest, signal: "np.typing.NDArray[np.float64]", now: int
+) -> None:
     """A signal, the moment shown, and when the motors were off."""
     axes.plot(drive.time, signal, color=SEEN, linewidth=1.6)
     axes.plot(drive.time[now], signal[now], "o", color=SEEN, markeredgecolor=INK, markersize=8)
@@ -106,7 +108,7 @@ def _over_time(axes: Axes, drive: Drive, signal: "np.typing.NDArray[np.float64]"
     axes.set_xlim(0.0, float(drive.time[-1]) * 1.02)
 
 
-def _lamp(axes: Axes, drive: Drive) -> None:
+def _lamp(axes: Axes, drive: FloorTest) -> None:
     """A lamp above the floor that says by color, sign and word whether the battery gave in."""
     out = drive.browned_out
     axes.set_title("the floor from above", fontsize=10, color=INK, loc="left")
@@ -120,7 +122,7 @@ def _lamp(axes: Axes, drive: Drive) -> None:
     )
 
 
-def _passed(drive: Drive) -> float | None:
+def _passed(drive: FloorTest) -> float | None:
     """[s] when the tape was passed."""
     tape = drive.floor.tape
     if tape is None or drive.rests < tape:
@@ -128,7 +130,7 @@ def _passed(drive: Drive) -> float | None:
     return float(drive.time[int(np.argmax(drive.position >= tape))])
 
 
-def _table(drive: Drive) -> Table:
+def _table(drive: FloorTest) -> Table:
     passed, top = _passed(drive), float(drive.velocity.max())
     rows: list[tuple[str, str | float]] = [
         ("passes the tape at [s]", "never" if passed is None else passed),
@@ -142,7 +144,7 @@ def _table(drive: Drive) -> Table:
     return Table(("this test", ""), tuple(rows))
 
 
-def _words(drive: Drive, now: int) -> str:
+def _words(drive: FloorTest, now: int) -> str:
     tape, passed = drive.floor.tape, _passed(drive)
     said = f"A floor from above with a wall at {drive.floor.wall:.1f} m. "
     said += "There is no tape. " if tape is None else f"A strip of tape lies at {tape:.1f} m. "

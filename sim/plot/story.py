@@ -1,24 +1,24 @@
 """A story in pictures and a table: what ``Story.plot_gap()`` and its like return."""
 
-from sim.plot.story_bars import lineup, shrinking
-from sim.plot.story_gap import gaps
-from sim.plot.story_runs import overlay
+from sim.plot.story_bars import candidate_bars, gap_by_round
+from sim.plot.story_gap import residual_maps
+from sim.plot.story_runs import plot_overlays
 from sim.plot.table import Table
 from sim.reconcile.story import Story
-from sim.telling import in_floors, told_parameter
+from sim.story_text import format_gap, format_parameter
 from sim.units import unit
 
-__all__ = ["findings", "gaps", "lineup", "overlay", "shrinking"]
+__all__ = ["candidate_bars", "findings_table", "gap_by_round", "plot_overlays", "residual_maps"]
 
 
-def findings(story: Story) -> Table:
+def findings_table(story: Story) -> Table:
     """What was found, one row each: name, size, parameters with errors, the gap it changes."""
     rows = []
     for one in story.findings:
         parameters = "; ".join(
-            told_parameter(name, estimate) for name, estimate in one.parameters.items()
+            format_parameter(name, estimate) for name, estimate in one.parameters.items()
         )
-        gap = f"{in_floors(one.gap_before, story)} to {in_floors(one.gap_after, story)}"
+        gap = f"{format_gap(one.gap_before, story)} to {format_gap(one.gap_after, story)}"
         rivals = f" or {' or '.join(one.ambiguous_with)}" if one.ambiguous_with else ""
         rows.append(
             (

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from sim.errors import BadRequest
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
-from sim.plot.table import Table, shown
+from sim.plot.table import Table, format_cell
 from sim.reconcile.story import Story, Tried
 from sim.units import unit
 
@@ -16,7 +16,7 @@ TAKEN, PASSED, REFUSED = "taken", "also possible", "not admitted"
 LOOKS = {TAKEN: (COLORS[0], ""), PASSED: (COLORS[4], ".."), REFUSED: ("#CCCCCC", "///")}
 
 
-def lineup(story: Story, chapter: int = 0) -> Picture:
+def candidate_bars(story: Story, chapter: int = 0) -> Picture:
     """What was tried on top of a chapter's model, and what it would have explained.
 
     Args:
@@ -36,7 +36,7 @@ def lineup(story: Story, chapter: int = 0) -> Picture:
         if others:
             advice = f"Choose one of: {', '.join(map(str, others))}."
         raise BadRequest(f"nothing was tried in chapter {chapter}", advice=advice)
-    taken = next_of(story, chapter)
+    taken = next_effect(story, chapter)
     drawn = tried[:BARS]
     figure, ((axes,),) = panels(1, 1, height=0.9 + 0.3 * len(drawn))
     _bars(axes, drawn, taken)
@@ -48,7 +48,7 @@ def lineup(story: Story, chapter: int = 0) -> Picture:
     axes.legend(fontsize=8, labelcolor=INK, loc="lower right")
     told = ". ".join(f"{one.effect} {_points(one.score)}, {_why(one, taken)}" for one in drawn)
     alt = f"Bars show what each suspect explains, the likeliest first: {told}."
-    return Picture(figure, alt, suspects_table(story, chapter))
+    return Picture(figure, alt, candidate_table(story, chapter))
 
 
 def _bars(axes: Axes, drawn: Sequence[Tried], taken: str) -> None:
@@ -56,7 +56,7 @@ def _bars(axes: Axes, drawn: Sequence[Tried], taken: str) -> None:
     most = max((max(one.score, 0.0) for one in drawn), default=0.0) or 1.0
     seen: set[str] = set()
     for place, one in enumerate(drawn):
-        kind = kind_of(one, taken)
+        kind = candidate_status(one, taken)
         color, hatch = LOOKS[kind]
         axes.barh(
             place, max(one.score, 0.0), color=color, hatch=hatch, edgecolor=INK, linewidth=0.6,
@@ -67,9 +67,9 @@ def _bars(axes: Axes, drawn: Sequence[Tried], taken: str) -> None:
     axes.set_xlim(0.0, 1.15 * most)
 
 
-def suspects_table(story: Story, chapter: int) -> Table:
+def candidate_table(story: Story, chapter: int) -> Table:
     """The same in numbers, all of them."""
-    taken = next_of(story, chapter)
+    taken = next_effect(story, chapter)
     rows = tuple(
         (one.effect, _points(one.score), _known(one.gap), _why(one, taken))
         for one in story.chapters[chapter].tried
@@ -78,13 +78,13 @@ def suspects_table(story: Story, chapter: int) -> Table:
     return Table(header, rows)
 
 
-def next_of(story: Story, chapter: int) -> str:
+def next_effect(story: Story, chapter: int) -> str:
     """The effect that was taken on top of a chapter's model; empty if none was."""
     chapter %= len(story.chapters)
     return story.chapters[chapter + 1].added if chapter + 1 < len(story.chapters) else ""
 
 
-def kind_of(one: Tried, taken: str) -> str:
+def candidate_status(one: Tried, taken: str) -> str:
     """Whether a suspect was taken, could have been, or could not."""
     if one.effect == taken:
         return TAKEN
@@ -92,7 +92,7 @@ def kind_of(one: Tried, taken: str) -> str:
 
 
 def _why(one: Tried, taken: str) -> str:
-    kind = kind_of(one, taken)
+    kind = candidate_status(one, taken)
     return f"{kind}: {one.why}" if kind == REFUSED and one.why else kind
 
 
@@ -101,7 +101,7 @@ def _points(score: float) -> str:
     return f"{round(score)}".replace("-", "−") if np.isfinite(score) else "not known"
 
 
-def shrinking(story: Story) -> Picture:
+def gap_by_round(story: Story) -> Picture:
     """The gap on the shown log, chapter by chapter, in noise floors."""
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     floor = story.noise_floor if story.noise_floor > 0.0 else 1.0
@@ -147,7 +147,7 @@ def _lengths(axes: Axes, gaps: Sequence[float]) -> None:
 
 
 def _known(value: float) -> str:
-    return shown(value) if np.isfinite(value) else "ran away"
+    return format_cell(value) if np.isfinite(value) else "ran away"
 
 
 def _beside(axes: Axes, x: float, y: float, text: str) -> None:

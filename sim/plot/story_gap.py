@@ -11,13 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from sim.errors import BadRequest
-from sim.gap import Cells, GapMap
-from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS, noises
+from sim.gap import BinnedResiduals, GapMap
+from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS, format_noises
 from sim.log import Array
 from sim.plot.picture import INK, PAPER, Picture
 from sim.plot.table import Table
+from sim.reconcile.residual_map import residual_map
 from sim.reconcile.story import Story
-from sim.reconcile.where import map_of
 from sim.units import Unit, unit
 
 VELOCITY = 1  # of the two signals
@@ -39,7 +39,7 @@ TITLES = {
 }
 
 
-def gaps(story: Story) -> Picture:
+def residual_maps(story: Story) -> Picture:
     """Where the base model disagrees with the shown log, and what is left of that at the end.
 
     Raises:
@@ -70,7 +70,7 @@ def _map(story: Story, tracks: Sequence[Array]) -> GapMap | None:
     floor = story.noise_floor * unit(story.shown.units).si
     if not floor > 0.0:
         raise BadRequest("the noise is not known", advice="Give runs in which it moves.")
-    made = map_of(story.shown, tracks, compared=story.compared, floor=floor)
+    made = residual_map(story.shown, tracks, compared=story.compared, floor=floor)
     return made if made and any(map(_there, made.maps)) else None
 
 
@@ -93,7 +93,7 @@ def _draw(found: Sequence[GapMap], titles: Sequence[str], *, per: Unit) -> Figur
     return figure
 
 
-def _there(cells: Cells) -> bool:
+def _there(cells: BinnedResiduals) -> bool:
     """Whether any cell has enough samples of the velocity."""
     return bool(np.isfinite(cells.mean[VELOCITY]).any())
 
@@ -122,7 +122,7 @@ def _heads(figure: Figure, grid: "np.ndarray[tuple[int, int], np.dtype[np.object
     )  # fmt: skip
 
 
-def _heat(axes: Axes, cells: Cells, *, per: Unit, named: bool) -> None:
+def _heat(axes: Axes, cells: BinnedResiduals, *, per: Unit, named: bool) -> None:
     mean = cells.mean[VELOCITY][:MOST_RUNS]
     loud = np.abs(np.nan_to_num(mean)) >= 1.0
     full = float(_shade(np.array(LOUD)))
@@ -150,7 +150,7 @@ def _nothing(columns: int, rows: int) -> Patch:
     )  # fmt: skip
 
 
-def _ticks(cells: Cells, *, per: Unit) -> tuple[list[float], list[str]]:
+def _ticks(cells: BinnedResiduals, *, per: Unit) -> tuple[list[float], list[str]]:
     """Where the edges of columns are, in the owner's unit."""
     count = cells.edges.shape[1]
     if cells.what == RUN:
@@ -177,7 +177,7 @@ def _whole(value: float) -> str:
 
 
 def _signed(value: float) -> str:
-    return f"{'+' if value > 0.0 else ''}{noises(value)}".replace("-", "−")
+    return f"{'+' if value > 0.0 else ''}{format_noises(value)}".replace("-", "−")
 
 
 def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from sim.errors import BadRequest
 from sim.log import Array, Run
-from sim.plot.followed import BAND, names, plain
+from sim.plot.decimate import decimate_curve
+from sim.plot.measured_vs_simulated import BAND, plain_axes, shared_legend
 from sim.plot.picture import COLORS, INK, PAPER, Picture
-from sim.plot.table import Table, shown
-from sim.plot.thin import outline
+from sim.plot.table import Table, format_cell
 from sim.reconcile.story import Story
 from sim.units import Unit, unit
 
@@ -26,7 +26,7 @@ BEFORE, AFTER = (COLORS[1], "--"), (COLORS[0], "-")
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
+class RunOverlay:
     """One run of the shown log, with what two models make of it.
 
     Args:
@@ -55,7 +55,7 @@ class Shown:
         return float(np.sqrt(np.nanmean(rest**2)))
 
 
-def shown_runs(story: Story, before: int, after: int) -> list[Shown]:
+def run_overlays(story: Story, before: int, after: int) -> list[RunOverlay]:
     """The runs of the shown log under the models of two chapters.
 
     Args:
@@ -66,10 +66,10 @@ def shown_runs(story: Story, before: int, after: int) -> list[Shown]:
     runs = [run for run in story.shown.runs if len(run) >= FEWEST]
     counts = story.compared or tuple(np.ones(len(run), dtype=bool) for run in runs)
     first, second = story.chapters[before].tracks, story.chapters[after].tracks
-    return [Shown(*parts) for parts in zip(runs, first, second, counts, strict=True)]
+    return [RunOverlay(*parts) for parts in zip(runs, first, second, counts, strict=True)]
 
 
-def overlay(story: Story, chapter: int = -1) -> Picture:
+def plot_overlays(story: Story, chapter: int = -1) -> Picture:
     """Each shown run, simulated before a chapter's effect was added and after.
 
     Args:
@@ -83,13 +83,13 @@ def overlay(story: Story, chapter: int = -1) -> Picture:
     if not -count <= chapter < count:
         raise BadRequest(f"no chapter {chapter}", advice=f"Choose one of 0 to {count - 1}.")
     chapter %= count
-    runs = shown_runs(story, max(chapter - 1, 0), chapter)
+    runs = run_overlays(story, max(chapter - 1, 0), chapter)
     per, noise = unit(story.shown.units), story.noise_floor
     drawn = runs[:DRAWN]
     size = (WIDTH, HEIGHT * len(drawn) + 0.5)
     figure = Figure(figsize=size, layout="constrained", facecolor=PAPER)
     grid = figure.subplots(len(drawn), 2, squeeze=False, gridspec_kw={"width_ratios": (3, 2)})
-    plain(grid.flat)
+    plain_axes(grid.flat)
     said = _names(story, chapter)
     for (curve, left), one in zip(grid.tolist(), drawn, strict=True):
         _draw(curve, left, one, said, per=per, noise=noise)
@@ -97,7 +97,7 @@ def overlay(story: Story, chapter: int = -1) -> Picture:
     grid[0, 1].set_title("measured less simulated", fontsize=9, color=INK)
     for panel in grid[-1]:
         panel.set_xlabel("time [s]", color=INK, fontsize=9)
-    names(figure, grid[0])
+    shared_legend(figure, grid[0])
     return Picture(figure, _words(runs, said, per=per, noise=noise), _numbers(runs, said, story))
 
 
@@ -108,11 +108,11 @@ def _names(story: Story, chapter: int) -> tuple[str, ...]:
 
 
 def _draw(
-    curve: Axes, left: Axes, one: Shown, said: Sequence[str], *, per: Unit, noise: float
+    curve: Axes, left: Axes, one: RunOverlay, said: Sequence[str], *, per: Unit, noise: float
 ) -> None:
     time = one.run.time - one.run.time[0]
     seen = one.run.velocity / per.si
-    kept = outline(seen, most=MOST)
+    kept = decimate_curve(seen, most=MOST)
     curve.plot(time[kept], seen[kept], color=COLORS[4], linewidth=3.4, label="measured")
     left.axhspan(
         -BAND * noise, BAND * noise, color="#BBBBBB", alpha=0.6, linewidth=0,
@@ -124,13 +124,13 @@ def _draw(
     widest = 3.0 * noise
     for name, track, (color, line) in zip(said, tracks, looks, strict=True):
         values = np.clip(np.nan_to_num(track[:, 1] / per.si), -span, span)
-        kept = outline(values, most=MOST)
+        kept = decimate_curve(values, most=MOST)
         curve.plot(
             time[kept], values[kept], color=color, linestyle=line, linewidth=1.1, label=name,
             marker="s" if color == BEFORE[0] else "o", markersize=3.0, markevery=MARK,
         )  # fmt: skip
         rest = one.missed(track)[:, 1] / per.si
-        kept = outline(np.nan_to_num(rest), most=MOST)
+        kept = decimate_curve(np.nan_to_num(rest), most=MOST)
         left.plot(time[kept], rest[kept], color=color, linestyle=line, linewidth=0.9)
         if not np.isnan(rest).all():
             widest = max(widest, 1.15 * float(np.nanquantile(np.abs(rest), 0.995)))
@@ -141,7 +141,7 @@ def _draw(
         panel.tick_params(labelsize=7)
 
 
-def _words(runs: Sequence[Shown], said: Sequence[str], *, per: Unit, noise: float) -> str:
+def _words(runs: Sequence[RunOverlay], said: Sequence[str], *, per: Unit, noise: float) -> str:
     first = (
         f"{len(runs)} runs, measured and simulated ({' and '.join(said)}): velocity to the left, "
         "what is left of it to the right, with the band of noise."
@@ -155,11 +155,11 @@ def _words(runs: Sequence[Shown], said: Sequence[str], *, per: Unit, noise: floa
     return f"{first} Times the noise of the velocity, RMS: {' '.join(told)}"
 
 
-def _tracks(one: Shown, said: Sequence[str]) -> tuple[Array, ...]:
+def _tracks(one: RunOverlay, said: Sequence[str]) -> tuple[Array, ...]:
     return (one.after,) if len(said) == 1 else (one.before, one.after)
 
 
-def _numbers(runs: Sequence[Shown], said: Sequence[str], story: Story) -> Table:
+def _numbers(runs: Sequence[RunOverlay], said: Sequence[str], story: Story) -> Table:
     per = unit(story.shown.units)
     rows = tuple(
         (
@@ -174,4 +174,4 @@ def _numbers(runs: Sequence[Shown], said: Sequence[str], story: Story) -> Table:
 
 def _floors(gap: float, noise: float) -> str:
     known = math.isfinite(gap) and noise > 0.0
-    return shown(gap / noise) if known else "ran away"
+    return format_cell(gap / noise) if known else "ran away"

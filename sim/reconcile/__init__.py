@@ -15,28 +15,28 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from sim.errors import NotIdentifiable
-from sim.fit.start import first_guess, sensible
+from sim.fit.initial_guess import clamp_to_physical, first_guess
 from sim.log import Log
-from sim.reconcile.aside import Aside, judge_damage
-from sim.reconcile.damage import Damaged
-from sim.reconcile.descent import better, ended, scanned, settle
-from sim.reconcile.gates import errors_of, folds, missed, rms
-from sim.reconcile.glitch import glitches
-from sim.reconcile.hypothesis import Hypothesis
-from sim.reconcile.lanes import SetAside, ended_after, in_a_row, lanes
-from sim.reconcile.left import Left
-from sim.reconcile.naming import beside, findings_of
-from sim.reconcile.outset import Outset
-from sim.reconcile.problem import Point, Problem
-from sim.reconcile.rounds import rounds
-from sim.reconcile.showing import Shown
+from sim.reconcile.cross_validation import make_folds, missed_motion, open_loop_errors, rms_gap
+from sim.reconcile.damage import DamagedInterval
+from sim.reconcile.damage_policy import DamageDecision, judge_damage
+from sim.reconcile.findings import list_remarks, make_findings
+from sim.reconcile.forward_selection import select_effects
+from sim.reconcile.held_out import HeldOutLog
+from sim.reconcile.input_checks import check_logs
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.optimize import levenberg_marquardt, minimize, minimize_fully, scan_process_noise
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import ExcludedInterval, join_records, run_records, session_length
+from sim.reconcile.slip_detection import detect_slips
 from sim.reconcile.story import Story
 from sim.reconcile.thresholds import LOST, MAJOR, WANDERS
-from sim.reconcile.usable import check_logs
 from sim.reconcile.verdict import verdict_of
 from sim.units import unit
 
-__all__ = ["Damaged", "Story", "reconcile"]
+__all__ = ["DamagedInterval", "Story", "reconcile"]
 
 TRAIN, VALIDATION = "log", "validation"
 
@@ -48,7 +48,7 @@ def reconcile(
     held_out: Log | None = None,
     type: str,  # noqa: A002 - the field's own word
     travel: float | None = None,
-    damages: Mapping[str, Sequence[Damaged]] | None = None,
+    damages: Mapping[str, Sequence[DamagedInterval]] | None = None,
     progress: Callable[[str, float], None] = lambda _, __: None,
 ) -> Story:
     """Hold logs of a mechanism against its model, and name what the model lacks.
@@ -70,25 +70,27 @@ def reconcile(
     """
     check_logs(log, validation, held_out, type=type, travel=travel)
     aside = judge_damage(damages or {})
-    both = log if validation is None else in_a_row(log, validation)
+    both = log if validation is None else join_records(log, validation)
     problem = _problem(log, validation, aside)
     progress("base model", 0.05)
-    problem, base = _based(problem, log, type=type)
+    problem, base = _fit_base_model(problem, log, type=type)
     if not math.isfinite(base.cost):
         raise NotIdentifiable(
             "no gains follow what is left of it once its damage is set aside",
             where=log.source,
             advice="Inspect the log, and record it anew.",
         )
-    problem, base, slipped = _unslipped(problem, base)
-    done = rounds(problem, base, both, folds([one.session for one in problem.lanes]), progress)
+    problem, base, slipped = _without_slips(problem, base)
+    done = select_effects(
+        problem, base, both, make_folds([one.session for one in problem.lanes]), progress
+    )
     progress("what remains", 0.9)
-    shown = Shown.of({"log": log, "validation": validation, "held_out": held_out}, aside)
+    shown = HeldOutLog.of({"log": log, "validation": validation, "held_out": held_out}, aside)
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     last = done[-1].suspect.point
-    left = Left.by(problem, last)
-    findings = findings_of(
+    left = ResidualSummary.by(problem, last)
+    findings = make_findings(
         problem, done, _once(slipped, aside.found), chapters, left=left, per=unit(log.units)
     )
     verdict, remainder, remains = verdict_of(
@@ -99,42 +101,46 @@ def reconcile(
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.how,
-        notes=(*beside(problem, done, findings, left), *seen),
+        notes=(*list_remarks(problem, done, findings, left), *seen),
         compared=shown.compared,
     )  # fmt: skip
 
 
-def _problem(log: Log, validation: Log | None, aside: Aside) -> Problem:
+def _problem(log: Log, validation: Log | None, aside: DamageDecision) -> PredictionErrorProblem:
     """All runs that may be fitted; the clock of the second log goes on where the first ended."""
-    every = lanes(log, aside=aside.of(TRAIN))
+    every = run_records(log, aside=aside.of(TRAIN))
     if validation is not None:
-        since = ended_after(log)
-        every += lanes(validation, session=1, since=since, aside=aside.of(VALIDATION))
-    return Problem.of(every)
+        since = session_length(log)
+        every += run_records(validation, session=1, since=since, aside=aside.of(VALIDATION))
+    return PredictionErrorProblem.of(every)
 
 
-def _unslipped(problem: Problem, base: Point) -> tuple[Problem, Point, tuple[Damaged, ...]]:
+def _without_slips(
+    problem: PredictionErrorProblem, base: Estimate
+) -> tuple[PredictionErrorProblem, Estimate, tuple[DamagedInterval, ...]]:
     """The same without moments at which the encoder slipped, and one of those for the findings."""
-    found = list(glitches(problem, base))
+    found = list(detect_slips(problem, base))
     if not found:
         return problem, base, ()
     runs = list(problem.lanes)
     for number, one in found:
-        runs[number] = runs[number].without(SetAside(number, one.start, one.end))
+        runs[number] = runs[number].without(ExcludedInterval(number, one.start, one.end))
     mended = replace(problem, lanes=tuple(runs))
     begin = mended.at(base.hypothesis, base.values, base.outset, base.q)
-    return mended, settle(mended, scanned(mended, begin)), (found[0][1],)
+    return mended, minimize(mended, scan_process_noise(mended, begin)), (found[0][1],)
 
 
-def _once(*several: Sequence[Damaged]) -> tuple[Damaged, ...]:
+def _once(*several: Sequence[DamagedInterval]) -> tuple[DamagedInterval, ...]:
     """One damage of each fault."""
-    found: dict[str, Damaged] = {}
+    found: dict[str, DamagedInterval] = {}
     for one in (damage for some in several for damage in some):
         found.setdefault(one.fault, one)
     return tuple(found.values())
 
 
-def _based(problem: Problem, log: Log, *, type: str) -> tuple[Problem, Point]:  # noqa: A002 - as above
+def _fit_base_model(
+    problem: PredictionErrorProblem, log: Log, *, type: str
+) -> tuple[PredictionErrorProblem, Estimate]:
     """The best point without effects, and the problem in which it was found.
 
     Where much is missing, "it goes on as it did, and is pushed wherever it goes" may follow a
@@ -150,18 +156,21 @@ def _based(problem: Problem, log: Log, *, type: str) -> tuple[Problem, Point]:  
     return problem, base
 
 
-def _lost(problem: Problem, base: Point) -> float:
+def _lost(problem: PredictionErrorProblem, base: Estimate) -> float:
     """[1] of the motion that a point misses."""
-    gap = rms(errors_of(problem, base, base.outset)).velocity
-    return missed(gap / problem.noise.velocity, problem)
+    gap = rms_gap(open_loop_errors(problem, base, base.outset)).velocity
+    return missed_motion(gap / problem.noise.velocity, problem)
 
 
-def _base(problem: Problem, log: Log, *, type: str) -> Point:  # noqa: A002 - as above
+def _base(problem: PredictionErrorProblem, log: Log, *, type: str) -> Estimate:  # noqa: A002 - as above
     """The best point without effects."""
-    guess = sensible(first_guess(log, type=type))
-    hypothesis = Hypothesis(type)
+    guess = clamp_to_physical(first_guess(log, type=type))
+    hypothesis = ModelStructure(type)
     values = {name: guess[name] for name in hypothesis.names}
     begin = problem.at(
-        hypothesis, values, Outset.seen(len(problem.lanes)), problem.noise.velocity**2
+        hypothesis, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
     )
-    return ended(problem, scanned(problem, better(problem, begin, steps=8, enough=1.0)))
+    return minimize_fully(
+        problem,
+        scan_process_noise(problem, levenberg_marquardt(problem, begin, steps=8, enough=1.0)),
+    )

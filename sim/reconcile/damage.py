@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Damaged:
+class DamagedInterval:
     """A stretch of a run that is not to be believed.
 
     Args:

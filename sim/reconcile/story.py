@@ -17,7 +17,7 @@ AMBIGUOUS, UNEXPLAINED = "ambiguous", "unexplained"
 
 
 @dataclass(frozen=True)
-class Estimate:
+class ParameterEstimate:
     """A parameter, as found, in the owner's unit.
 
     Args:
@@ -53,7 +53,7 @@ class Finding:
     kind: str
     size: str
     ambiguous_with: tuple[str, ...]
-    parameters: Mapping[str, Estimate]
+    parameters: Mapping[str, ParameterEstimate]
     gap_before: float
     gap_after: float
     score: float
@@ -141,23 +141,23 @@ class Story:
 
     def plot_gap(self) -> Any:  # noqa: ANN401 - a picture, whose type draws and so stands above
         """A ``sim.plot.Picture`` of where simulation and measurement disagree, before and after."""
-        return _pictures().gaps(self)
+        return _pictures().residual_maps(self)
 
     def plot_overlay(self, chapter: int = -1) -> Any:  # noqa: ANN401 - as above
         """A ``sim.plot.Picture`` of the shown runs, simulated before and after a chapter."""
-        return _pictures().overlay(self, chapter)
+        return _pictures().plot_overlays(self, chapter)
 
     def plot_suspects(self, chapter: int = 0) -> Any:  # noqa: ANN401 - as above
         """A ``sim.plot.Picture`` of what was tried on top of a chapter's model."""
-        return _pictures().lineup(self, chapter)
+        return _pictures().candidate_bars(self, chapter)
 
     def plot_shrinking(self) -> Any:  # noqa: ANN401 - as above
         """A ``sim.plot.Picture`` of the gap, chapter by chapter."""
-        return _pictures().shrinking(self)
+        return _pictures().gap_by_round(self)
 
     def table(self) -> Any:  # noqa: ANN401 - as above
         """A ``sim.plot.Table`` of what was found."""
-        return _pictures().findings(self)
+        return _pictures().findings_table(self)
 
     def to_json(self) -> dict[str, Any]:
         """As ``sysid reconcile --json`` prints it."""

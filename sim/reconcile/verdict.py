@@ -3,20 +3,20 @@
 from collections.abc import Sequence
 
 from sim.effects import EFFECTS
-from sim.reconcile.alike import POSITION, Alike
-from sim.reconcile.gates import missed
-from sim.reconcile.left import Left
-from sim.reconcile.problem import Problem
-from sim.reconcile.round import Round
+from sim.reconcile.cross_validation import missed_motion
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.model_selection import list_blocked
+from sim.reconcile.residual_tests.repeatability import POSITION, RepeatedResidual
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
 from sim.reconcile.thresholds import LOST, MOSTLY, STRAYS
-from sim.reconcile.weighing import blocked
 from sim.units import Unit
 
 
 def verdict_of(
-    findings: Sequence[Finding], done: Sequence[Round], problem: Problem, *,
-    left: Left, per: Unit,
+    findings: Sequence[Finding], done: Sequence[SelectionRound], problem: PredictionErrorProblem, *,
+    left: ResidualSummary, per: Unit,
 ) -> tuple[str, bool, str]:  # fmt: skip
     """The verdict, whether something remains, and a sentence about it.
 
@@ -30,7 +30,7 @@ def verdict_of(
     strays, before = (
         gap.velocity / problem.noise.velocity for gap in (done[-1].gap, done[0].before)
     )
-    share = missed(strays, problem)
+    share = missed_motion(strays, problem)
     if not share <= LOST:
         remains = (
             f"The last model misses {share:.0%} of the motion on runs it was not fitted to, so "
@@ -51,14 +51,14 @@ def verdict_of(
     return EXPLAINED, bool(remains), remains
 
 
-def _remains(findings: Sequence[Finding], done: Sequence[Round], *, strays: float) -> str:
+def _remains(findings: Sequence[Finding], done: Sequence[SelectionRound], *, strays: float) -> str:
     """A sentence about how far the last model still is, or why it may be another; or nothing."""
     if strays > STRAYS:
         return (
             f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
             "effect of the catalogue makes that less."
         )
-    if likely := blocked(done[-1].weighed):
+    if likely := list_blocked(done[-1].weighed):
         return (
             f"With {likely[0].suspect.effect} the log would be far likelier, and yet runs that "
             "were not fitted are missed by more: something else is missing, or more than that."
@@ -72,7 +72,7 @@ def _remains(findings: Sequence[Finding], done: Sequence[Round], *, strays: floa
     return ""
 
 
-def _is_left(problem: Problem, left: Left, per: Unit) -> str:
+def _is_left(problem: PredictionErrorProblem, left: ResidualSummary, per: Unit) -> str:
     """A sentence about what the last model leaves that is no noise; empty if it is."""
     if left.shaken:
         moment = left.moment
@@ -109,7 +109,7 @@ def _series(findings: Sequence[Finding]) -> str:
     return ""
 
 
-def _habit(alike: Alike, per: Unit) -> str:
+def _habit(alike: RepeatedResidual, per: Unit) -> str:
     """A sentence about what runs miss alike."""
     low, high = (f"{edge / per.si:.3g}".replace("-", "−") for edge in (alike.low, alike.high))
     where, of = ("places", "") if alike.what == POSITION else ("speeds", "/s")

@@ -13,19 +13,19 @@ from functools import cached_property
 
 from markupsafe import Markup
 
-from sim.compared import Compared, compared
 from sim.doubt import Doubt
 from sim.errors import BadRequest
 from sim.feedback import Preset
+from sim.feedback_trial import FeedbackTrial
 from sim.fit import Fit
+from sim.fit_replay import RunReplay, replay_fit
 from sim.log import Log
-from sim.plot.followed import followed, numbers
+from sim.plot.fit_overview import fit_overview
+from sim.plot.measured_vs_simulated import error_table, measured_vs_simulated
 from sim.plot.picture import Picture
-from sim.plot.step import steps
-from sim.plot.whole_fit import whole_fit
-from sim.report.rows import controllers, gains, measures, snippets
-from sim.report.written import page_at, templates, write_whole
-from sim.trial import Trial
+from sim.plot.step_response import step_responses
+from sim.report.page_file import load_templates, page_path, write_whole
+from sim.report.rows import controller_rows, gain_rows, measure_rows, snippet_rows
 from sim.units import Unit, unit
 
 
@@ -46,7 +46,7 @@ class Report:
     found: Fit
     log: Log
     preset: Preset
-    tried: tuple[Trial, ...] = ()
+    tried: tuple[FeedbackTrial, ...] = ()
     notes: tuple[str, ...] = field(default=())
 
     @property
@@ -55,10 +55,10 @@ class Report:
         return unit(self.found.units)
 
     @cached_property
-    def runs(self) -> tuple[Compared, ...]:
+    def runs(self) -> tuple[RunReplay, ...]:
         """Every run, measured and simulated; none where these gains move nothing."""
         try:
-            return compared(self.found, self.log)
+            return replay_fit(self.found, self.log)
         except BadRequest:  # the doubts about the gains say why
             return ()
 
@@ -69,8 +69,8 @@ def write_page(report: Report, path: str | os.PathLike[str]) -> None:
     Raises:
         BadRequest: its name does not end as a page's, or it cannot be written.
     """
-    target = page_at(path)
-    write_whole(page(report), target)
+    target = page_path(path)
+    write_whole(render_page(report), target)
 
 
 def write_picture(report: Report, path: str | os.PathLike[str]) -> None:
@@ -80,30 +80,33 @@ def write_picture(report: Report, path: str | os.PathLike[str]) -> None:
         BadRequest: its name ends in no kind of picture, it cannot be written, or there is nothing
             to draw.
     """
-    whole_fit(report.runs, report.tried, per=report.per).save(path)
+    fit_overview(report.runs, report.tried, per=report.per).save(path)
 
 
-def page(report: Report) -> str:
+def render_page(report: Report) -> str:
     """The page as text; the same fit always gives the same."""
     return (
-        templates()
+        load_templates()
         .get_template("page.html.jinja")
         .render(
             title=report.title,
             found=report.found,
             per=report.per,
             preset=report.preset.name,
-            gains=gains(report.found),
-            measures=measures(report.found),
+            gains=gain_rows(report.found),
+            measures=measure_rows(report.found),
             grave=_messages(report.found.doubts, grave=True),
             doubts=_messages(report.found.doubts, grave=False),
             notes=report.notes,
-            overview=Markup(numbers(report.runs, per=report.per).html),  # noqa: S704 - it escapes
-            runs=[(run.run.test, _html(followed(run, per=report.per))) for run in report.runs],
-            steps=_html(steps(report.tried, per=report.per)) if report.tried else None,
+            overview=Markup(error_table(report.runs, per=report.per).html),  # noqa: S704 - it escapes
+            runs=[
+                (run.run.test, _html(measured_vs_simulated(run, per=report.per)))
+                for run in report.runs
+            ],
+            steps=_html(step_responses(report.tried, per=report.per)) if report.tried else None,
             tried=[(trial.whose, trial.loop, trial.verdict.words) for trial in report.tried],
-            controllers=controllers(report.found),
-            snippets=snippets(report.found),
+            controllers=controller_rows(report.found),
+            snippets=snippet_rows(report.found),
         )
     )
 

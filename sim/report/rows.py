@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 from sim.errors import BadRequest
 from sim.feedback import PRESETS, Preset
+from sim.feedback_trial import SUGGESTED, FeedbackTrial, delay_of, try_feedback_gains
 from sim.fit import Fit
-from sim.paste import LANGUAGES, SEASONS, rounded, snippet
-from sim.plot.table import shown
-from sim.terminal import error_of
-from sim.trial import SUGGESTED, Trial, delay_of, trials
+from sim.fit_terminal import format_error
+from sim.plot.table import format_cell
+from sim.robot_code_snippet import LANGUAGES, SEASONS, robot_code_snippet, round_to_error
 from sim.units import unit
 
 SURE = 1.96  # [standard errors] that hold the truth 95 times of a hundred
@@ -57,18 +57,18 @@ class Snippet:
     refused: str
 
 
-def gains(found: Fit) -> list[Gain]:
+def gain_rows(found: Fit) -> list[Gain]:
     """The gains with their errors and what they mean."""
     rows = []
     for name, value in found.gains.items():
         error = found.errors.get(name, math.nan)
-        ends = (rounded(value + SURE * way * error, error) for way in (-1.0, 1.0))
+        ends = (round_to_error(value + SURE * way * error, error) for way in (-1.0, 1.0))
         between = " to ".join(ends) if math.isfinite(error) else "not known"
         rows.append(
             Gain(
                 "angle" if name == "offset_rad" else name,
-                _minus(rounded(value, error)),
-                error_of(value, error),
+                _minus(round_to_error(value, error)),
+                format_error(value, error),
                 _minus(between),
                 found.gain_unit(name),
                 MEANS[name],
@@ -77,7 +77,7 @@ def gains(found: Fit) -> list[Gain]:
     return rows
 
 
-def measures(found: Fit) -> list[tuple[str, str, str]]:
+def measure_rows(found: Fit) -> list[tuple[str, str, str]]:
     """How well the gains explain the log: name, number, what it says."""
     per = unit(found.units).symbol
     rows = [
@@ -110,11 +110,15 @@ def measures(found: Fit) -> list[tuple[str, str, str]]:
     return rows
 
 
-def controllers(found: Fit) -> list[Controller]:
+def controller_rows(found: Fit) -> list[Controller]:
     """Feedback gains for every motor controller; empty where the model allows none."""
     rows = []
     for preset in PRESETS.values():
-        tried = {trial.loop: trial for trial in trials(found, preset) if trial.whose == SUGGESTED}
+        tried = {
+            trial.loop: trial
+            for trial in try_feedback_gains(found, preset)
+            if trial.whose == SUGGESTED
+        }
         if {"velocity", "position"} <= set(tried):
             delays = {1000.0 * delay_of(found, preset, loop=loop) for loop in tried}
             rows.append(
@@ -138,20 +142,20 @@ def _counts(preset: Preset) -> str:
     return f"{output}, speed per {speeds[preset.velocity_time]}{derivative}"
 
 
-def _loop(trial: Trial) -> tuple[str, str, str, bool]:
+def _loop(trial: FeedbackTrial) -> tuple[str, str, str, bool]:
     """kP, kD, what they do in simulation, and whether to begin with them."""
     numbers = (_four(trial.gains.kp), _four(trial.gains.kd))
     return (*numbers, trial.verdict.words, trial.good)
 
 
-def snippets(found: Fit) -> list[Snippet]:
+def snippet_rows(found: Fit) -> list[Snippet]:
     """Code for every language and season."""
     made = []
     for language in LANGUAGES:
         for season in SEASONS:
             code, refused = "", ""
             try:
-                code = snippet(found, language=language, season=season)
+                code = robot_code_snippet(found, language=language, season=season)
             except BadRequest as refusal:
                 refused = str(refusal)
             made.append(Snippet(CODE[language], season, code, refused))
@@ -168,4 +172,4 @@ def _minus(text: str) -> str:
 
 
 def _number(value: float) -> str:
-    return shown(value) if math.isfinite(value) else "not known: the simulation ran away"
+    return format_cell(value) if math.isfinite(value) else "not known: the simulation ran away"

@@ -10,27 +10,33 @@ from markupsafe import Markup
 
 from sim.errors import BadRequest
 from sim.plot.picture import Picture
-from sim.plot.story import findings, gaps, lineup, overlay, shrinking
-from sim.plot.story_bars import suspects_table
+from sim.plot.story import (
+    candidate_bars,
+    findings_table,
+    gap_by_round,
+    plot_overlays,
+    residual_maps,
+)
+from sim.plot.story_bars import candidate_table
 from sim.plot.table import Table
 from sim.reconcile.story import AMBIGUOUS, UNEXPLAINED, Finding, Story
-from sim.report.written import page_at, templates, write_whole
-from sim.telling import (
+from sim.report.page_file import load_templates, page_path, write_whole
+from sim.story_text import (
     FAULT,
-    beside,
+    describe,
+    describe_parameter,
+    format_estimate,
+    format_gap,
     headline,
-    in_floors,
-    looks,
-    meaning,
-    measured,
-    next_tests,
-    what_it_is,
+    list_inspections,
+    list_next_tests,
+    list_remarks,
 )
 from sim.units import unit
 
 
 @dataclass(frozen=True)
-class Told:
+class FindingText:
     """A finding, as text.
 
     Args:
@@ -65,7 +71,7 @@ def write_story(story: Story, path: str | os.PathLike[str], *, title: str) -> No
     Raises:
         BadRequest: its name does not end as a page's, or it cannot be written.
     """
-    target = page_at(path)
+    target = page_path(path)
     write_whole(story_page(story, title=title), target)
 
 
@@ -80,7 +86,7 @@ def story_page(story: Story, *, title: str) -> str:
     tried = [number for number, chapter in enumerate(story.chapters) if chapter.tried]
     told = range(1, last + 1) or (0,)  # the base alone has no before
     return (
-        templates()
+        load_templates()
         .get_template("story.html.jinja")
         .render(
             title=title,
@@ -88,15 +94,15 @@ def story_page(story: Story, *, title: str) -> str:
             per=unit(story.shown.units),
             headline=headline(story),
             unsure=story.remainder or story.verdict in {AMBIGUOUS, UNEXPLAINED},
-            beside=beside(story),
+            beside=list_remarks(story),
             findings=[_told(one, story) for one in story.findings],
-            overview=_html(findings(story)),
-            tests=next_tests(story),
-            shrinking=_html(shrinking(story)),
+            overview=_html(findings_table(story)),
+            tests=list_next_tests(story),
+            shrinking=_html(gap_by_round(story)),
             places=[(place.sentence, f"{place.sure:.0f}") for place in story.where],
             gaps=_gaps(story),
             rounds=[(_base(story, n), _lineup(story, n)) for n in tried],
-            overlays=[(_base(story, n), _html(overlay(story, n))) for n in told],
+            overlays=[(_base(story, n), _html(plot_overlays(story, n))) for n in told],
         )
     )  # fmt: skip
 
@@ -104,7 +110,7 @@ def story_page(story: Story, *, title: str) -> str:
 def _gaps(story: Story) -> Markup:
     """The map, or why there is none."""
     try:
-        return _html(gaps(story))
+        return _html(residual_maps(story))
     except BadRequest as refusal:
         return Markup("<p>{}</p>").format(str(refusal))
 
@@ -112,8 +118,8 @@ def _gaps(story: Story) -> Markup:
 def _lineup(story: Story, chapter: int) -> Markup:
     """The suspects of a round; where none explains anything, bars would show nothing."""
     if max(one.score for one in story.chapters[chapter].tried) < 1.0:
-        return _html(suspects_table(story, chapter))
-    return _html(lineup(story, chapter))
+        return _html(candidate_table(story, chapter))
+    return _html(candidate_bars(story, chapter))
 
 
 def _base(story: Story, chapter: int) -> str:
@@ -122,25 +128,25 @@ def _base(story: Story, chapter: int) -> str:
     return " + ".join(["base model", *added])
 
 
-def _told(one: Finding, story: Story) -> Told:
+def _told(one: Finding, story: Story) -> FindingText:
     fault = one.kind == FAULT
-    before, after = (in_floors(gap, story) for gap in (one.gap_before, one.gap_after))
-    return Told(
+    before, after = (format_gap(gap, story) for gap in (one.gap_before, one.gap_after))
+    return FindingText(
         " or ".join([one.effect, *one.ambiguous_with]),
-        what_it_is(one.effect),
+        describe(one.effect),
         "damage to the record" if fault else one.size,
         one.sentence,
         tuple(
             (
                 name,
-                *measured(estimate),
+                *format_estimate(estimate),
                 "" if estimate.unit == "1" else estimate.unit,
-                meaning(one.effect, name),
+                describe_parameter(one.effect, name),
             )
             for name, estimate in one.parameters.items()
         ),
         "" if fault else f"from {before} to {after} times the noise",
-        looks(one),
+        list_inspections(one),
         one.separating_test,
     )
 

@@ -12,13 +12,13 @@ from sim.atomic_file import write_atomically
 CACHE = "SYSID_CACHE"  # environment variable: another folder
 
 
-def folder() -> Path:
+def cache_folder() -> Path:
     """The folder of the user's cache, which may not be there yet."""
     asked = os.environ.get(CACHE)
     return Path(asked or platformdirs.user_cache_dir("sysid-course", appauthor=False))
 
 
-def read(path: Path) -> bytes | None:
+def read_cached(path: Path) -> bytes | None:
     """What was kept; None where nothing was, or not for us."""
     try:
         return path.read_bytes()
@@ -26,7 +26,7 @@ def read(path: Path) -> bytes | None:
         return None
 
 
-def keep(path: Path, content: bytes) -> None:
+def write_cached(path: Path, content: bytes) -> None:
     """Write a file, whole: whoever reads at the same time sees all of it, or what was there.
 
     Raises:
@@ -36,7 +36,7 @@ def keep(path: Path, content: bytes) -> None:
     write_atomically(path, content)
 
 
-def older(paths: Iterable[Path], *, than: int) -> list[Path]:
+def oldest_files(paths: Iterable[Path], *, than: int) -> list[Path]:
     """All but the newest of some files, so many; what another process removes is not among them."""
     ages = []
     for path in paths:
@@ -45,7 +45,7 @@ def older(paths: Iterable[Path], *, than: int) -> list[Path]:
     return [path for _, path in sorted(ages)[: max(len(ages) - than, 0)]]
 
 
-def forget(paths: Iterable[Path]) -> None:
+def remove_files(paths: Iterable[Path]) -> None:
     """Remove files, but for those that another process uses."""
     for path in paths:
         with suppress(OSError):

@@ -16,7 +16,7 @@ from types import ModuleType
 from typing import Any, TypeVar
 
 from sim.errors import BadRequest
-from sim.work.here import AHEAD, done_by
+from sim.work.process_pool import AHEAD, collect_results
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -26,7 +26,7 @@ PATIENCE = 10.0  # [s] until a scheduler has to answer
 US = "sysid-course"
 
 
-def done_on_cluster(
+def run_jobs_on_cluster(
     work: Callable[[Job], Result], jobs: Sequence[Job], *, address: str
 ) -> Iterator[Result]:
     """Do jobs on a Dask cluster.
@@ -44,7 +44,7 @@ def done_on_cluster(
         workers = _workers(client, address)
         try:
             executor = client.get_executor(pure=False)
-            yield from done_by(executor, work, jobs, ahead=AHEAD * workers)
+            yield from collect_results(executor, work, jobs, ahead=AHEAD * workers)
         except Exception as error:  # whatever Dask makes of a connection that is gone
             lost = isinstance(error, CancelledError | OSError | dask.KilledWorker)
             if client.status == "running" and not lost:

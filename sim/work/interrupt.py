@@ -8,7 +8,7 @@ from types import FrameType
 
 
 @contextmanager
-def unheard() -> Iterator[None]:
+def interrupts_blocked_for_children() -> Iterator[None]:
     """Processes that start in here never hear Ctrl+C: it is for the one that started them."""
     if not _is_heard():
         yield
@@ -21,7 +21,7 @@ def unheard() -> Iterator[None]:
 
 
 @contextmanager
-def noted() -> Iterator[Callable[[], None]]:
+def deferred_interrupt() -> Iterator[Callable[[], None]]:
     """In here the first Ctrl+C is only noted; a second one acts at once, as ever.
 
     Yields:

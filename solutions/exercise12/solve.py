@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from grader.course import find_course
-from grader.exercise import find
+from grader.exercise import find_exercise
 from sim.formats import read
 from sim.units import unit
 
@@ -35,7 +35,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     Returns:
         File name -> its text.
     """
-    room = find("exercise12", find_course(Path(__file__).resolve().parent)).module
+    room = find_exercise("exercise12", find_course(Path(__file__).resolve().parent)).module
     logs = {name: read(data / f"{name}.wpilog") for name in ("log", "validation", "held-out")}
     base = room.with_gains(logs["log"], ())
     model = _found(room, logs["log"], logs["validation"])

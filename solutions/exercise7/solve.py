@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from sim.detect_faults import inspect
 from sim.faults import FAULTS
 from sim.formats import read
-from sim.inspection import inspect
 from sim.log import Log
 
 HELPS = {

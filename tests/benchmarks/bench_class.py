@@ -21,10 +21,10 @@ import psutil
 from bench_grade import loaded, spent
 from class_made import ROOT, SECRET, asked, make
 
-from grader.variant import of_class
-from sim.work.here import cores
+from grader.variant import class_secret
+from sim.work.process_pool import available_cores
 
-CORES = cores()
+CORES = available_cores()
 TARGET = 300.0  # [s] for 500 students
 SAMPLE = 20  # [students] of all the class that are graded one exercise after another
 LOOK = 0.5  # [s] between two looks at the memory
@@ -83,7 +83,7 @@ def by_exercise(handed_in: Path) -> None:
     everybody = sorted(handed_in.iterdir())
     students = everybody[:: -(-len(everybody) // SAMPLE)]
     print(f"\n{'exercise, of ' + str(len(students)) + ' students':36}{'mean s':>8}{'most s':>8}")
-    with of_class(SECRET):
+    with class_secret(SECRET):
         for one in asked(ROOT):
             there = [place for place in students if (place / one.name).is_dir()]
             took = []
@@ -102,7 +102,7 @@ def main() -> None:
         folder = Path(place)
         secret, handed_in = folder / "secret", folder / "class"
         secret.write_bytes(SECRET)
-        kinds = make(students, course=folder / "course", out=handed_in, processes=cores())
+        kinds = make(students, course=folder / "course", out=handed_in, processes=available_cores())
         said = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
         print(f"{students} students x 12 exercises on {CORES} cores; {said}")
         names = [one.name for one in asked(ROOT)]

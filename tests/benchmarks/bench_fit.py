@@ -13,11 +13,11 @@ import numpy as np
 from timing import HEADER, line, peak, seconds
 
 from sim.fit import fit
-from sim.fit.metrics import simulated_velocity
+from sim.fit.metrics import score_simulated_velocity
 from sim.fit.regression import regress
 from sim.log import FOUR_TESTS, Log, Run
-from sim.prepare import prepare
-from sim.simulate import motion
+from sim.simulate import move_gains_only
+from sim.sysid_rows import prepare_rows
 from sim.vocabulary import METHODS
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
@@ -33,7 +33,7 @@ def log(samples: int) -> Log:
         time = np.linspace(0.0, 10.0, samples)
         sign = 1.0 if test.endswith("forward") else -1.0
         voltage = sign * (time if test.startswith("quasi") else np.full(samples, 7.0))
-        position, velocity = motion(GAINS, time=time, voltage=voltage)
+        position, velocity = move_gains_only(GAINS, time=time, voltage=voltage)
         noisy = velocity + rng.normal(0, 0.02, samples)
         seen = TICK * np.round(position / TICK)
         runs.append(Run(test, 20.0 * index + time, voltage, seen, noisy))
@@ -42,10 +42,10 @@ def log(samples: int) -> Log:
 
 def measure(recorded: Log, *, name: str, targets: tuple[float, float | None, float]) -> None:
     """Print the figures of one log."""
-    raw = list(prepare(recorded).raw.values())
-    taken = seconds(lambda: regress(prepare(recorded).rows, type="simple"))
+    raw = list(prepare_rows(recorded).raw.values())
+    taken = seconds(lambda: regress(prepare_rows(recorded).rows, type="simple"))
     print(line(f"{name}: preparation and regression", taken, target=targets[0]))
-    taken = seconds(lambda: simulated_velocity(raw, GAINS, type="simple"))
+    taken = seconds(lambda: score_simulated_velocity(raw, GAINS, type="simple"))
     print(line(f"{name}: simulation metrics, all four tests", taken, target=targets[1]))
     repeats = 3 if len(recorded.runs[0]) > LARGE else 15
     taken = seconds(lambda: fit(recorded), repeats=repeats)

@@ -4,7 +4,7 @@
 
 Aims: help within 0.2 s, answers that are only read within 0.4 s, exercise 9 within 1.5 s: with a
 function that fits five logs in a process of its own. The logs of exercises 7, 8 and 12 are drawn by
-the first process and kept (`grader.kept`); only exercise 12 simulates. ``solved`` is an answer that
+the first process and kept (`grader.draw_cache`); only exercise 12 simulates. ``solved`` is an answer that
 earns everything, where that makes the examiner work harder than the file as it comes. Processor
 time is the median, and tells what of the waiting is the machine being busy with other things
 (Windows does not tell it).
@@ -23,8 +23,8 @@ from pathlib import Path
 
 import psutil
 
-from grader.course import load
-from grader.exercise import find
+from grader.course import load_progress
+from grader.exercise import find_exercise
 from grader.variant import folder_name
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -50,9 +50,9 @@ def course(folder: Path) -> None:
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("data"))
     shutil.copy(folder / "exercises/exercise9/answers.toml", folder / "solutions/exercise9")
     (folder / "lessons").mkdir()
-    student = load(folder)[0].student
+    student = load_progress(folder)[0].student
     for number in SOLVED:
-        one = find(str(number), folder)
+        one = find_exercise(str(number), folder)
         one.prepare(student, say=lambda _: None)
         solve = runpy.run_path(str(folder / f"solutions/{one.name}/solve.py"))["solve"]
         with chdir(folder):

@@ -25,8 +25,8 @@ from sim.fit import fit
 from sim.fit.regression import regress
 from sim.log import Log, Run
 from sim.model import Model, Part
-from sim.prepare import prepare
 from sim.replay import replay
+from sim.sysid_rows import prepare_rows
 
 LOGS = {
     "sciborgs-2023-elbow-arm": "arm",
@@ -78,7 +78,7 @@ def held_out(where: Path) -> Iterator[HeldOut]:
 def by_recipe(log: Log, run: Run, type_: str) -> Model | None:
     """SysId's recipe without the rows of one run."""
     try:
-        rows = prepare(log).rows
+        rows = prepare_rows(log).rows
         kept = {t: part.where(slice(0, 0)) if t == run.test else part for t, part in rows.items()}
         return Model(type_, regress(kept, type=type_).gains)
     except Refusal:

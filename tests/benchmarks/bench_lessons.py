@@ -89,8 +89,8 @@ def main() -> None:
             lesson(path)
 
 
-live = sim.plot.live
-sim.plot.live = timed
+live = sim.plot.interactive
+sim.plot.interactive = timed
 
 if __name__ == "__main__":
     main()

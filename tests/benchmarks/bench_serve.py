@@ -18,10 +18,15 @@ from tornado.httpclient import AsyncHTTPClient, HTTPResponse
 from tornado.httpserver import HTTPServer
 from tornado.testing import bind_unused_port
 
-from grader.release import common
-from grader.serve.door import House, application
-from grader.serve.homes import can_separate, codes, home, prepare_separation
-from grader.serve.rooms import Rooms
+from grader.release import common_package
+from grader.serve.jupyter_servers import JupyterServers
+from grader.serve.login_page import ServedClass, make_application
+from grader.serve.student_folders import (
+    can_separate,
+    login_codes,
+    prepare_separation,
+    student_folder,
+)
 from sim.errors import BadRequest
 
 PAUSE = 2.0  # [s] between two looks, as the page of the queue says
@@ -58,12 +63,14 @@ async def measure(folder: Path, count: int, patience: float) -> None:
     except BadRequest as refusal:
         print(refusal)
         separate = False
-    known = codes(folder, [f"student{number}" for number in range(count)])
-    shared = common(Path.cwd())
-    rooms = Rooms("127.0.0.1", separate=separate)
-    house = House(known, lambda who: home(folder, who, packages=[shared]), rooms, "exercises")
+    known = login_codes(folder, [f"student{number}" for number in range(count)])
+    shared = common_package(Path.cwd())
+    rooms = JupyterServers("127.0.0.1", separate=separate)
+    house = ServedClass(
+        known, lambda who: student_folder(folder, who, packages=[shared]), rooms, "exercises"
+    )
     socket, port = bind_unused_port()
-    HTTPServer(application(house)).add_socket(socket)
+    HTTPServer(make_application(house)).add_socket(socket)
     AsyncHTTPClient.configure(None, max_clients=count)
     try:
         until = time.monotonic() + patience

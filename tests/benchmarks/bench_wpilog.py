@@ -18,9 +18,9 @@ import numpy as np
 from wpiutil.log import DataLogReader
 
 from sim.formats.wpilog.contents import contents_of
-from sim.formats.wpilog.control import Start, start
+from sim.formats.wpilog.control import Start, start_payload
 from sim.formats.wpilog.entry import KINDS, STRING
-from sim.formats.wpilog.records import MAGIC, load
+from sim.formats.wpilog.records import MAGIC, load_records
 
 HEADER = MAGIC + bytes((0, 1, 0, 0, 0, 0))
 START = 20_000_000  # [µs] when a robot has started up
@@ -39,7 +39,7 @@ def record(number: int, time: int, payload: bytes) -> bytes:
 def started(kinds: list[str]) -> list[bytes]:
     """The beginning of a file with entries of these types."""
     entries = (Start(i, f"NT:/Robot/entry {i}", kind, "") for i, kind in enumerate(kinds, 1))
-    return [HEADER] + [record(0, START, start(entry)) for entry in entries]
+    return [HEADER] + [record(0, START, start_payload(entry)) for entry in entries]
 
 
 def doubles(count: int, rng: np.random.Generator) -> bytes:
@@ -85,7 +85,7 @@ def mixed(count: int, rng: np.random.Generator) -> bytes:
 
 def ours(path: Path) -> int:
     """Read everything, in arrays; strings in lists."""
-    found = contents_of(load(path))
+    found = contents_of(load_records(path))
     kept = {
         entry.name: (entry.time, entry.texts() if entry.type == STRING else entry.values())
         for entry in found.entries
@@ -131,7 +131,7 @@ def rows(count: int, repetitions: int) -> Iterator[str]:
         for make in (doubles, strings, mixed):
             path = Path(folder) / f"{make.__name__}.wpilog"
             path.write_bytes(make(count, rng))
-            total = load(path).start.size
+            total = load_records(path).start.size
             pairs = [(seconds(ours, path), seconds(theirs, path)) for _ in range(repetitions)]
             if len({found for pair in pairs for _, found in pair}) != 1:
                 yield f"{make.__name__}: the readers disagree: {pairs}"

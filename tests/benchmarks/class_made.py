@@ -17,8 +17,8 @@ from types import ModuleType
 import numpy as np
 
 from grader.exercise import Exercise, exercises
-from grader.variant import folder_name, of_class
-from sim.work.here import done_here
+from grader.variant import class_secret, folder_name
+from sim.work.process_pool import run_jobs_locally
 
 ROOT = Path(__file__).resolve().parents[2]
 SECRET = b"a benchmark's class, which has nothing to hide"
@@ -78,7 +78,7 @@ def make(students: int, *, course: Path, out: Path, processes: int) -> Mapping[s
         for first in range(0, students, TOGETHER)
     ]
     kinds = dict.fromkeys(SHARES, 0)
-    for made in done_here(make_some, jobs, processes=processes, worth=1):
+    for made in run_jobs_locally(make_some, jobs, processes=processes, worth=1):
         for kind, count in made.kinds.items():
             kinds[kind] += count
     shutil.rmtree(course)
@@ -89,7 +89,7 @@ def make_some(job: Some) -> Made:
     """Make the answers of some students; a classmate's of exercise 12 for all but the first."""
     kinds = dict.fromkeys(SHARES, 0)
     slow: Texts = {}
-    with of_class(SECRET):
+    with class_secret(SECRET):
         for number in range(job.first, job.first + job.count):
             who, rng = f"student{number:04}", np.random.default_rng(number)
             for one in _there(job.course):

@@ -12,8 +12,8 @@ import numpy as np
 
 from sim.log import FOUR_TESTS, Log, Run
 from sim.mechanism import Sensor
-from sim.sensing import read
-from sim.simulate import motion
+from sim.sensor_model import read_sensor
+from sim.simulate import move_gains_only
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}  # [V, V·s/m, V·s²/m] a drivetrain: kA/kV is 150 ms
 LENGTH = 10.0  # [s] of a test
@@ -68,8 +68,8 @@ class Row:
             sign = 1.0 if test.endswith("forward") else -1.0
             ramp = test.startswith("quasistatic")
             volts = sign * (time if ramp else np.full(time.size, STEP))
-            x, v = motion(self.truth, time=time, voltage=volts)
-            seen = read(sensor, position=x, velocity=v, time=time, rng=chance)
+            x, v = move_gains_only(self.truth, time=time, voltage=volts)
+            seen = read_sensor(sensor, position=x, velocity=v, time=time, rng=chance)
             runs.append(Run(test, 2.0 * index * LENGTH + time, volts, *seen))
         return Log(tuple(runs), type="simple")
 

@@ -37,7 +37,7 @@ def main() -> None:
     from reconcile_making import store  # noqa: PLC0415 - the engine counts effects when imported
     from reconcile_recording import on_the_bench as moved  # noqa: PLC0415 - the same
 
-    from sim.engine import ready  # noqa: PLC0415 - the same
+    from sim.engine import load_engine  # noqa: PLC0415 - the same
 
     cases = plan(seed=asked.seed, cases=asked.cases, shuffled=asked.shuffled)
     if asked.physics == "mujoco":
@@ -46,7 +46,7 @@ def main() -> None:
         except ModuleNotFoundError:
             sys.exit("MuJoCo is not installed. Run: pip install 'sysid-course[physics]'")
     work = partial(store, seed=asked.seed, out=asked.out, moved=moved)
-    ready()  # compiled once, for all
+    load_engine()  # compiled once, for all
     with ProcessPoolExecutor(asked.jobs, initializer=admit) as pool:
         key = dict(pool.map(work, cases))
     asked.key.write_text(json.dumps(key), encoding="utf-8")

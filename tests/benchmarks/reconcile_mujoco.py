@@ -23,12 +23,12 @@ from reconcile_strangers import SHAKES
 
 from sim.effect import ASKS
 from sim.effects import effect as find
-from sim.engine.asked import COARSEST
+from sim.engine.model_arrays import COARSEST
 from sim.log import Array, Run
 from sim.mechanism import Mechanism
 from sim.model import Part
 from sim.routine import Routine
-from sim.sensing import read
+from sim.sensor_model import read_sensor
 from sim.simulate import PAUSE, _begin, _end, _loops
 from sim.units import unit
 
@@ -72,7 +72,7 @@ def moved(
         position, velocity = body.run(test, last, time, volts, rubs=rubs)
         time, volts = time[: position.size], volts[: position.size]
         seen = body.sees(time, position, velocity)
-        sensed = read(mechanism.sensor, position=position, velocity=seen, time=time, rng=rng)
+        sensed = read_sensor(mechanism.sensor, position=position, velocity=seen, time=time, rng=rng)
         runs.append(Run(test, start + time, volts, *sensed))
         body.rests(PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(position[-1])

@@ -16,7 +16,7 @@ from reconcile_strangers import SHAKES
 from sim.effect import Scale
 from sim.effects import effect as find
 from sim.effects.inertia_change import LATER
-from sim.engine.asked import COARSEST
+from sim.engine.model_arrays import COARSEST
 from sim.log import Log, Run
 from sim.mechanism import Mechanism
 from sim.model import Part

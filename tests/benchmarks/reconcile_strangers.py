@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from sim.effect import Effect, Parameter, Scale
 from sim.effects import EFFECTS
-from sim.evidence import Evidence
+from sim.voltage_residual import VoltageResidual
 
 SIX = 6.0  # [V] of an ordinary dynamic test: how fast a place is passed
 CENTER = 0.5  # [share of the reach] where a bump lies if nobody says
@@ -129,7 +129,7 @@ def ordinary_shakes(_: Scale, size: float) -> Mapping[str, float]:
     return {"volts": 0.14 * size, "seed": 0.5}
 
 
-def no_starts(_: Evidence) -> Iterator[Mapping[str, float]]:
+def no_starts(_: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Nobody looks for it."""
     return iter(())
 

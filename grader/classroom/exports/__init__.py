@@ -43,7 +43,7 @@ def exports() -> dict[str, Export]:
     }
 
 
-def chosen(wanted: Sequence[str], *, roster: Members | None) -> tuple[Export, ...]:
+def choose_exports(wanted: Sequence[str], *, roster: Members | None) -> tuple[Export, ...]:
     """The formats to write: a gradebook, and those that are wanted besides.
 
     Args:

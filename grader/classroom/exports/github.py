@@ -9,10 +9,10 @@ import json
 from pathlib import Path
 from typing import Any
 
+from grader.classroom.atomic_files import write_private_file
+from grader.classroom.feedback_text import feedback
 from grader.classroom.grading import Graded
 from grader.classroom.results import Results
-from grader.classroom.words import feedback
-from grader.classroom.written import written
 from grader.variant import folder_name
 
 SUMMARY = "github/STUDENT.txt: result=…, a line for $GITHUB_OUTPUT"
@@ -27,7 +27,7 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
         BadRequest: they cannot be written.
     """
     return tuple(
-        written(folder / "github" / f"{folder_name(one.student)}.txt", _line(one))
+        write_private_file(folder / "github" / f"{folder_name(one.student)}.txt", _line(one))
         for one in results.students
     )
 

@@ -4,9 +4,9 @@ import csv
 import io
 from pathlib import Path
 
-from grader.classroom.cells import safe
+from grader.classroom.atomic_files import write_private_file
+from grader.classroom.cells import escape_formula
 from grader.classroom.results import Results, scores, status_of
-from grader.classroom.written import written
 
 SUMMARY = "gradebook.csv: a row for each student, for a spreadsheet"
 
@@ -26,5 +26,5 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
         unread = [name for name, how in status_of(one).items() if how == "ungradable"]
         row = [points.get(name, 0.0) for name in results.exercises]
         totals = (f"{sum(points.values()):g}", f"{sum(most.values()):g}", " ".join(unread))
-        table.writerow([safe(one.student), *(f"{value:g}" for value in row), *totals])
-    return (written(folder / "gradebook.csv", "\ufeff" + stream.getvalue()),)
+        table.writerow([escape_formula(one.student), *(f"{value:g}" for value in row), *totals])
+    return (write_private_file(folder / "gradebook.csv", "\ufeff" + stream.getvalue()),)

@@ -7,10 +7,10 @@ import json
 from pathlib import Path
 from typing import Any
 
+from grader.classroom.atomic_files import write_private_file
+from grader.classroom.feedback_text import feedback
 from grader.classroom.grading import Graded
 from grader.classroom.results import Results
-from grader.classroom.words import feedback
-from grader.classroom.written import written
 from grader.variant import folder_name
 
 SUMMARY = "gradescope/STUDENT/results.json: as Gradescope reads it"
@@ -23,7 +23,7 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
         BadRequest: they cannot be written.
     """
     return tuple(
-        written(
+        write_private_file(
             folder / "gradescope" / folder_name(one.student) / "results.json",
             json.dumps(_result(one), ensure_ascii=False, indent=1) + "\n",
         )

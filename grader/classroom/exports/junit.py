@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
 
+from grader.classroom.atomic_files import write_private_file
+from grader.classroom.feedback_text import feedback
 from grader.classroom.grading import Graded
 from grader.classroom.results import Results
-from grader.classroom.words import feedback
-from grader.classroom.written import written
 
 SUMMARY = "junit.xml: a suite for each student, as build servers read it"
 NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -29,7 +29,7 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
     ET.indent(top)
     text = ET.tostring(top, encoding="unicode")
     head = '<?xml version="1.0" encoding="utf-8"?>\n'
-    return (written(folder / "junit.xml", f"{head}{text}\n"),)
+    return (write_private_file(folder / "junit.xml", f"{head}{text}\n"),)
 
 
 def _suite(one: Graded) -> ET.Element:

@@ -23,18 +23,32 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from grader.isolation import scratch_folder
-from grader.robotcode.bench.apart import BENCH, BUTTONS, GIVEN, GRACE, Start, command, confined
-from grader.robotcode.bench.given import handed_over
-from grader.robotcode.bench.ran import Driven, Outcome, Press, Ran, Recorded
+from grader.robotcode.bench.run_facts import (
+    ButtonPress,
+    DrivenMotor,
+    LoggedMotor,
+    Outcome,
+    RunFacts,
+)
+from grader.robotcode.bench.sandbox_files import copy_program
+from grader.robotcode.bench.sandboxed_run import (
+    BENCH,
+    BUTTONS,
+    GIVEN,
+    GRACE,
+    Start,
+    child_command,
+    run_confined,
+)
 from grader.robotcode.bench.tampering import refuse_tampering, simulation_awareness
 
 __all__ = [
     "SECONDS",
-    "Driven",
+    "ButtonPress",
+    "DrivenMotor",
+    "LoggedMotor",
     "Outcome",
-    "Press",
-    "Ran",
-    "Recorded",
+    "RunFacts",
     "installed",
     "press",
     "refuse_tampering",
@@ -49,7 +63,9 @@ def installed() -> bool:
     return all(find_spec(name) is not None for name in ("wpilib", "commands2"))
 
 
-def run(path: Path, name: str, *, start: Start = confined, seconds: float = SECONDS) -> Ran:
+def run(
+    path: Path, name: str, *, start: Start = run_confined, seconds: float = SECONDS
+) -> RunFacts:
     """Run the SysIdRoutine of a RobotPy file.
 
     Args:
@@ -64,7 +80,9 @@ def run(path: Path, name: str, *, start: Start = confined, seconds: float = SECO
     return _run(path, name, BENCH, start=start, seconds=seconds)
 
 
-def press(path: Path, name: str, *, start: Start = confined, seconds: float = SECONDS) -> Ran:
+def press(
+    path: Path, name: str, *, start: Start = run_confined, seconds: float = SECONDS
+) -> RunFacts:
     """Press every button of a robot in RobotPy, in test mode and out of it.
 
     Args:
@@ -79,17 +97,19 @@ def press(path: Path, name: str, *, start: Start = confined, seconds: float = SE
     return _run(path, name, BUTTONS, start=start, seconds=seconds)
 
 
-def _run(path: Path, name: str, script: Path, *, start: Start, seconds: float) -> Ran:
+def _run(path: Path, name: str, script: Path, *, start: Start, seconds: float) -> RunFacts:
     if not installed():
-        return Ran(Outcome.CANNOT, "RobotPy is not installed here")
-    from grader.robotcode.bench.logged import told  # noqa: PLC0415 - needs NumPy
+        return RunFacts(Outcome.CANNOT, "RobotPy is not installed here")
+    from grader.robotcode.bench.log_facts import read_facts  # noqa: PLC0415 - needs NumPy
 
     with scratch_folder() as place:
         folder = place / "left"
         folder.mkdir()
-        copy = handed_over(path, folder.with_name(GIVEN))
+        copy = copy_program(path, folder.with_name(GIVEN))
         ended = start(
-            command(copy, name, folder, seconds=seconds, script=script), folder, seconds + GRACE
+            child_command(copy, name, folder, seconds=seconds, script=script),
+            folder,
+            seconds + GRACE,
         )
-        found = told(folder, path, ended=ended, seconds=seconds)
+        found = read_facts(folder, path, ended=ended, seconds=seconds)
         return replace(found, aware=simulation_awareness(path))

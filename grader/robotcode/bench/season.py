@@ -3,7 +3,7 @@
 import re
 from importlib.metadata import PackageNotFoundError, version
 
-from grader.robotcode.vocabulary import renamed
+from grader.robotcode.vocabulary import other_season
 
 ABOUT = re.compile(
     r"AttributeError: .* has no attribute '(\w+)'"
@@ -13,7 +13,7 @@ ABOUT = re.compile(
 IMPORTS = re.compile(r"(ImportError|ModuleNotFoundError): ")
 
 
-def of_another(error: str, code: str) -> str:
+def explain_other_season(error: str, code: str) -> str:
     """In words, if an error comes from a name that WPILib has in another season; else empty.
 
     Args:
@@ -29,7 +29,7 @@ def of_another(error: str, code: str) -> str:
     except PackageNotFoundError:
         return ""
     for name in names:
-        season = renamed(name)
+        season = other_season(name)
         if season and not here.startswith(season):
             return f"{name} is a name of {season}, and the RobotPy installed here is {here}"
     return ""

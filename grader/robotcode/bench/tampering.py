@@ -15,8 +15,8 @@ import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
-from grader.robotcode.bench.apart import PACKAGES
-from grader.robotcode.bench.given import program_files
+from grader.robotcode.bench.sandbox_files import program_files
+from grader.robotcode.bench.sandboxed_run import PACKAGES
 from sim.errors import UnreadableFile
 
 

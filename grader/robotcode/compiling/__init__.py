@@ -5,10 +5,10 @@ be right is reported, and code that leans on classes out of sight is left alone.
 """
 
 from grader.robotcode.facts import Problem
-from grader.robotcode.names import Names
+from grader.robotcode.symbol_table import SymbolTable
 
 
-def compile_errors(names: Names) -> tuple[Problem, ...]:
+def compile_errors(names: SymbolTable) -> tuple[Problem, ...]:
     """What keeps a program from being compiled, or in Python from being run, in the order of lines.
 
     Args:
@@ -20,11 +20,11 @@ def compile_errors(names: Names) -> tuple[Problem, ...]:
     if names.main.problems:
         return ()
     if names.main.language == "python":
-        from grader.robotcode.compiling.python import errors  # noqa: PLC0415 - no ast for Java
+        from grader.robotcode.compiling.python import python_errors  # noqa: PLC0415 - no ast for Java
 
-        found = errors(names)
+        found = python_errors(names)
     else:
-        from grader.robotcode.compiling.java import errors as java_errors  # noqa: PLC0415 - the same
+        from grader.robotcode.compiling.java import java_errors as java_errors  # noqa: PLC0415 - the same
 
         found = java_errors(names)
     by_line = {one.line: one for one in sorted(found, key=lambda one: -one.line)}

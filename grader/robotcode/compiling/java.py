@@ -4,19 +4,9 @@ import re
 from collections.abc import Iterator
 
 from grader.robotcode.compiling.java_types import type_errors
-from grader.robotcode.compiling.season import (
-    HOME,
-    INHERITED,
-    METHODS,
-    PLAIN,
-    SEASON,
-    nearly,
-)
+from grader.robotcode.compiling.season import HOME, INHERITED, METHODS, PLAIN, SEASON, suggest_name
 from grader.robotcode.facts import Problem
-from grader.robotcode.meaning import called, class_of, last_name, methods, simple
-from grader.robotcode.names import Names
-from grader.robotcode.scope import Scope, walk
-from grader.robotcode.syntax import (
+from grader.robotcode.ir import (
     Assign,
     Call,
     Cast,
@@ -30,6 +20,15 @@ from grader.robotcode.syntax import (
     Reference,
     Self,
 )
+from grader.robotcode.name_resolution import (
+    called_functions,
+    class_of,
+    last_name,
+    methods,
+    simple_type_name,
+)
+from grader.robotcode.scope import Scope, walk
+from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import UNITS
 
 LANG = frozenset(
@@ -56,7 +55,7 @@ BLANK_FINAL = re.compile(
 PACKAGE = re.compile(r"(edu|com|org|java|javax|frc|swervelib|choreo)$")
 
 
-def errors(names: Names) -> Iterator[Problem]:
+def java_errors(names: SymbolTable) -> Iterator[Problem]:
     """What a compiler would stop at; nothing for a file without a package, a part of a program."""
     module = names.main
     if not module.package:
@@ -88,17 +87,17 @@ def errors(names: Names) -> Iterator[Problem]:
             yield from _method(node, scope, names)
 
 
-def _file_name(names: Names) -> Iterator[Problem]:
+def _file_name(names: SymbolTable) -> Iterator[Problem]:
     """A public class whose name is nearly its file's: Java wants both to be the same."""
     stem = names.main.path.stem
     for node in names.main.body:
         public = isinstance(node, Class) and node.place.text.startswith("public")
-        if public and isinstance(node, Class) and nearly(node.name, frozenset({stem})):
+        if public and isinstance(node, Class) and suggest_name(node.name, frozenset({stem})):
             said = f"the class is {node.name}, and its file {stem}: both need one name"
             yield Problem(said, node.place.line)
 
 
-def _constructors(names: Names) -> Iterator[Problem]:
+def _constructors(names: SymbolTable) -> Iterator[Problem]:
     """What looks like a constructor, and is called unlike every class here."""
     source = names.main.source.decode("utf-8", errors="replace")
     classes = set(re.findall(r"\b(?:class|enum|record|interface)\s+(\w+)", source))
@@ -109,7 +108,7 @@ def _constructors(names: Names) -> Iterator[Problem]:
             yield Problem(said, line)
 
 
-def _never_set(names: Names) -> Iterator[Problem]:
+def _never_set(names: SymbolTable) -> Iterator[Problem]:
     """Final fields that get no value."""
     source = names.main.source.decode("utf-8", errors="replace")
     for found in BLANK_FINAL.finditer(source):
@@ -129,18 +128,18 @@ def _static(one: Import) -> bool:
     return one.path.rpartition(".")[2][:1].isupper()
 
 
-def _imports(names: Names) -> Iterator[Problem]:
+def _imports(names: SymbolTable) -> Iterator[Problem]:
     source = names.main.source.decode("utf-8", errors="replace").split("\n")
     for one in names.main.imports:
         line = next((at for at, text in enumerate(source, 1) if _imports_it(text, one)), 1)
         owner, _, name = one.path.rpartition(".")
         if owner.rpartition(".")[2] == "Units" and name[:1].isupper() and "units" in owner:
-            if name not in UNITS and nearly(name, frozenset(UNITS)):
+            if name not in UNITS and suggest_name(name, frozenset(UNITS)):
                 yield Problem(f"there is no unit {name}", line)
             continue
         if one.name == "*" or not one.path.startswith(SEASON):
             continue
-        meant = nearly(name, HOME)
+        meant = suggest_name(name, HOME)
         if meant:
             yield Problem(f"there is no class {name}: {meant} is meant?", line)
         elif name in HOME and not HOME[name].startswith(owner):
@@ -162,7 +161,7 @@ def _types(node: Node) -> Iterator[str]:
     yield from re.findall(r"(?<![\w.])[A-Z]\w+", written)
 
 
-def _is_type(name: str, declared: set[str], scope: Scope, names: Names) -> bool:
+def _is_type(name: str, declared: set[str], scope: Scope, names: SymbolTable) -> bool:
     if name in declared or name in LANG or any(one.name == name for one in scope.module.imports):
         return True
     source = scope.module.source.decode("utf-8", errors="replace")
@@ -178,12 +177,12 @@ def _is_type(name: str, declared: set[str], scope: Scope, names: Names) -> bool:
 def _undeclared(name: str) -> str:
     if name in HOME:
         return f"{name} is not imported: import {HOME[name]}.{name};"
-    meant = nearly(name, HOME)
+    meant = suggest_name(name, HOME)
     return f"there is no class {name}: {meant} is meant?" if meant else f"{name} is not imported"
 
 
 def _variable(
-    node: Name, declared: set[str], scope: Scope, names: Names, *, open_: bool
+    node: Name, declared: set[str], scope: Scope, names: SymbolTable, *, open_: bool
 ) -> Iterator[Problem]:
     name = node.name
     if names.local(name, scope) or names.definitions(node, scope) or PACKAGE.match(name):
@@ -211,7 +210,7 @@ def _is_plain(node: Name, scope: Scope) -> bool:
     return bool(scope.functions or scope.classes) and not label and not after.startswith(b"(")
 
 
-def _is_field(name: str, scope: Scope, names: Names) -> bool:
+def _is_field(name: str, scope: Scope, names: SymbolTable) -> bool:
     for count in range(len(scope.classes), 0, -1):
         home = Scope(scope.module, scope.classes[:count])
         if any(name in names.fields(place) for place in names.lineage(home)):
@@ -222,21 +221,24 @@ def _is_field(name: str, scope: Scope, names: Names) -> bool:
     return False
 
 
-def _closed(scope: Scope, names: Names) -> bool:
+def _closed(scope: Scope, names: SymbolTable) -> bool:
     """Whether all that the classes around inherit is known."""
     for count in range(len(scope.classes), 0, -1):
         for place in names.lineage(Scope(scope.module, scope.classes[:count])):
             for base in place.classes[-1].bases:
-                if simple(base) not in PLAIN and names.named(simple(base), place) is None:
+                if (
+                    simple_type_name(base) not in PLAIN
+                    and names.named(simple_type_name(base), place) is None
+                ):
                     return False
     return True
 
 
-def _method(call: Call, scope: Scope, names: Names) -> Iterator[Problem]:
+def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Problem]:
     target = call.target
     line = target.place.line
     if isinstance(target, Member) and not isinstance(target, Reference):
-        if called(call, scope, names) or isinstance(target.owner, Self):
+        if called_functions(call, scope, names) or isinstance(target.owner, Self):
             return
         home = class_of(target.owner, scope, names)
         if home is not None and home.classes and _closed(home, names):
@@ -248,7 +250,7 @@ def _method(call: Call, scope: Scope, names: Names) -> Iterator[Problem]:
             return
         if _defined(target.name, names):
             return
-        meant = nearly(target.name, METHODS)
+        meant = suggest_name(target.name, METHODS)
         if meant and target.name[:1].islower():
             yield Problem(f"there is no method {target.name}(): {meant}() is meant?", line)
     elif isinstance(target, Name) and target.name[:1].islower():
@@ -256,13 +258,17 @@ def _method(call: Call, scope: Scope, names: Names) -> Iterator[Problem]:
             one.name == target.name or (one.name == "*" and _static(one))
             for one in scope.module.imports
         )
-        if called(call, scope, names) or target.name in INHERITED or _defined(target.name, names):
+        if (
+            called_functions(call, scope, names)
+            or target.name in INHERITED
+            or _defined(target.name, names)
+        ):
             return
         if not static and _closed(scope, names) and scope.classes:
             yield Problem(f"nothing declares the method {target.name}()", line)
 
 
-def _defined(name: str, names: Names) -> bool:
+def _defined(name: str, names: SymbolTable) -> bool:
     """Whether some class of the main file has a method of a name."""
     every = walk(names.main.body, Scope(names.main))
     return any(isinstance(node, Function) and node.name == name for node, _ in every)

@@ -4,11 +4,7 @@ import re
 from collections.abc import Iterator
 
 from grader.robotcode.facts import Problem
-from grader.robotcode.meaning import called, constructed, last_name, methods, simple
-from grader.robotcode.names import Names
-from grader.robotcode.readings import device_of, quantity_of
-from grader.robotcode.scope import Scope, walk
-from grader.robotcode.syntax import (
+from grader.robotcode.ir import (
     Call,
     Cast,
     Choice,
@@ -22,6 +18,16 @@ from grader.robotcode.syntax import (
     Reference,
     Self,
 )
+from grader.robotcode.name_resolution import (
+    called_functions,
+    constructed_class,
+    last_name,
+    methods,
+    simple_type_name,
+)
+from grader.robotcode.readings import device_of, quantity_of
+from grader.robotcode.scope import Scope, walk
+from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import ROTATIONS, UNITS, is_motor
 
 DEEPEST = 12
@@ -48,7 +54,7 @@ PLAIN_NUMBERS = frozenset(
 KEEPS = re.compile(r"mut_?\w+|plus|minus|copy|mutableCopy|unaryMinus|negate")
 
 
-def type_errors(names: Names) -> Iterator[Problem]:
+def type_errors(names: SymbolTable) -> Iterator[Problem]:
     """Arguments of the SysId log, of units and of the callbacks that are of another type."""
     for node, scope in walk(names.main.body, Scope(names.main)):
         if isinstance(node, Operation) and node.sign in ARITHMETIC:
@@ -58,11 +64,11 @@ def type_errors(names: Names) -> Iterator[Problem]:
         name = last_name(node.target)
         if isinstance(node.target, Member) and node.args:
             yield from _argument(node, node.target, name, scope, names)
-        if constructed(node, scope, names) == "Mechanism":
+        if constructed_class(node, scope, names) == "Mechanism":
             yield from _callbacks(node, scope, names)
 
 
-def _operands(node: Operation, scope: Scope, names: Names) -> Iterator[Problem]:
+def _operands(node: Operation, scope: Scope, names: SymbolTable) -> Iterator[Problem]:
     """Arithmetic with what is no number: Java has no operators for measures and signals."""
     for part in (node.left, node.right):
         given = "" if part is None else type_of_expression(part, scope, names)
@@ -72,7 +78,7 @@ def _operands(node: Operation, scope: Scope, names: Names) -> Iterator[Problem]:
 
 
 def _argument(
-    call: Call, target: Member, name: str, scope: Scope, names: Names
+    call: Call, target: Member, name: str, scope: Scope, names: SymbolTable
 ) -> Iterator[Problem]:
     given = type_of_expression(call.args[0], scope, names)
     wanted = WANTED.get(name, "")
@@ -86,12 +92,12 @@ def _argument(
         kinds = {NUMBER: "a plain number", SIGNAL: "a signal"}
         said = kinds.get(given, f"a {given}")
         yield Problem(f"{name}() takes a {wanted}, and this is {said}", line)
-    unit = dimension(last_name(target.owner)) if name == "of" else ""
+    unit = measure_of_unit(last_name(target.owner)) if name == "of" else ""
     if unit and (given in MEASURES or given == SIGNAL):
         what = "a signal: add getValueAsDouble()" if given == SIGNAL else f"a {given}"
         yield Problem(f"{last_name(target.owner)}.of() takes a number, and this is {what}", line)
     owner = type_of_expression(target.owner, scope, names) if name == "in" else ""
-    asked = dimension(last_name(call.args[0])) if name == "in" else ""
+    asked = measure_of_unit(last_name(call.args[0])) if name == "in" else ""
     if owner in MEASURES and asked and asked != owner:
         yield Problem(f"a {owner} is not in {last_name(call.args[0])}", line)
     if name == "setVoltage" and given in {SIGNAL, *MEASURES} - {"Voltage"}:
@@ -108,7 +114,7 @@ def _logs(target: Member) -> bool:
     return False
 
 
-def _callbacks(call: Call, scope: Scope, names: Names) -> Iterator[Problem]:
+def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Problem]:
     for given, allowed in zip(call.args, PARAMETERS, strict=False):
         if not isinstance(given, Reference) or not isinstance(given.owner, Self):
             continue
@@ -118,7 +124,7 @@ def _callbacks(call: Call, scope: Scope, names: Names) -> Iterator[Problem]:
         fits = [
             one
             for one, _ in found
-            if len(one.parameters) == 1 and simple(one.parameters[0].type) in allowed
+            if len(one.parameters) == 1 and simple_type_name(one.parameters[0].type) in allowed
         ]
         if found and not fits:
             wanted = max(allowed, key=len)
@@ -127,7 +133,7 @@ def _callbacks(call: Call, scope: Scope, names: Names) -> Iterator[Problem]:
             yield Problem(said, given.place.line)
 
 
-def dimension(unit: str) -> str:
+def measure_of_unit(unit: str) -> str:
     """The measure that a unit's name stands for: ``LinearVelocity`` of ``MetersPerSecond``."""
     found = UNITS.get(unit)
     if found is None:
@@ -146,7 +152,7 @@ def dimension(unit: str) -> str:
     return "Current" if "amp" in unit.lower() else ""
 
 
-def type_of_expression(node: Node, scope: Scope, names: Names, *, depth: int = 0) -> str:
+def type_of_expression(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
     """The type of an expression: ``double``, a measure or ``StatusSignal``; empty if not told."""
     depth += 1
     found = ""
@@ -168,13 +174,13 @@ def type_of_expression(node: Node, scope: Scope, names: Names, *, depth: int = 0
 
 
 def _named(type_: str) -> str:
-    name = simple(type_).removeprefix("Mut")
+    name = simple_type_name(type_).removeprefix("Mut")
     if name in NUMBERS:
         return NUMBER
     return name if name in MEASURES | {SIGNAL} else ""
 
 
-def _of_variable(node: Node, scope: Scope, names: Names, depth: int) -> str:
+def _of_variable(node: Node, scope: Scope, names: SymbolTable, depth: int) -> str:
     for one in names.definitions(node, scope):
         if isinstance(one.value, Parameter):
             return _named(one.value.type)
@@ -185,15 +191,17 @@ def _of_variable(node: Node, scope: Scope, names: Names, depth: int) -> str:
     return ""
 
 
-def _of_call(call: Call, scope: Scope, names: Names, depth: int) -> str:
-    functions = called(call, scope, names)
+def _of_call(call: Call, scope: Scope, names: SymbolTable, depth: int) -> str:
+    functions = called_functions(call, scope, names)
     if functions:
         return _named(functions[0][0].type)
     target = call.target
     if not isinstance(target, Member):
         return ""
     name = target.name
-    unit = dimension(last_name(target.owner)) if isinstance(target.owner, Name | Member) else ""
+    unit = (
+        measure_of_unit(last_name(target.owner)) if isinstance(target.owner, Name | Member) else ""
+    )
     if name in MAKES and unit:
         return unit
     if name in PLAIN_NUMBERS or last_name(target.owner) == "Math":
@@ -201,7 +209,7 @@ def _of_call(call: Call, scope: Scope, names: Names, depth: int) -> str:
     return _of_device(target, scope, names) or _of_measure(target, scope, names, depth)
 
 
-def _of_device(target: Member, scope: Scope, names: Names) -> str:
+def _of_device(target: Member, scope: Scope, names: SymbolTable) -> str:
     """What a method of a motor controller or an encoder gives; empty if it is none."""
     device, type_ = device_of(target.owner, scope, names)
     if not device or not quantity_of(target.name, motor=is_motor(type_)):
@@ -209,7 +217,7 @@ def _of_device(target: Member, scope: Scope, names: Names) -> str:
     return SIGNAL if ROTATIONS.fullmatch(type_) else NUMBER
 
 
-def _of_measure(target: Member, scope: Scope, names: Names, depth: int) -> str:
+def _of_measure(target: Member, scope: Scope, names: SymbolTable, depth: int) -> str:
     """What a method of a measure or of a signal gives; empty if it cannot be told."""
     name, inner = target.name, target.owner
     owner = type_of_expression(inner, scope, names, depth=depth)

@@ -11,17 +11,17 @@ from grader.robotcode.compiling.season import (
     MODULE_OF,
     PLAIN,
     ROBOTPY,
-    nearly,
+    suggest_name,
 )
 from grader.robotcode.facts import Problem
-from grader.robotcode.names import Names
-from grader.robotcode.vocabulary import plain
+from grader.robotcode.symbol_table import SymbolTable
+from grader.robotcode.vocabulary import java_spelling
 
 ALWAYS = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__", "__annotations__"}
 OPEN = frozenset({"setattr", "vars", "__getattr__"})  # set attributes by a name nobody can read
 
 
-def errors(names: Names) -> Iterator[Problem]:
+def python_errors(names: SymbolTable) -> Iterator[Problem]:
     """Names that nothing defines, imports that do not exist, attributes that nobody sets."""
     try:
         tree = ast.parse(names.main.source.decode("utf-8", errors="replace"))
@@ -58,7 +58,7 @@ def _imports(every: list[ast.AST]) -> Iterator[Problem]:
 
 
 def _imported(name: str, module: str, line: int) -> Iterator[Problem]:
-    meant = nearly(name, CLASSES) if name[:1].isupper() else ""
+    meant = suggest_name(name, CLASSES) if name[:1].isupper() else ""
     home = MODULE_OF.get(name, "")
     if meant and name not in CLASSES:
         yield Problem(f"there is no {name} in {module}: {meant} is meant?", line)
@@ -103,9 +103,9 @@ def _attributes(every: list[ast.AST]) -> Iterator[Problem]:
     own |= {one.attr for one in every if isinstance(one, ast.Attribute) and _is_set(one)}
     for node in every:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
-            meant = nearly(node.func.attr, METHODS)
+            meant = suggest_name(node.func.attr, METHODS)
             line = node.func.end_lineno or node.lineno
-            if meant and node.func.attr not in own and plain(node.func.attr) not in METHODS:
+            if meant and node.func.attr not in own and java_spelling(node.func.attr) not in METHODS:
                 said = f"there is no method {node.func.attr}(): {meant}() is meant?"
                 yield Problem(said, line)
 
@@ -116,7 +116,7 @@ def _is_set(node: ast.Attribute) -> bool:
 
 def _members(one: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> set[str] | None:
     """All attributes of a class; None where it inherits from a class out of sight."""
-    known = set(INHERITED) | {plain(name) for name in INHERITED}
+    known = set(INHERITED) | {java_spelling(name) for name in INHERITED}
     known |= {"".join(f"_{a.lower()}" if a.isupper() else a for a in name) for name in INHERITED}
     waiting, seen = [one], set()
     while waiting:

@@ -114,7 +114,7 @@ PLAIN = frozenset(  # classes from which no field of interest is inherited
 )
 
 
-def nearly(name: str, known: frozenset[str] | dict[str, str]) -> str:
+def suggest_name(name: str, known: frozenset[str] | dict[str, str]) -> str:
     """The known name that another is a misspelling of; empty if it is none, or known itself."""
     if name in known or len(name) < SHORTEST:
         return ""

@@ -8,12 +8,12 @@ import tree_sitter_java
 from tree_sitter import Language, Parser
 from tree_sitter import Node as Tree
 
-from grader.robotcode import syntax
+from grader.robotcode import ir
 from grader.robotcode.facts import Problem
-from grader.robotcode.java.brackets import refuse_garbage, unmatched
+from grader.robotcode.java.brackets import find_unmatched, refuse_garbage
 from grader.robotcode.java.declarations import DECLARATIONS
 from grader.robotcode.java.expressions import EXPRESSIONS
-from grader.robotcode.java.lowering import Lowering
+from grader.robotcode.java.to_ir import IrBuilder
 
 MOST_PROBLEMS = 5  # one mistake makes many; the first ones tell
 # On garbage the parser's repairs take time and memory by the square of the length.
@@ -25,7 +25,7 @@ _CLASS = re.compile(r"\b(class|interface|enum|record)\s+\w+[^;:]*\{")
 _LANGUAGE = Language(tree_sitter_java.language())
 
 
-def parse(text: str, path: Path) -> syntax.Module:
+def parse(text: str, path: Path) -> ir.Module:
     r"""Bring a Java file to the common syntax.
 
     Args:
@@ -43,12 +43,12 @@ def parse(text: str, path: Path) -> syntax.Module:
     root = _root(source)
     if root is None:
         lost = Problem("too little of this is Java to make sense of it", 1)
-        return syntax.Module(path, "java", source, (), problems=(unmatched(text) or lost,))
-    lowering = Lowering(source, EXPRESSIONS | DECLARATIONS)
+        return ir.Module(path, "java", source, (), problems=(find_unmatched(text) or lost,))
+    lowering = IrBuilder(source, EXPRESSIONS | DECLARATIONS)
     body = lowering.lower(root)
     headers = [(child.type, lowering.said(child)) for child in root.children]
     package = next((said for kind, said in headers if kind == "package_declaration"), "")
-    return syntax.Module(
+    return ir.Module(
         path,
         "java",
         source,
@@ -80,16 +80,16 @@ def _parsed(source: bytes) -> Tree | None:
     return None if late else root
 
 
-def _import(line: str) -> syntax.Import:
+def _import(line: str) -> ir.Import:
     path = re.sub(r"\bimport\b|\bstatic\b|[\s;]", "", line)
     if path.endswith(".*"):
-        return syntax.Import("*", path[:-2])
-    return syntax.Import(path.rpartition(".")[2], path)
+        return ir.Import("*", path[:-2])
+    return ir.Import(path.rpartition(".")[2], path)
 
 
-def _problems(root: Tree, lowering: Lowering, text: str) -> tuple[Problem, ...]:
+def _problems(root: Tree, lowering: IrBuilder, text: str) -> tuple[Problem, ...]:
     """What is not Java, the cause before its echoes."""
-    bracket = unmatched(text)
+    bracket = find_unmatched(text)
     found = _without_a_class(text) if bracket is None else [bracket]
     waiting = [root]
     while waiting and len(found) < MOST_PROBLEMS:

@@ -56,7 +56,7 @@ def refuse_garbage(text: str, *, where: str) -> None:
             )
 
 
-def unmatched(text: str) -> Problem | None:
+def find_unmatched(text: str) -> Problem | None:
     """The first bracket, quote or comment that has no partner, said so that it can be found."""
     opened: list[_Opened] = []
     line, at = 1, 0

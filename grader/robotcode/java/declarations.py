@@ -4,20 +4,20 @@ import re
 
 from tree_sitter import Node as Tree
 
-from grader.robotcode import syntax
-from grader.robotcode.java.lowering import Lowering, Maker
+from grader.robotcode import ir
+from grader.robotcode.java.to_ir import IrBuilder, Maker
 
 
-def _declaration(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _declaration(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     type_ = lowering.said(tree.child_by_field_name("type"))
     made = []
     for child in tree.children_by_field_name("declarator"):
         name = child.child_by_field_name("name")
         value = child.child_by_field_name("value")
         made.append(
-            syntax.Assign(
+            ir.Assign(
                 lowering.place(child),
-                syntax.Name(lowering.place(name or child), lowering.said(name)),
+                ir.Name(lowering.place(name or child), lowering.said(name)),
                 None if value is None else lowering.one(value, around=child),
                 type="" if type_ == "var" else type_,
                 declares=True,
@@ -26,21 +26,19 @@ def _declaration(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     return tuple(made)
 
 
-def _return(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _return(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     inside = lowering.many(tree.children)
-    return (syntax.Return(lowering.place(tree), inside[0]),) if len(inside) == 1 else inside
+    return (ir.Return(lowering.place(tree), inside[0]),) if len(inside) == 1 else inside
 
 
-def _loop(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _loop(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     body = tree.child_by_field_name("body")
     statements = () if body is None else lowering.done[body.id]
     variables = (lowering.said(tree.child_by_field_name("name")),)
-    return (
-        syntax.Loop(lowering.place(tree), variables, lowering.field(tree, "value"), statements),
-    )
+    return (ir.Loop(lowering.place(tree), variables, lowering.field(tree, "value"), statements),)
 
 
-def _parameters(lowering: Lowering, tree: Tree | None) -> tuple[tuple[str, str], ...]:
+def _parameters(lowering: IrBuilder, tree: Tree | None) -> tuple[tuple[str, str], ...]:
     """Name and type of each parameter of a method or lambda."""
     if tree is None:
         return ()
@@ -54,27 +52,27 @@ def _parameters(lowering: Lowering, tree: Tree | None) -> tuple[tuple[str, str],
     return tuple(found)
 
 
-def _function(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _function(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     place, body = lowering.place(tree), tree.child_by_field_name("body")
     listed = tree.child_by_field_name("parameters")
     parameters = tuple(
-        syntax.Parameter(lowering.place(listed or tree), name, type_)
+        ir.Parameter(lowering.place(listed or tree), name, type_)
         for name, type_ in _parameters(lowering, listed)
     )
     name = lowering.said(tree.child_by_field_name("name"))
     if tree.type == "constructor_declaration":
         name = "<init>"
     if body is None:
-        return (syntax.Function(place, name, parameters, ()),)
+        return (ir.Function(place, name, parameters, ()),)
     statements = lowering.many(body.children) if body.children else lowering.done[body.id]
     if tree.type == "lambda_expression" and body.type != "block":
         value = lowering.one(body, around=tree)
-        statements = (syntax.Return(value.place, value),)
+        statements = (ir.Return(value.place, value),)
     type_ = lowering.said(tree.child_by_field_name("type"))
-    return (syntax.Function(place, name, parameters, statements, type=type_),)
+    return (ir.Function(place, name, parameters, statements, type=type_),)
 
 
-def _class(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _class(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     body = tree.child_by_field_name("body")
     members = () if body is None else lowering.many(body.children)
     bases = [
@@ -85,7 +83,7 @@ def _class(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
         for kind in (group.named_children if group.type == "type_list" else [group])
     ]
     name = lowering.said(tree.child_by_field_name("name"))
-    return (syntax.Class(lowering.place(tree), name, tuple(bases), members),)
+    return (ir.Class(lowering.place(tree), name, tuple(bases), members),)
 
 
 DECLARATIONS: dict[str, Maker] = {

@@ -2,91 +2,91 @@
 
 from tree_sitter import Node as Tree
 
-from grader.robotcode import syntax
-from grader.robotcode.java.lowering import SKIPPED, Lowering, Maker
+from grader.robotcode import ir
+from grader.robotcode.java.to_ir import SKIPPED, IrBuilder, Maker
 
 
-def _name(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    return (syntax.Name(lowering.place(tree), lowering.said(tree)),)
+def _name(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
+    return (ir.Name(lowering.place(tree), lowering.said(tree)),)
 
 
-def _self(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    return (syntax.Self(lowering.place(tree)),)
+def _self(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
+    return (ir.Self(lowering.place(tree)),)
 
 
-def _null(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    return (syntax.Null(lowering.place(tree)),)
+def _null(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
+    return (ir.Null(lowering.place(tree)),)
 
 
-def _number(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _number(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     place, digits = lowering.place(tree), lowering.said(tree).replace("_", "").lower()
     try:
         if tree.type == "decimal_floating_point_literal":
-            return (syntax.Number(place, float(digits.rstrip("fd")), integer=False),)
+            return (ir.Number(place, float(digits.rstrip("fd")), integer=False),)
         base = 8 if tree.type == "octal_integer_literal" else 0
-        return (syntax.Number(place, float(int(digits.rstrip("l"), base)), integer=True),)
+        return (ir.Number(place, float(int(digits.rstrip("l"), base)), integer=True),)
     except (ValueError, OverflowError):
-        return (syntax.Opaque(place),)
+        return (ir.Opaque(place),)
 
 
-def _string(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    return (syntax.Text(lowering.place(tree), lowering.said(tree).strip('"').strip()),)
+def _string(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
+    return (ir.Text(lowering.place(tree), lowering.said(tree).strip('"').strip()),)
 
 
-def _member(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _member(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     field = tree.child_by_field_name("field")
     if field is not None and field.type == "this":  # Outer.this
         return _self(lowering, tree)
     owner = lowering.field(tree, "object")
-    return (syntax.Member(lowering.place(tree), owner, lowering.said(field)),)
+    return (ir.Member(lowering.place(tree), owner, lowering.said(field)),)
 
 
-def _reference(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _reference(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     named = tree.named_children
     owner = lowering.one(named[0] if named else None, around=tree)
     name = lowering.said(named[-1]) if len(named) > 1 else "new"
-    return (syntax.Reference(lowering.place(tree), owner, name),)
+    return (ir.Reference(lowering.place(tree), owner, name),)
 
 
-def _scoped_type(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _scoped_type(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     named = tree.named_children
     if not named:
         return ()
     owner = lowering.one(named[0], around=tree)
-    return (syntax.Member(lowering.place(tree), owner, lowering.said(named[-1])),)
+    return (ir.Member(lowering.place(tree), owner, lowering.said(named[-1])),)
 
 
-def _generic_type(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _generic_type(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     return (lowering.one(tree.named_children[0] if tree.named_children else None, around=tree),)
 
 
-def _method_call(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _method_call(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     name = tree.child_by_field_name("name") or tree
     owner = tree.child_by_field_name("object")
     start = lowering.place(name)
-    place = syntax.Place(lowering.source, name.start_byte, tree.end_byte, start.line)
-    target: syntax.Node = syntax.Name(place, lowering.said(name))
+    place = ir.Place(lowering.source, name.start_byte, tree.end_byte, start.line)
+    target: ir.Node = ir.Name(place, lowering.said(name))
     if owner is not None:  # a chain begins far above; its method stands where its name does
-        target = syntax.Member(place, lowering.one(owner, around=tree), lowering.said(name))
-    return (syntax.Call(lowering.place(tree), target, _arguments(lowering, tree)),)
+        target = ir.Member(place, lowering.one(owner, around=tree), lowering.said(name))
+    return (ir.Call(lowering.place(tree), target, _arguments(lowering, tree)),)
 
 
-def _creation(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _creation(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     args = _arguments(lowering, tree)
     bodies = [child for child in tree.children if child.type == "class_body"]
     methods = [
         node
         for body in bodies
         for node in lowering.many(body.children)
-        if isinstance(node, syntax.Function)
+        if isinstance(node, ir.Function)
     ]
     if len(methods) == 1 and not args:  # an anonymous Consumer is a lambda written long
         method = methods[0]
-        return (syntax.Function(method.place, "", method.parameters, method.body),)
-    return (syntax.Call(lowering.place(tree), lowering.field(tree, "type"), args),)
+        return (ir.Function(method.place, "", method.parameters, method.body),)
+    return (ir.Call(lowering.place(tree), lowering.field(tree, "type"), args),)
 
 
-def _arguments(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _arguments(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     """The arguments one by one, so that a damaged one does not move the others."""
     arguments = tree.child_by_field_name("arguments")
     if arguments is None:
@@ -98,59 +98,59 @@ def _arguments(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
     )
 
 
-def _operation(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _operation(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     sign = lowering.said(tree.child_by_field_name("operator"))
     place = lowering.place(tree)
     if tree.type == "unary_expression":
-        return (syntax.Operation(place, sign, None, lowering.field(tree, "operand")),)
+        return (ir.Operation(place, sign, None, lowering.field(tree, "operand")),)
     left, right = lowering.field(tree, "left"), lowering.field(tree, "right")
-    return (syntax.Operation(place, sign, left, right),)
+    return (ir.Operation(place, sign, left, right),)
 
 
-def _choice(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _choice(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     three = (lowering.field(tree, name) for name in ("condition", "consequence", "alternative"))
-    return (syntax.Choice(lowering.place(tree), *three),)
+    return (ir.Choice(lowering.place(tree), *three),)
 
 
-def _cast(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _cast(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     type_ = lowering.said(tree.child_by_field_name("type"))
-    return (syntax.Cast(lowering.place(tree), type_, lowering.field(tree, "value")),)
+    return (ir.Cast(lowering.place(tree), type_, lowering.field(tree, "value")),)
 
 
-def _element(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _element(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     owner, index = lowering.field(tree, "array"), lowering.field(tree, "index")
-    return (syntax.Element(lowering.place(tree), owner, index),)
+    return (ir.Element(lowering.place(tree), owner, index),)
 
 
-def _items(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
-    return (syntax.Items(lowering.place(tree), lowering.many(tree.children)),)
+def _items(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
+    return (ir.Items(lowering.place(tree), lowering.many(tree.children)),)
 
 
-def _array(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _array(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     value = tree.child_by_field_name("value")
-    return lowering.done[value.id] if value is not None else (syntax.Opaque(lowering.place(tree)),)
+    return lowering.done[value.id] if value is not None else (ir.Opaque(lowering.place(tree)),)
 
 
-def _assignment(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _assignment(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     place, sign = lowering.place(tree), lowering.said(tree.child_by_field_name("operator"))
     target, value = lowering.field(tree, "left"), lowering.field(tree, "right")
     if sign != "=":
-        value = syntax.Operation(place, sign.removesuffix("="), _again(target), value)
-    return (syntax.Assign(place, target, value),)
+        value = ir.Operation(place, sign.removesuffix("="), _again(target), value)
+    return (ir.Assign(place, target, value),)
 
 
-def _update(lowering: Lowering, tree: Tree) -> tuple[syntax.Node, ...]:
+def _update(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     place, inside = lowering.place(tree), lowering.many(tree.children)
     if len(inside) != 1:
         return inside
-    return (syntax.Assign(place, inside[0], syntax.Opaque(place, ())),)
+    return (ir.Assign(place, inside[0], ir.Opaque(place, ())),)
 
 
-def _again(target: syntax.Node) -> syntax.Node:
+def _again(target: ir.Node) -> ir.Node:
     """A target as a value; only short ones: twice all that is in it, level by level, has no end."""
-    owner = target.owner if isinstance(target, syntax.Member) else target
-    short = isinstance(owner, syntax.Name | syntax.Self)
-    return target if short else syntax.Opaque(target.place, ())
+    owner = target.owner if isinstance(target, ir.Member) else target
+    short = isinstance(owner, ir.Name | ir.Self)
+    return target if short else ir.Opaque(target.place, ())
 
 
 EXPRESSIONS: dict[str, Maker] = {

@@ -4,14 +4,14 @@ import ast
 import warnings
 from pathlib import Path
 
-from grader.robotcode import syntax
+from grader.robotcode import ir
 from grader.robotcode.facts import Problem
 from grader.robotcode.python.expressions import EXPRESSIONS
-from grader.robotcode.python.lowering import Lowering
 from grader.robotcode.python.statements import STATEMENTS
+from grader.robotcode.python.to_ir import Lowering
 
 
-def parse(text: str, path: Path) -> syntax.Module:
+def parse(text: str, path: Path) -> ir.Module:
     r"""Bring a Python file to the common syntax.
 
     Args:
@@ -34,5 +34,5 @@ def parse(text: str, path: Path) -> syntax.Module:
     else:
         lowering = Lowering(source, EXPRESSIONS | STATEMENTS)
         body = lowering.lower(tree)
-        return syntax.Module(path, "python", source, body, tuple(reversed(lowering.imports)))
-    return syntax.Module(path, "python", source, (), problems=(problem,))
+        return ir.Module(path, "python", source, body, tuple(reversed(lowering.imports)))
+    return ir.Module(path, "python", source, (), problems=(problem,))

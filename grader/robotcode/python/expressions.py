@@ -2,110 +2,108 @@
 
 import ast
 
-from grader.robotcode import syntax
-from grader.robotcode.python.lowering import SELF, SIGNS, Lowering, Maker
+from grader.robotcode import ir
+from grader.robotcode.python.to_ir import SELF, SIGNS, Lowering, Maker
 
 
-def _constant(lowering: Lowering, tree: ast.Constant) -> tuple[syntax.Node, ...]:
+def _constant(lowering: Lowering, tree: ast.Constant) -> tuple[ir.Node, ...]:
     place, value = lowering.place(tree), tree.value
     if value is None:
-        return (syntax.Null(place),)
+        return (ir.Null(place),)
     if isinstance(value, str):
-        return (syntax.Text(place, value),)
+        return (ir.Text(place, value),)
     if isinstance(value, int | float) and not isinstance(value, bool):
         try:
-            return (syntax.Number(place, float(value), integer=isinstance(value, int)),)
+            return (ir.Number(place, float(value), integer=isinstance(value, int)),)
         except OverflowError:
-            return (syntax.Opaque(place),)
-    return (syntax.Opaque(place),)
+            return (ir.Opaque(place),)
+    return (ir.Opaque(place),)
 
 
-def _name(lowering: Lowering, tree: ast.Name) -> tuple[syntax.Node, ...]:
+def _name(lowering: Lowering, tree: ast.Name) -> tuple[ir.Node, ...]:
     place = lowering.place(tree)
-    return (syntax.Self(place) if tree.id in SELF else syntax.Name(place, tree.id),)
+    return (ir.Self(place) if tree.id in SELF else ir.Name(place, tree.id),)
 
 
-def _attribute(lowering: Lowering, tree: ast.Attribute) -> tuple[syntax.Node, ...]:
-    return (syntax.Member(lowering.place(tree), lowering.one(tree.value), tree.attr),)
+def _attribute(lowering: Lowering, tree: ast.Attribute) -> tuple[ir.Node, ...]:
+    return (ir.Member(lowering.place(tree), lowering.one(tree.value), tree.attr),)
 
 
-def _subscript(lowering: Lowering, tree: ast.Subscript) -> tuple[syntax.Node, ...]:
+def _subscript(lowering: Lowering, tree: ast.Subscript) -> tuple[ir.Node, ...]:
     owner, index = lowering.one(tree.value), lowering.one(tree.slice)
-    return (syntax.Element(lowering.place(tree), owner, index),)
+    return (ir.Element(lowering.place(tree), owner, index),)
 
 
-def _call(lowering: Lowering, tree: ast.Call) -> tuple[syntax.Node, ...]:
+def _call(lowering: Lowering, tree: ast.Call) -> tuple[ir.Node, ...]:
     args = tuple(lowering.one(arg) for arg in tree.args if not isinstance(arg, ast.Starred))
     named = tuple((word.arg, lowering.one(word.value)) for word in tree.keywords if word.arg)
     spread = len(args) + len(named) < len(tree.args) + len(tree.keywords)
     target = lowering.one(tree.func)
     if isinstance(tree.func, ast.Name) and tree.func.id == "super":
-        return (syntax.Name(lowering.place(tree), "super"),)
+        return (ir.Name(lowering.place(tree), "super"),)
     if args and not spread and lowering.said(tree.func) in {"partial", "functools.partial"}:
         return (_partial(lowering.place(tree), args, named),)
-    if isinstance(target, syntax.Member):  # a chain begins far above; its method stands here
+    if isinstance(target, ir.Member):  # a chain begins far above; its method stands here
         start = target.place.end - len(target.name.encode())
         line = tree.func.end_lineno or tree.lineno
-        place = syntax.Place(lowering.source, start, lowering.place(tree).end, line)
-        target = syntax.Member(place, target.owner, target.name)
-    return (syntax.Call(lowering.place(tree), target, args, named=named, spread=spread),)
+        place = ir.Place(lowering.source, start, lowering.place(tree).end, line)
+        target = ir.Member(place, target.owner, target.name)
+    return (ir.Call(lowering.place(tree), target, args, named=named, spread=spread),)
 
 
 def _partial(
-    place: syntax.Place, args: tuple[syntax.Node, ...], named: tuple[tuple[str, syntax.Node], ...]
-) -> syntax.Node:
+    place: ir.Place, args: tuple[ir.Node, ...], named: tuple[tuple[str, ir.Node], ...]
+) -> ir.Node:
     """A function with some arguments given, as the lambda that it stands for."""
-    last = syntax.Parameter(place, "(the rest)", "")  # no name in any program
-    call = syntax.Call(place, args[0], (*args[1:], syntax.Name(place, last.name)), named=named)
-    return syntax.Function(place, "", (last,), (syntax.Return(place, call),))
+    last = ir.Parameter(place, "(the rest)", "")  # no name in any program
+    call = ir.Call(place, args[0], (*args[1:], ir.Name(place, last.name)), named=named)
+    return ir.Function(place, "", (last,), (ir.Return(place, call),))
 
 
-def _dictionary(lowering: Lowering, tree: ast.Dict) -> tuple[syntax.Node, ...]:
+def _dictionary(lowering: Lowering, tree: ast.Dict) -> tuple[ir.Node, ...]:
     """A dictionary, as the call ``dict(keys, values)``."""
     place = lowering.place(tree)
     keys = tuple(lowering.one(key) for key in tree.keys if key is not None)
     values = tuple(lowering.one(value) for value in tree.values)
     if len(keys) < len(values):  # some come from another one
-        return (syntax.Opaque(place, (*keys, *values)),)
-    both = (syntax.Items(place, keys), syntax.Items(place, values))
-    return (syntax.Call(place, syntax.Name(place, "dict"), both),)
+        return (ir.Opaque(place, (*keys, *values)),)
+    both = (ir.Items(place, keys), ir.Items(place, values))
+    return (ir.Call(place, ir.Name(place, "dict"), both),)
 
 
-def _binary(lowering: Lowering, tree: ast.BinOp) -> tuple[syntax.Node, ...]:
+def _binary(lowering: Lowering, tree: ast.BinOp) -> tuple[ir.Node, ...]:
     sign = SIGNS.get(type(tree.op), "?")
     left, right = lowering.one(tree.left), lowering.one(tree.right)
-    return (syntax.Operation(lowering.place(tree), sign, left, right),)
+    return (ir.Operation(lowering.place(tree), sign, left, right),)
 
 
-def _unary(lowering: Lowering, tree: ast.UnaryOp) -> tuple[syntax.Node, ...]:
+def _unary(lowering: Lowering, tree: ast.UnaryOp) -> tuple[ir.Node, ...]:
     sign = SIGNS.get(type(tree.op), "?")
-    return (syntax.Operation(lowering.place(tree), sign, None, lowering.one(tree.operand)),)
+    return (ir.Operation(lowering.place(tree), sign, None, lowering.one(tree.operand)),)
 
 
-def _choice(lowering: Lowering, tree: ast.IfExp) -> tuple[syntax.Node, ...]:
+def _choice(lowering: Lowering, tree: ast.IfExp) -> tuple[ir.Node, ...]:
     three = (lowering.one(part) for part in (tree.test, tree.body, tree.orelse))
-    return (syntax.Choice(lowering.place(tree), *three),)
+    return (ir.Choice(lowering.place(tree), *three),)
 
 
-def _items(lowering: Lowering, tree: ast.List | ast.Tuple) -> tuple[syntax.Node, ...]:
-    return (syntax.Items(lowering.place(tree), lowering.many(tree.elts)),)
+def _items(lowering: Lowering, tree: ast.List | ast.Tuple) -> tuple[ir.Node, ...]:
+    return (ir.Items(lowering.place(tree), lowering.many(tree.elts)),)
 
 
-def _walrus(lowering: Lowering, tree: ast.NamedExpr) -> tuple[syntax.Node, ...]:
+def _walrus(lowering: Lowering, tree: ast.NamedExpr) -> tuple[ir.Node, ...]:
     target, value = lowering.one(tree.target), lowering.one(tree.value)
-    return (syntax.Assign(lowering.place(tree), target, value),)
+    return (ir.Assign(lowering.place(tree), target, value),)
 
 
 def _comprehension(
     lowering: Lowering, tree: ast.ListComp | ast.SetComp | ast.GeneratorExp
-) -> tuple[syntax.Node, ...]:
+) -> tuple[ir.Node, ...]:
     place, first = lowering.place(tree), tree.generators[0]
     if len(tree.generators) > 1:
-        return (
-            syntax.Opaque(place, lowering.many([tree.elt, *(g.iter for g in tree.generators)])),
-        )
+        return (ir.Opaque(place, lowering.many([tree.elt, *(g.iter for g in tree.generators)])),)
     body = (lowering.one(tree.elt),)
-    return (syntax.Loop(place, lowering.variables(first.target), lowering.one(first.iter), body),)
+    return (ir.Loop(place, lowering.variables(first.target), lowering.one(first.iter), body),)
 
 
 EXPRESSIONS: dict[type[ast.AST], Maker] = {

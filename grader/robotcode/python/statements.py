@@ -2,24 +2,24 @@
 
 import ast
 
-from grader.robotcode import syntax
-from grader.robotcode.python.lowering import SELF, SIGNS, Lowering, Maker
+from grader.robotcode import ir
+from grader.robotcode.python.to_ir import SELF, SIGNS, Lowering, Maker
 
 AROUND = frozenset({"Annotated", "Any", "ClassVar", "Final", "Optional"})  # around another type
 
 
-def _assign(lowering: Lowering, tree: ast.Assign) -> tuple[syntax.Node, ...]:
+def _assign(lowering: Lowering, tree: ast.Assign) -> tuple[ir.Node, ...]:
     place, value = lowering.place(tree), lowering.one(tree.value)
-    made: list[syntax.Node] = []
+    made: list[ir.Node] = []
     for target in tree.targets:
         if not isinstance(target, ast.List | ast.Tuple):
-            made.append(syntax.Assign(place, lowering.one(target), value))
+            made.append(ir.Assign(place, lowering.one(target), value))
             continue
-        several = value.items if isinstance(value, syntax.Items) else ()
+        several = value.items if isinstance(value, ir.Items) else ()
         fits = len(several) == len(target.elts)
         for index, part in enumerate(target.elts):
-            got = several[index] if fits else syntax.Opaque(place, (value,))
-            made.append(syntax.Assign(place, lowering.one(part), got))
+            got = several[index] if fits else ir.Opaque(place, (value,))
+            made.append(ir.Assign(place, lowering.one(part), got))
     return tuple(made)
 
 
@@ -37,45 +37,45 @@ def _ends(lowering: Lowering, tree: ast.expr) -> str:
     return lowering.said(tree).rpartition(".")[2]
 
 
-def _annotated(lowering: Lowering, tree: ast.AnnAssign) -> tuple[syntax.Node, ...]:
+def _annotated(lowering: Lowering, tree: ast.AnnAssign) -> tuple[ir.Node, ...]:
     value = None if tree.value is None else lowering.one(tree.value)
     type_ = _type(lowering, tree.annotation)
-    return (syntax.Assign(lowering.place(tree), lowering.one(tree.target), value, type=type_),)
+    return (ir.Assign(lowering.place(tree), lowering.one(tree.target), value, type=type_),)
 
 
-def _augmented(lowering: Lowering, tree: ast.AugAssign) -> tuple[syntax.Node, ...]:
+def _augmented(lowering: Lowering, tree: ast.AugAssign) -> tuple[ir.Node, ...]:
     place, target = lowering.place(tree), lowering.one(tree.target)
     sign = SIGNS.get(type(tree.op), "?")
-    value = syntax.Operation(place, sign, target, lowering.one(tree.value))
-    return (syntax.Assign(place, target, value),)
+    value = ir.Operation(place, sign, target, lowering.one(tree.value))
+    return (ir.Assign(place, target, value),)
 
 
-def _expression(lowering: Lowering, tree: ast.Expr) -> tuple[syntax.Node, ...]:
+def _expression(lowering: Lowering, tree: ast.Expr) -> tuple[ir.Node, ...]:
     return lowering.done[id(tree.value)]
 
 
-def _return(lowering: Lowering, tree: ast.Return) -> tuple[syntax.Node, ...]:
+def _return(lowering: Lowering, tree: ast.Return) -> tuple[ir.Node, ...]:
     if tree.value is None:
         return ()
-    return (syntax.Return(lowering.place(tree), lowering.one(tree.value)),)
+    return (ir.Return(lowering.place(tree), lowering.one(tree.value)),)
 
 
-def _for(lowering: Lowering, tree: ast.For) -> tuple[syntax.Node, ...]:
+def _for(lowering: Lowering, tree: ast.For) -> tuple[ir.Node, ...]:
     body = lowering.many([*tree.body, *tree.orelse])
     variables = lowering.variables(tree.target)
-    return (syntax.Loop(lowering.place(tree), variables, lowering.one(tree.iter), body),)
+    return (ir.Loop(lowering.place(tree), variables, lowering.one(tree.iter), body),)
 
 
 def _function(
     lowering: Lowering, tree: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
-) -> tuple[syntax.Node, ...]:
+) -> tuple[ir.Node, ...]:
     place = lowering.place(tree)
     plain = [*tree.args.posonlyargs, *tree.args.args]
     given = [None] * (len(plain) - len(tree.args.defaults))
     defaults = [*given, *tree.args.defaults, *tree.args.kw_defaults]
     listed = zip([*plain, *tree.args.kwonlyargs], defaults, strict=True)
     parameters = tuple(
-        syntax.Parameter(
+        ir.Parameter(
             lowering.place(one),
             one.arg,
             _type(lowering, one.annotation),
@@ -86,34 +86,34 @@ def _function(
     )
     if isinstance(tree, ast.Lambda):
         value = lowering.one(tree.body)
-        return (syntax.Function(place, "", parameters, (syntax.Return(value.place, value),)),)
+        return (ir.Function(place, "", parameters, (ir.Return(value.place, value),)),)
     property_ = any(lowering.said(word).endswith("property") for word in tree.decorator_list)
     body = lowering.many(tree.body)
-    return (syntax.Function(place, tree.name, parameters, body, property=property_),)
+    return (ir.Function(place, tree.name, parameters, body, property=property_),)
 
 
-def _class(lowering: Lowering, tree: ast.ClassDef) -> tuple[syntax.Node, ...]:
+def _class(lowering: Lowering, tree: ast.ClassDef) -> tuple[ir.Node, ...]:
     bases = tuple(lowering.said(base).rpartition(".")[2] for base in tree.bases)
-    return (syntax.Class(lowering.place(tree), tree.name, bases, lowering.many(tree.body)),)
+    return (ir.Class(lowering.place(tree), tree.name, bases, lowering.many(tree.body)),)
 
 
-def _import(lowering: Lowering, tree: ast.Import) -> tuple[syntax.Node, ...]:
+def _import(lowering: Lowering, tree: ast.Import) -> tuple[ir.Node, ...]:
     for alias in tree.names:
         if alias.asname:
-            lowering.imports.append(syntax.Import(alias.asname, alias.name))
+            lowering.imports.append(ir.Import(alias.asname, alias.name))
         else:  # `import a.b` binds a, and makes a.b.c readable
             first = alias.name.partition(".")[0]
-            lowering.imports.append(syntax.Import(first, first))
+            lowering.imports.append(ir.Import(first, first))
     return ()
 
 
-def _import_from(lowering: Lowering, tree: ast.ImportFrom) -> tuple[syntax.Node, ...]:
+def _import_from(lowering: Lowering, tree: ast.ImportFrom) -> tuple[ir.Node, ...]:
     for alias in tree.names:
         path = tree.module or ""
         if alias.name != "*":
             path = f"{path}.{alias.name}".lstrip(".")
         name = alias.asname or alias.name
-        lowering.imports.append(syntax.Import(name, path, level=tree.level))
+        lowering.imports.append(ir.Import(name, path, level=tree.level))
     return ()
 
 

@@ -11,20 +11,20 @@ import click
 
 from sim.cli.fit.against import against_physics, parts_of, taken_apart
 from sim.cli.fit.sides import sides_of
-from sim.cli.options import FILE, as_json, read_together, reading
-from sim.command import DONE, NOT_RIGHT
+from sim.cli.options import FILE, as_json, read_together, reading_options
+from sim.cli_support import DONE, NOT_RIGHT
 from sim.feedback import PRESETS, Feedback
 from sim.vocabulary import METHODS
 
 if TYPE_CHECKING:
+    from sim.feedback_trial import FeedbackTrial, OwnGains
     from sim.fit import Fit
     from sim.log import Log
-    from sim.trial import Own, Trial
 
 LOOPS = ("velocity", "position")
 
 
-def trying(command: Callable[..., Any]) -> Callable[..., Any]:
+def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options that put the learner's own gains on trial."""
     options = (
         click.option("--own-kp", type=float, help="Try your own kP in simulation …"),
@@ -42,7 +42,7 @@ def trying(command: Callable[..., Any]) -> Callable[..., Any]:
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=FILE)
-@reading
+@reading_options
 @click.option(
     "--method",
     type=click.Choice(METHODS),
@@ -80,7 +80,7 @@ def trying(command: Callable[..., Any]) -> Callable[..., Any]:
     show_default=True,
     help="Whose names, for --paste.",
 )
-@trying
+@feedback_options
 @as_json
 @click.pass_context
 def fit(  # noqa: PLR0917 - click passes options by name
@@ -115,8 +115,8 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     For example: sysid fit drive.wpilog --html drive.html
     """
+    from sim.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as all here: --help must not wait
-    from sim.trial import trial_doubts, trials  # noqa: PLC0415
 
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
@@ -135,14 +135,14 @@ def fit(  # noqa: PLR0917 - click passes options by name
         pair = None if motor else sides_of(log, read_one)
         found, notes = taken_apart(found, log, pair, find=find, patient=html is not None)
     found = found.in_log_units()
-    tried = trials(found, PRESETS[preset], own=own)
+    tried = try_feedback_gains(found, PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
     told = _Told(files, found, log, preset, tried, notes)
     _write(told, html=html, plot=plot)
     if paste:
-        from sim.paste import snippet  # noqa: PLC0415 - only with --paste
+        from sim.robot_code_snippet import robot_code_snippet  # noqa: PLC0415 - only with --paste
 
-        click.echo(snippet(found, language=paste, season=int(season)), nl=False)
+        click.echo(robot_code_snippet(found, language=paste, season=int(season)), nl=False)
     elif as_json:
         click.echo(json.dumps(told.to_json(), allow_nan=False))
     else:
@@ -158,12 +158,12 @@ class _Told:
     found: "Fit"
     log: "Log"
     preset: str
-    tried: "tuple[Trial, ...]"
+    tried: "tuple[FeedbackTrial, ...]"
     notes: tuple[str, ...]
 
     def to_json(self) -> dict[str, object]:
         """Plain data; the learner's own gains only where they were given."""
-        from sim.trial import OWN  # noqa: PLC0415 - --help must not wait for it
+        from sim.feedback_trial import OWN  # noqa: PLC0415 - --help must not wait for it
 
         own = [
             {"loop": one.loop, "kP": one.gains.kp, "kD": one.gains.kd, **one.verdict.to_json()}
@@ -175,7 +175,7 @@ class _Told:
 
     def show(self) -> None:
         """Print it."""
-        from sim.terminal import show_fit  # noqa: PLC0415 - only for people
+        from sim.fit_terminal import show_fit  # noqa: PLC0415 - only for people
 
         title = ", ".join(map(str, self.files))
         preset = PRESETS[self.preset]
@@ -213,9 +213,9 @@ def _go_together(
         )
 
 
-def _own(loop: str | None, *, kp: float | None, kd: float | None) -> "Own | None":
+def _own(loop: str | None, *, kp: float | None, kd: float | None) -> "OwnGains | None":
     """The learner's gains, if some were given."""
-    from sim.trial import Own  # noqa: PLC0415 - --help must not wait for it
+    from sim.feedback_trial import OwnGains  # noqa: PLC0415 - --help must not wait for it
 
     if kp is None:
         if kd is None and loop is None:
@@ -223,4 +223,4 @@ def _own(loop: str | None, *, kp: float | None, kd: float | None) -> "Own | None
         raise click.UsageError("Missing option '--own-kp': your kP, for --own-kd and --loop.")
     if not (math.isfinite(kp) and math.isfinite(kd or 0.0)):
         raise click.UsageError("--own-kp and --own-kd are numbers. Give finite ones.")
-    return Own(loop or LOOPS[0], Feedback(kp, kd or 0.0))
+    return OwnGains(loop or LOOPS[0], Feedback(kp, kd or 0.0))

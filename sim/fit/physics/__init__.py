@@ -10,9 +10,9 @@ from dataclasses import replace
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest
-from sim.fit.physics.alone import friction_doubts, gravity_doubts, timescale_doubts
 from sim.fit.physics.compare import compare_directions, compare_sides
-from sim.fit.physics.parts import Parts, in_si
+from sim.fit.physics.parts import Parts, fit_in_si
+from sim.fit.physics.self_consistency import friction_doubts, gravity_doubts, timescale_doubts
 from sim.fit.physics.theory import theory_doubts
 from sim.fit.result import Fit
 
@@ -37,7 +37,7 @@ def physical_doubts(
         raise BadRequest(
             f"a period of {period:g} s", advice="Give the time between two samples of the log."
         )
-    si = in_si(found)
+    si = fit_in_si(found)
     doubts = (
         *friction_doubts(si),
         *(theory_doubts(si, parts) if parts is not None else ()),

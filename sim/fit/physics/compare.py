@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from sim.doubt import Doubt
 from sim.errors import NotIdentifiable
-from sim.fit.output_error import output_error
-from sim.fit.physics.parts import SURELY, in_si
+from sim.fit.output_error import fit_output_error
+from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.result import Fit, gain_unit
 from sim.log import DIRECTIONS, Log
 from sim.units import unit
@@ -28,7 +28,7 @@ def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
     Raises:
         BadRequest: one measures a length, the other an angle.
     """
-    one = in_si(left)
+    one = fit_in_si(left)
     return _differences(one, right.in_units(one.units), ("left", "right"), "side")
 
 
@@ -50,7 +50,7 @@ def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 
         if not runs:
             return ()
         try:
-            fits.append(output_error(replace(log, runs=runs), type=type))
+            fits.append(fit_output_error(replace(log, runs=runs), type=type))
         except NotIdentifiable:
             return ()
     return _differences(fits[0], fits[1], DIRECTIONS, "direction")

@@ -56,12 +56,12 @@ class Parts:
         return self.motor.resistance * self.radius / (torque_per_volt / self.load)
 
 
-def in_si(found: Fit) -> Fit:
+def fit_in_si(found: Fit) -> Fit:
     """The same fit per meter or per radian."""
     return found.in_units("radians" if unit(found.units).angular else "meters")
 
 
-def go_together(parts: Parts, found: Fit) -> None:
+def check_radius_unit(parts: Parts, found: Fit) -> None:
     """Refuse parts whose radius does not go with the unit of position."""
     angular = unit(found.units).angular
     if angular and parts.radius != 1.0:

@@ -7,7 +7,7 @@ opposite ways: that tells the two apart.
 import math
 
 from sim.doubt import Doubt
-from sim.fit.physics.parts import BELOW, HEAVY, SURELY, Parts, go_together
+from sim.fit.physics.parts import BELOW, HEAVY, SURELY, Parts, check_radius_unit
 from sim.fit.result import Fit, gain_unit
 from sim.motors import MOTORS
 from sim.units import unit
@@ -46,7 +46,7 @@ def theory_doubts(found: Fit, parts: Parts) -> list[Doubt]:
     Raises:
         BadRequest: a radius for an angle, or none for a length.
     """
-    go_together(parts, found)
+    check_radius_unit(parts, found)
     return [*_kv(found, parts), *_ka(found, parts)]
 
 

@@ -14,7 +14,7 @@ from sim.doubt import Doubt
 from sim.errors import BadRequest
 from sim.format import Reading, lone_motor, sound_run
 from sim.formats.sysid_json.drivetrain import two_sides
-from sim.formats.sysid_json.rows import Form, check, form_of, load, tables_of
+from sim.formats.sysid_json.rows import Form, check_columns, form_of, load_json, tables_of
 from sim.formats.sysid_json.said import Said, said_in
 from sim.formats.sysid_json.side import Side, one_side
 from sim.log import Array, Log
@@ -49,11 +49,11 @@ def read(path: Path, asked: Reading) -> Log:
             where=where,
             advice="Leave out --state, --voltage, --position and --velocity.",
         )
-    document = load(path)
+    document = load_json(path)
     said = said_in(document, asked, where=where)
     tables, doubts = tables_of(document, where=where)
     form = form_of(tables, said, where=where)
-    check(tables, form, where=where)
+    check_columns(tables, form, where=where)
     sides, odd = _sides(tables, form, said, asked, where=where)
     runs = []
     doubts = [*said.doubts, *doubts, *odd]

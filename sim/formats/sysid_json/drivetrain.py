@@ -17,7 +17,7 @@ import numpy as np
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest, MissingSignal
-from sim.formats.sysid_json.side import Side, agreeing, doubt_of, way
+from sim.formats.sysid_json.side import Side, align_signs, doubt_of, test_sign
 
 STILL = 0.02  # [share of the other side's largest velocity] an encoder that counts nothing
 APART = 0.2  # [share of the mean velocity, RMS] two sides of one chassis do not differ so much
@@ -49,7 +49,7 @@ def two_sides(
     doubts: list[Doubt] = []
     halves = []
     for runs, name in zip(sides, SIDES, strict=True):
-        settled, odd = agreeing(runs, name, mirrored=angular and name == "left", where=where)
+        settled, odd = align_signs(runs, name, mirrored=angular and name == "left", where=where)
         halves.append(settled)
         doubts += odd if motor in (name, "combined") else []
     for index, tests in _face_alike(halves).items():
@@ -69,7 +69,7 @@ def _face_alike(halves: list[dict[str, Side]]) -> dict[int, list[str]]:
     for test in halves[0]:
         ways = [half[test].ways[1] for half in halves]
         if ways[0] * ways[1] < 0:
-            wrong = ways.index(-way(test))
+            wrong = ways.index(-test_sign(test))
             halves[wrong][test] = halves[wrong][test].turned(voltage=True, motion=True)
             changed.setdefault(wrong, []).append(test)
     return changed

@@ -56,7 +56,7 @@ _FORMS = {
 _NINE_OF_2019 = Form(((3, 5, 7), (4, 6, 8)), battery=1)  # as the ten of 2020, without a gyro
 
 
-def load(path: Path) -> dict[str, object]:
+def load_json(path: Path) -> dict[str, object]:
     """Decode the file; every number in it becomes a float.
 
     Raises:
@@ -175,7 +175,7 @@ def _oldest(tables: Mapping[str, Array]) -> bool:
     )
 
 
-def check(tables: Mapping[str, Array], form: Form, *, where: str) -> None:
+def check_columns(tables: Mapping[str, Array], form: Form, *, where: str) -> None:
     """Refuse what is no measurement, in the columns that are read.
 
     Raises:

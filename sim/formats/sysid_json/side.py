@@ -91,7 +91,7 @@ class Side:
         }
 
 
-def way(test: str) -> int:
+def test_sign(test: str) -> int:
     """The sign that a test's name promises."""
     return 1 if test.endswith("forward") else -1
 
@@ -111,13 +111,13 @@ def one_side(runs: Mapping[str, Side], *, where: str) -> tuple[dict[str, Side], 
     bare = [
         test
         for test, side in runs.items()
-        if low >= -NOISE * high and way(test) < 0 and side.ways == (1, -1)
+        if low >= -NOISE * high and test_sign(test) < 0 and side.ways == (1, -1)
     ]
     signed = {test: side.turned(voltage=test in bare) for test, side in runs.items()}
     return signed, [doubt_of("unsigned-voltage", "voltage", bare, where=where)] if bare else []
 
 
-def agreeing(
+def align_signs(
     runs: Mapping[str, Side], name: str, *, mirrored: bool, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
     """One side of a drivetrain with voltage and velocity of one sign, as no gravity acts on it.
@@ -135,7 +135,7 @@ def agreeing(
         side = given.turned(voltage=mirrored, motion=mirrored)
         voltage, velocity = side.ways
         if voltage * velocity < 0:
-            code = "inverted-voltage" if velocity == way(test) else "inverted-encoder"
+            code = "inverted-voltage" if velocity == test_sign(test) else "inverted-encoder"
             code = "unsigned-voltage" if signless else code
             changed.setdefault(code, []).append(test)
             encoder = code == "inverted-encoder"
@@ -157,4 +157,6 @@ def _reach(runs: Mapping[str, Side]) -> tuple[float, float]:
 def _signless(runs: Mapping[str, Side]) -> bool:
     """Whether tests of both directions have voltages of one sign, which then says nothing."""
     low, high = _reach(runs)
-    return len({way(test) for test in runs}) > 1 and (low >= -NOISE * high or high <= -NOISE * low)
+    return len({test_sign(test) for test in runs}) > 1 and (
+        low >= -NOISE * high or high <= -NOISE * low
+    )

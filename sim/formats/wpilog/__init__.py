@@ -18,10 +18,10 @@ from sim.format import Reading
 from sim.formats.wpilog.contents import Damage, contents_of
 from sim.formats.wpilog.entry import Entry
 from sim.formats.wpilog.motors import motors_of
-from sim.formats.wpilog.names import quoted, type_said
-from sim.formats.wpilog.records import MAGIC, load
-from sim.formats.wpilog.runs import cut
-from sim.formats.wpilog.state import FOREVER, State, Stretch, states, stretches
+from sim.formats.wpilog.names import quote_names, type_said
+from sim.formats.wpilog.records import MAGIC, load_records
+from sim.formats.wpilog.runs import cut_runs
+from sim.formats.wpilog.state import FOREVER, State, Stretch, run_intervals, state_entries
 from sim.formats.wpilog.writing import write
 from sim.log import Log
 from sim.units import UNITS
@@ -50,7 +50,7 @@ def read(path: Path, asked: Reading) -> Log:
         BadSample: it holds a number that cannot be a measurement.
     """
     where = str(path)
-    records = load(path)
+    records = load_records(path)
     found = contents_of(records)
     damage = found.damage
     if not found.entries:
@@ -95,10 +95,10 @@ def _of(
 ) -> tuple[Log, tuple[Stretch, ...]]:
     """The log of one mechanism, as the tests that are named for it tell it."""
     motors, doubts = motors_of(state, entries, asked=asked, where=where)
-    found, strange = stretches(state, where=where)
-    result = cut(motors, found, asked=asked, where=where)
+    found, strange = run_intervals(state, where=where)
+    result = cut_runs(motors, found, asked=asked, where=where)
     if not result.runs:
-        names = quoted([entry.name for entry in motors[0].signals.values()])
+        names = quote_names([entry.name for entry in motors[0].signals.values()])
         raise MissingSignal(
             f"no run holds two samples of {names} while {state.entry.name!r} names its test",
             where=where,
@@ -121,7 +121,7 @@ def _state(entries: Sequence[Entry], *, asked: Reading, where: str) -> State:
     Raises:
         BadRequest: there are several, and what was asked for does not tell which.
     """
-    found = states(entries, asked=asked, where=where)
+    found = state_entries(entries, asked=asked, where=where)
     if len(found) > 1 and asked.motor is not None:
         having = tuple(state for state in found if _has_motor(state, entries, asked))
         found = having if len(having) == 1 else found
@@ -129,7 +129,7 @@ def _state(entries: Sequence[Entry], *, asked: Reading, where: str) -> State:
         return found[0]
     names = [state.mechanism for state in found]
     raise BadRequest(
-        f"tests of several mechanisms are in it: {quoted(names)}",
+        f"tests of several mechanisms are in it: {quote_names(names)}",
         where=where,
         advice=f"Say which with --state {found[0].entry.name}, and record one routine per log.",
     )

@@ -59,11 +59,12 @@ def changes_only(signals: Sequence[Series], spans: Sequence[tuple[int, int]]) ->
     if any(np.any(part.values[1:] == part.values[:-1]) for row in parts for part in row):
         return False
     return any(
-        few and _silent(row, parts, spans) for row, few in zip(parts, sparse(parts), strict=True)
+        few and _silent(row, parts, spans)
+        for row, few in zip(parts, find_sparse_signals(parts), strict=True)
     )
 
 
-def sparse(parts: Sequence[Sequence[Series]]) -> list[bool]:
+def find_sparse_signals(parts: Sequence[Sequence[Series]]) -> list[bool]:
     """For each signal whether in some run another one has several times as many samples.
 
     Args:
@@ -88,7 +89,7 @@ def _silent(
     return False
 
 
-def loops(signals: Sequence[Series], begin: int, end: int) -> Numbers:
+def loop_times(signals: Sequence[Series], begin: int, end: int) -> Numbers:
     """When any of the signals changed in a run, once a loop, from when on all of them are known.
 
     Returns:
@@ -102,12 +103,12 @@ def loops(signals: Sequence[Series], begin: int, end: int) -> Numbers:
     return time[last & (time >= known)]
 
 
-def hold(signal: Series, time: Numbers) -> Array:
+def hold_last_value(signal: Series, time: Numbers) -> Array:
     """(n,) the last value of a signal at each time, none of which comes before its first."""
     return signal.values[np.searchsorted(signal.time, time, side="right") - 1]
 
 
-def covered(parts: Sequence[Series], time: Numbers) -> Numbers:
+def covered_times(parts: Sequence[Series], time: Numbers) -> Numbers:
     """Those times of a run at which every signal is known, or all but.
 
     A line may be drawn a little beyond a signal's ends, as its times differ from the voltage's; a
@@ -119,7 +120,7 @@ def covered(parts: Sequence[Series], time: Numbers) -> Numbers:
     return time
 
 
-def line(part: Series, time: Numbers) -> Array:
+def interpolate_linear(part: Series, time: Numbers) -> Array:
     """(n,) a signal at other times: on the line through its two nearest samples, even outside.
 
     Args:

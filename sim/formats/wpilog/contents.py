@@ -11,9 +11,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from sim.formats.wpilog.control import Metadata, Start, parse
+from sim.formats.wpilog.control import Metadata, Start, parse_control_record
 from sim.formats.wpilog.entry import SIZES, Entry
-from sim.formats.wpilog.records import Fields, File, Numbers, Records, fields
+from sim.formats.wpilog.records import Fields, File, Numbers, Records, read_headers
 
 SMALL_IDS = 1 << 16  # ids below fit 16 bits, which NumPy sorts by radix
 LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is hardly larger
@@ -88,7 +88,7 @@ _Lives: TypeAlias = dict[int, list[_Life]]
 
 def contents_of(records: Records) -> Contents:
     """Sort the records of a file into entries, up to the first record that cannot be."""
-    head = fields(records.file.buffer, records.start)
+    head = read_headers(records.file.buffer, records.start)
     groups = _groups(head)
     lives, stop = _lives(records, head, before=head.id.size)
     stops = [stop] if stop else []
@@ -118,7 +118,9 @@ def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Sto
     lives: _Lives = {}
     for index in np.flatnonzero(head.id[:before] == 0).tolist():
         begin = int(head.payload[index])
-        said = parse(bytes(records.file.content[begin : begin + int(head.size[index])]))
+        said = parse_control_record(
+            bytes(records.file.content[begin : begin + int(head.size[index])])
+        )
         if said is None:
             return lives, _Stop(index, "a control record that makes no sense")
         known = lives.setdefault(said.id, [])
@@ -187,7 +189,7 @@ def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> Damage | Non
 
 def _overrun(records: Records, lives: _Lives, offset: int, left: int) -> Damage:
     """The record at ``offset`` says it is longer than the file: cut off, or nonsense."""
-    head = fields(records.file.buffer, np.array([offset]))
+    head = read_headers(records.file.buffer, np.array([offset]))
     number, size = int(head.id[0]), int(head.size[0])
     if int(head.payload[0]) > records.file.size:
         return Damage(offset, left, "a record that stops within its header", torn=True)

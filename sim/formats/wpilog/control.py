@@ -43,7 +43,7 @@ class Metadata:
 Control: TypeAlias = Start | Finish | Metadata
 
 
-def parse(payload: bytes) -> Control | None:
+def parse_control_record(payload: bytes) -> Control | None:
     """What a control record says; None if it makes no sense."""
     if len(payload) < _HEAD.size:
         return None
@@ -56,7 +56,7 @@ def parse(payload: bytes) -> Control | None:
     return Metadata(number, *texts) if which == METADATA else Finish(number)
 
 
-def start(entry: Start) -> bytes:
+def start_payload(entry: Start) -> bytes:
     """The payload of the control record that starts an entry."""
     texts = (text.encode("utf-8", "replace") for text in (entry.name, entry.type, entry.metadata))
     said = b"".join(_LENGTH.pack(len(text)) + text for text in texts)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.formats.wpilog.records import File, Numbers, view
+from sim.formats.wpilog.records import File, Numbers, view_numbers
 from sim.log import Array
 
 KINDS: dict[str, type[np.generic]] = {
@@ -48,7 +48,7 @@ class Entry:
         buffer = self.file.buffer
         if self.type == "boolean":
             return np.not_equal(buffer[self.payload], 0)
-        return view(buffer, KINDS[self.type])[self.payload]
+        return view_numbers(buffer, KINDS[self.type])[self.payload]
 
     def numbers(self) -> Array:
         """(n,) the values of an entry of a type in ``KINDS``, in double precision."""

@@ -13,7 +13,7 @@ from sim.doubt import Doubt
 from sim.errors import BadRequest, MissingSignal
 from sim.format import Reading
 from sim.formats.wpilog.entry import NUMBERS, Entry
-from sim.formats.wpilog.names import asked_for, flaw, quoted, split
+from sim.formats.wpilog.names import asked_for, explain_unfit_entry, quote_names, split_name
 from sim.formats.wpilog.state import WORD, State
 
 NEEDED = ("voltage", "position", "velocity")
@@ -73,7 +73,7 @@ def motors_of(
         MissingSignal: no motor has all signals; the message names what is missing.
         BadRequest: the motor asked for is not there, or a name is ambiguous.
     """
-    named = {name.rest for entry in entries if (name := split(entry.name, WORD))}
+    named = {name.rest for entry in entries if (name := split_name(entry.name, WORD))}
     rivals = tuple(name for name in named if name.endswith(f"-{state.mechanism}"))
     search = _Search(entries, state, rivals, asked, where)
     given = {
@@ -111,7 +111,7 @@ def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
         if len(paths) > 1 and path != search.state.path:
             names = [entry.name for several in paths.values() for entry in several]
             raise BadRequest(
-                f"several entries could be the {signal}: {quoted(names)}",
+                f"several entries could be the {signal}: {quote_names(names)}",
                 where=search.where,
                 advice=f"Say which is meant with --{signal} ENTRY.",
             )
@@ -122,7 +122,7 @@ def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
 
 def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
     """Path and motor of an entry, if its name makes it this signal of the mechanism."""
-    parts = split(name, signal)
+    parts = split_name(name, signal)
     if parts is None or any(parts.rest.endswith(f"-{rival}") for rival in search.rivals):
         return None
     if not search.state.mechanism:
@@ -168,13 +168,13 @@ def _missing(motor: Motor, search: _Search) -> MissingSignal:
     if len(lacking) > 1:
         said.append(f"{' and '.join(lacking[1:])} missing too")
     said += [
-        f"{entry.name!r} {flaw(entry, kinds=NUMBERS)}"
+        f"{entry.name!r} {explain_unfit_entry(entry, kinds=NUMBERS)}"
         for entry in search.entries
         if _placed(entry.name, signal, search)
     ]
     near = _near(signal, search)
     if near:
-        said.append(f"nearest are {quoted(near)}")
+        said.append(f"nearest are {quote_names(near)}")
     return MissingSignal(
         "; ".join(said),
         where=search.where,

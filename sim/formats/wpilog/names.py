@@ -22,7 +22,7 @@ class Name(NamedTuple):
     rest: str
 
 
-def split(name: str, word: str) -> Name | None:
+def split_name(name: str, word: str) -> Name | None:
     """The parts of a name around ``word-``; None if that is not how it is made."""
     found = re.fullmatch(rf"((?:.*?[/:])??){re.escape(word)}-(.*)", name, re.DOTALL)
     return Name(*found.groups()) if found else None
@@ -52,7 +52,7 @@ def asked_for(
         return max(usable, key=len)
     if same:
         raise MissingSignal(
-            f"the {role} entry {name!r} {flaw(same[0], kinds=kinds)}",
+            f"the {role} entry {name!r} {explain_unfit_entry(same[0], kinds=kinds)}",
             where=where,
             advice=f"Name an entry of type {' or '.join(kinds)} with --{role}.",
         )
@@ -60,20 +60,20 @@ def asked_for(
     raise MissingSignal(
         f"there is no entry {name!r} to take {role} from",
         where=where,
-        advice=f"Did you mean {quoted(near)}?"
+        advice=f"Did you mean {quote_names(near)}?"
         if near
         else f"Give --{role} a name as AdvantageScope shows it, path and all.",
     )
 
 
-def flaw(entry: Entry, *, kinds: Collection[str]) -> str:
+def explain_unfit_entry(entry: Entry, *, kinds: Collection[str]) -> str:
     """Why an entry cannot play its role."""
     if entry.type in kinds:
         return "holds no values"
     return f"is of type {entry.type}, which cannot be used here"
 
 
-def quoted(names: Sequence[str]) -> str:
+def quote_names(names: Sequence[str]) -> str:
     """A few names for a message."""
     more = ", …" if len(names) > SHOWN else ""
     return ", ".join(repr(name) for name in names[:SHOWN]) + more

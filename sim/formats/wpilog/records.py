@@ -108,7 +108,7 @@ class Fields:
     payload: Numbers
 
 
-def load(path: Path) -> Records:
+def load_records(path: Path) -> Records:
     """Read a file and find its records.
 
     Raises:
@@ -120,11 +120,11 @@ def load(path: Path) -> Records:
         size = file.readinto(memoryview(content)[:-PAD])
     del content[size + PAD :]  # of a file that became shorter while it was read
     whole = File(content)
-    start, end = chain(whole, first=_preface(whole, where=str(path)))
+    start, end = follow_records(whole, first=_preface(whole, where=str(path)))
     return Records(whole, start, end)
 
 
-def chain(file: File, *, first: int) -> tuple[Numbers, int]:
+def follow_records(file: File, *, first: int) -> tuple[Numbers, int]:
     """Follow the records from ``first`` for as long as they are whole.
 
     Args:
@@ -152,7 +152,7 @@ def chain(file: File, *, first: int) -> tuple[Numbers, int]:
     return np.concatenate(pieces), at
 
 
-def fields(buffer: Bytes, start: Numbers) -> Fields:
+def read_headers(buffer: Bytes, start: Numbers) -> Fields:
     """Read the headers of the records that begin at ``start``."""
     table = np.empty((4, start.size), dtype=np.int64)
     for first in range(0, start.size, BLOCK):
@@ -160,16 +160,16 @@ def fields(buffer: Bytes, start: Numbers) -> Fields:
         at = start[block]
         bits = _shape(buffer[at])
         at = at + 1
-        table[0, block] = view(buffer, np.uint32)[at] & ID_MASK[bits]
+        table[0, block] = view_numbers(buffer, np.uint32)[at] & ID_MASK[bits]
         at += ID_LENGTH[bits]
-        table[1, block] = view(buffer, np.uint32)[at] & SIZE_MASK[bits]
+        table[1, block] = view_numbers(buffer, np.uint32)[at] & SIZE_MASK[bits]
         at += SIZE_LENGTH[bits]
-        table[2, block] = (view(buffer, np.uint64)[at] & TIME_MASK[bits]).view(np.int64)
+        table[2, block] = (view_numbers(buffer, np.uint64)[at] & TIME_MASK[bits]).view(np.int64)
         table[3, block] = at + TIME_LENGTH[bits]
     return Fields(*table)
 
 
-def view(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
+def view_numbers(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
     """The buffer as little-endian numbers that begin at every byte: element i, at offset i."""
     dtype = np.dtype(kind).newbyteorder("<")
     return np.ndarray((buffer.size - dtype.itemsize + 1,), dtype, buffer, strides=(1,))
@@ -248,7 +248,7 @@ def _any_of(window: Bytes, shapes: Sequence[int]) -> Flags:
 def _lengths(buffer: Bytes, start: Numbers, shapes: Sequence[int]) -> Numbers:
     """Length of the records that would begin at ``start``, header and payload."""
     bits = shapes[0] if len(shapes) == 1 else buffer[start].astype(np.intp)
-    size = view(buffer, np.uint32)[start + (1 + ID_LENGTH)[bits]] & SIZE_MASK[bits]
+    size = view_numbers(buffer, np.uint32)[start + (1 + ID_LENGTH)[bits]] & SIZE_MASK[bits]
     lengths: Numbers = HEADER_LENGTH[bits] + size
     return lengths
 

@@ -10,7 +10,15 @@ import numpy as np
 from sim.doubt import Doubt
 from sim.errors import BadRequest
 from sim.format import Reading, sound_run
-from sim.formats.wpilog.clock import Series, changes_only, covered, hold, line, loops, sparse
+from sim.formats.wpilog.clock import (
+    Series,
+    changes_only,
+    covered_times,
+    find_sparse_signals,
+    hold_last_value,
+    interpolate_linear,
+    loop_times,
+)
 from sim.formats.wpilog.motors import NEEDED, OPTIONAL, Motor
 from sim.formats.wpilog.records import Numbers
 from sim.formats.wpilog.state import Stretch
@@ -58,7 +66,7 @@ class _Sampled:
     lost: int = 0
 
 
-def cut(
+def cut_runs(
     motors: Sequence[Motor], stretches: Sequence[Stretch], *, asked: Reading, where: str
 ) -> Cut:
     """Cut the signals of a mechanism's motors into its runs; several motors count as their mean.
@@ -124,9 +132,9 @@ def _signals(motors: Sequence[Motor], scales: Sequence[Scale]) -> dict[str, list
 def _held(signals: Signals, stretch: Stretch) -> _Sampled:
     """One run of a log that only holds changes."""
     needed = [series for name in NEEDED for series in signals[name]]
-    time = loops(needed, stretch.begin, stretch.end)
+    time = loop_times(needed, stretch.begin, stretch.end)
     known = {
-        name: np.array([hold(one, time) for one in several])
+        name: np.array([hold_last_value(one, time) for one in several])
         for name, several in signals.items()
         if time.size and all(one.time[0] <= time[0] for one in several)
     }
@@ -147,9 +155,10 @@ def _drawn(signals: Signals, stretch: Stretch) -> _Sampled:
     every = parts["voltage"][0].time
     if not usable.keys() >= set(NEEDED):
         return _Sampled(stretch.test, every[:0], {})
-    time = covered([part for name in NEEDED for part in usable[name]], every)
+    time = covered_times([part for name in NEEDED for part in usable[name]], every)
     columns = {
-        name: np.array([line(part, time) for part in several]) for name, several in usable.items()
+        name: np.array([interpolate_linear(part, time) for part in several])
+        for name, several in usable.items()
     }
     return _Sampled(stretch.test, time, columns, every.size - time.size)
 
@@ -193,7 +202,7 @@ def _rhythm(
             "and a value was held until its next change. SysId itself goes by the voltage's times "
             "and fails on such a log: a step has a single voltage. Log every value in every loop.",
         )
-    elif any(sparse(parts)):
+    elif any(find_sparse_signals(parts)):
         yield Doubt(
             "uneven-rates",
             f"{where}: the signals were logged at different rates ({many} samples). As in SysId, "

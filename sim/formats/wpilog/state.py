@@ -10,7 +10,7 @@ from sim.doubt import Doubt
 from sim.errors import BadRequest, MissingSignal
 from sim.format import Reading
 from sim.formats.wpilog.entry import STRING, Entry
-from sim.formats.wpilog.names import asked_for, quoted, split
+from sim.formats.wpilog.names import asked_for, quote_names, split_name
 from sim.log import TESTS
 
 WORD = "sysid-test-state"
@@ -47,7 +47,7 @@ class Stretch:
     end: int
 
 
-def states(entries: Sequence[Entry], *, asked: Reading, where: str) -> tuple[State, ...]:
+def state_entries(entries: Sequence[Entry], *, asked: Reading, where: str) -> tuple[State, ...]:
     """The entries that name tests, one for each mechanism.
 
     Raises:
@@ -60,12 +60,12 @@ def states(entries: Sequence[Entry], *, asked: Reading, where: str) -> tuple[Sta
         )
         if not _tells(entry):
             raise _no_test([entry], where=where)
-        name = split(entry.name, WORD)
+        name = split_name(entry.name, WORD)
         return (State(name.rest if name else "", name.path if name else "", entry),)
     named = [
         State(name.rest, name.path, entry)
         for entry in entries
-        if entry.type == STRING and (name := split(entry.name, WORD))
+        if entry.type == STRING and (name := split_name(entry.name, WORD))
     ]
     telling = [state for state in named if _tells(state.entry)]
     if not telling:
@@ -78,7 +78,7 @@ def states(entries: Sequence[Entry], *, asked: Reading, where: str) -> tuple[Sta
     return tuple(_only(telling, mechanism, where=where) for mechanism in mechanisms)
 
 
-def stretches(state: State, *, where: str) -> tuple[tuple[Stretch, ...], tuple[Doubt, ...]]:
+def run_intervals(state: State, *, where: str) -> tuple[tuple[Stretch, ...], tuple[Doubt, ...]]:
     """The time of each run: from the first record of a test to the first that names another.
 
     Returns:
@@ -98,7 +98,7 @@ def stretches(state: State, *, where: str) -> tuple[tuple[Stretch, ...], tuple[D
         return found, ()
     doubt = Doubt(
         "unknown-test",
-        f"{where}: {state.entry.name!r} also says {quoted(unknown)}, which is the name of no "
+        f"{where}: {state.entry.name!r} also says {quote_names(unknown)}, which is the name of no "
         "test; those times were left out. Tests are named like quasistatic-forward.",
     )
     return found, (doubt,)
@@ -117,7 +117,7 @@ def _only(telling: Sequence[State], mechanism: str, *, where: str) -> State:
         return (plain or own)[0]
     raise BadRequest(
         f"several entries name the tests of {mechanism!r}: "
-        f"{quoted([state.entry.name for state in own])}",
+        f"{quote_names([state.entry.name for state in own])}",
         where=where,
         advice="Say which is meant with --state ENTRY.",
     )
@@ -125,9 +125,9 @@ def _only(telling: Sequence[State], mechanism: str, *, where: str) -> State:
 
 def _no_test(entries: Sequence[Entry], *, where: str) -> MissingSignal:
     said = list(dict.fromkeys(text for entry in entries for text in entry.texts()))
-    words = f"says only {quoted(said)}" if said else "holds no values"
+    words = f"says only {quote_names(said)}" if said else "holds no values"
     return MissingSignal(
-        f"no test was recorded: {quoted([entry.name for entry in entries])} {words}",
+        f"no test was recorded: {quote_names([entry.name for entry in entries])} {words}",
         where=where,
         advice="Run the four tests with the robot enabled, and give the log of that.",
     )
@@ -138,7 +138,7 @@ def _no_state(entries: Sequence[Entry], *, where: str) -> MissingSignal:
     what = f"no state entry: expected '{WORD}-<mechanism>' (string)"
     if told:
         return MissingSignal(
-            f"{what}; {quoted(told)} names tests",
+            f"{what}; {quote_names(told)} names tests",
             where=where,
             advice=f"If that is it, give --state {told[0]} --voltage ENTRY --position ENTRY "
             "--velocity ENTRY.",

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from sim.errors import BadRequest
-from sim.formats.wpilog.control import Start, start
+from sim.formats.wpilog.control import Start, start_payload
 from sim.formats.wpilog.motors import NEEDED, OPTIONAL
 from sim.formats.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
 from sim.formats.wpilog.state import IDLE, WORD
@@ -57,7 +57,9 @@ def write(log: Log, path: Path) -> None:
     ids = {name: number for number, name in enumerate([*names, "state"], start=1)}
     width = _width(ends[-1])
     parts = [MAGIC + struct.pack("<HI", MAJOR << 8, 0)]
-    parts += [_record(0, int(times[0][0]), start(entry), width) for entry in _entries(log, ids)]
+    parts += [
+        _record(0, int(times[0][0]), start_payload(entry), width) for entry in _entries(log, ids)
+    ]
     for run, time, end in zip(log.runs, times, ends, strict=True):
         parts.append(_loops(run, time, ids, width=width, si=UNITS[log.units].si))
         parts.append(_record(ids["state"], end, IDLE[0].encode(), width))

@@ -1,0 +1,90 @@
+"""A package that a class issued to one student: numbers that only the class's instructor knows."""
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.variant import same, student_name
+from sim.errors import BadRequest, Refusal
+
+PLACE = Path(".course") / "class.toml"
+
+
+@dataclass(frozen=True)
+class ClassPackage:
+    """Whose package this is.
+
+    Args:
+        name: of the class.
+        student: whose numbers these are.
+        sealed: file, seen from the course folder -> the class's seal of it.
+        seal: the class's seal of the two names.
+    """
+
+    name: str
+    student: str
+    sealed: dict[str, str]
+    seal: str
+
+    def is_for(self, student: str) -> bool:
+        """Whether these are this student's own numbers."""
+        return same(student) == same(self.student)
+
+
+def read_class_package(course: Path) -> ClassPackage | None:
+    """What a class issued into a course folder; None if it is nobody's but the learner's.
+
+    Raises:
+        BadRequest: it is there, and cannot be read.
+    """
+    path = course / PLACE
+    try:
+        return parse_issued(path.read_bytes())
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except (OSError, ValueError):
+        raise BadRequest(
+            "what your class issued cannot be read",
+            where=str(path),
+            advice="Unpack your class's zip file once more.",
+        ) from None
+
+
+def parse_issued(content: bytes) -> ClassPackage:
+    """Read the content of a ``class.toml``.
+
+    Raises:
+        ValueError: it is not one.
+    """
+    try:
+        raw = tomllib.loads(content.decode("utf-8"))
+        name, student = str(raw["class"]), student_name(str(raw["student"]))
+        return ClassPackage(name, student, dict(raw.get("sealed", {})), str(raw.get("seal", "")))
+    except (TypeError, LookupError, RecursionError, Refusal) as error:
+        raise ValueError(str(error)) from None
+
+
+def find_learner(course: Path, *, known: str, student: str | None) -> str:
+    """Who is learning in a course folder.
+
+    Args:
+        course: the course folder.
+        known: who it was before, as progress keeps it.
+        student: who a command says it is; None in a class's package is whom it was issued to.
+
+    Raises:
+        BadRequest: the name is none, or the class's file cannot be read.
+    """
+    if student is not None:
+        return student_name(student)
+    of_class = read_class_package(course)
+    return of_class.student if of_class else known
+
+
+def explain_no_grading(exercise: str, found: ClassPackage) -> BadRequest:
+    """Why an exercise cannot be graded here, and how to practice all the same."""
+    return BadRequest(
+        f"{exercise} is on numbers of {found.name}, which only your instructor can grade",
+        advice="Hand it in. To practice on other numbers, with feedback: grade "
+        f"{exercise} FILE --student practice",
+    )

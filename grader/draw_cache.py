@@ -1,0 +1,88 @@
+"""What was drawn for somebody who studies alone, kept for their next answer.
+
+To draw twelve logs, and to see that the damage of each can be found, takes longer than all the rest
+of grading; who changes one word and asks again should not wait for it again. It is kept in the
+user's cache and gives nothing away: self-study numbers are drawn from a seed that everybody knows.
+What a class draws is never kept.
+"""
+
+import hashlib
+import pickle
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from contextvars import ContextVar
+from functools import cache, wraps
+from pathlib import Path
+from typing import TypeVar
+
+from grader.fingerprint import fingerprint
+from grader.variant import is_self_study, same
+from sim.work import cache as kept_files
+
+Drawn = TypeVar("Drawn")
+
+MOST = 60  # files: what some learners at one machine work on
+_KEEPING = ContextVar("keeping", default=False)
+
+
+@contextmanager
+def cached_draws() -> Iterator[None]:
+    """Keep what is drawn, as long as the block lasts."""
+    token = _KEEPING.set(True)
+    try:
+        yield
+    finally:
+        _KEEPING.reset(token)
+
+
+def read_draw(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
+    """Look for what was drawn before it is drawn again.
+
+    Args:
+        draw: a student -> what is theirs; in a module of an exercise's folder.
+    """
+
+    @wraps(draw)
+    def drawn(student: str) -> Drawn:
+        place = cache_path(Path(draw.__code__.co_filename).parent, student, "drawn")
+        if place is None:
+            return draw(student)
+        content = kept_files.read_cached(place)
+        if content is not None:
+            # whatever is wrong with an old file: it is drawn again
+            with suppress(Exception):
+                found: Drawn = pickle.loads(content)  # noqa: S301 - the user's own cache, as Python's
+                return found
+        found = draw(student)
+        write_draw(place, pickle.dumps(found))
+        return found
+
+    return drawn
+
+
+def cache_path(exercise: Path, student: str, what: str) -> Path | None:
+    """Where something of a student's exercise is kept; None where nothing is to be kept.
+
+    Args:
+        exercise: the exercise's folder.
+        student: whose.
+        what: what of it.
+    """
+    if not (_KEEPING.get() and is_self_study()):
+        return None
+    whole = f"{exercise.resolve()}\0{same(student)}\0{_code(exercise)}"
+    name = f"{exercise.name}-{hashlib.sha256(whole.encode()).hexdigest()[:20]}.{what}"
+    return kept_files.cache_folder() / "drawn" / name
+
+
+@cache
+def _code(exercise: Path) -> str:
+    """What decides what is drawn: it does not change while one answer is graded."""
+    return fingerprint(exercise)
+
+
+def write_draw(place: Path, content: bytes) -> None:
+    """Keep it, if there is a place for it; the oldest of many are forgotten."""
+    with suppress(OSError):
+        kept_files.write_cached(place, content)
+        kept_files.remove_files(kept_files.oldest_files(place.parent.iterdir(), than=MOST))

@@ -1,0 +1,138 @@
+"""What a child said, judged outside: nothing in it is believed but numbers."""
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+LONGEST = 200  # [characters] of anything that is told on
+NO_NUMBERS = {"nan": "nan", "inf": "a number without end"}
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What one call gave.
+
+    Args:
+        numbers: name -> value; finite, of type float.
+        refused: name -> what stood there instead of a number, in words.
+        reason: why there is nothing at all, one line; empty if there is.
+    """
+
+    numbers: Mapping[str, float] = field(default_factory=dict)
+    refused: Mapping[str, str] = field(default_factory=dict)
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class ParsedResults:
+    """Everything a child said.
+
+    Args:
+        force: what confined it, by its own word before it read the learner's file; None if it never
+            came so far.
+        answers: number of the call -> what it gave.
+        crash: why the learner's file could not be loaded; empty if it could.
+    """
+
+    force: Mapping[str, object] | None
+    answers: Mapping[int, Answer]
+    crash: str = ""
+
+
+def parse_results(raw: bytes, *, nonce: str, file: str) -> ParsedResults:
+    """Read the lines of a child.
+
+    Args:
+        raw: what came through the pipe.
+        nonce: what each line has to begin with to count.
+        file: name of the learner's file, for messages.
+    """
+    force: Mapping[str, object] | None = None
+    answers: dict[int, Answer] = {}
+    crash = ""
+    for said in _lines(raw, nonce):
+        ready, number = said.get("ready"), said.get("call")
+        if force is None:
+            force = ready if isinstance(ready, dict) else {}
+        elif type(number) is int:
+            answers.setdefault(number, _answer(said, file))
+        elif "crash" in said:
+            crash = crash or _crash(said["crash"], file)
+    return ParsedResults(force, answers, crash)
+
+
+def _lines(raw: bytes, nonce: str) -> Iterator[Mapping[str, object]]:
+    for line in raw.split(b"\n"):
+        try:
+            said = json.loads(line)
+        except (ValueError, RecursionError):  # cut off, or not ours
+            continue
+        if isinstance(said, dict) and said.get("nonce") == nonce:
+            yield said
+
+
+def _answer(said: Mapping[str, object], file: str) -> Answer:
+    if "crash" in said:
+        return Answer(reason=_crash(said["crash"], file))
+    result = said.get("result")
+    pairs = result.get("names") if isinstance(result, dict) else None
+    if not isinstance(pairs, list):
+        return Answer(reason=f"{file} returned {_kind(result)}, not numbers by name in a dict")
+    numbers: dict[str, float] = {}
+    refused: dict[str, str] = {}
+    for pair in pairs:
+        if not (isinstance(pair, list) and len(pair) == 2 and isinstance(pair[0], str)):  # noqa: PLR2004 - a name and what it stands for
+            continue
+        name, value = one_line(pair[0]), pair[1]
+        if type(value) in {int, float} and _finite(value):
+            numbers[name] = float(value)
+        else:
+            refused[name] = _kind(value)
+    return Answer(numbers, refused)
+
+
+def _finite(value: float) -> bool:
+    try:
+        return math.isfinite(float(value))
+    except OverflowError:
+        return False
+
+
+def _kind(value: object) -> str:
+    """What something that is no number is, in words."""
+    if value is None:
+        return "None"
+    if isinstance(value, bool):
+        return f"{value}, which is yes or no"
+    if isinstance(value, str):
+        return NO_NUMBERS.get(value, "a text")
+    if isinstance(value, int | float):
+        return "a number" if _finite(value) else "a number without end"
+    return _type(value) if isinstance(value, dict) else "something that is no number"
+
+
+def _type(told: Mapping[str, object]) -> str:
+    """What the child says of the type of something, in words."""
+    name, of = one_line(told.get("is")), told.get("of")
+    if name == "ndarray":
+        return f"an array of shape {one_line(of)}"
+    if name == "str":
+        return f'the text "{one_line(of)}"'
+    poses = isinstance(of, list) and ("int" in of or "float" in of)
+    return f"a {name}, which only poses as a number" if poses else f"a {name}"
+
+
+def _crash(told: object, file: str) -> str:
+    """``fit.py, line 12: ZeroDivisionError: division by zero``."""
+    if not isinstance(told, dict):
+        return f"{file} stopped"
+    line = told.get("line")
+    where = f"{file}, line {line}" if type(line) is int else file
+    return f"{where}: {one_line(told.get('says'))}"
+
+
+def one_line(text: object) -> str:
+    """One line of what can be printed, and not too much of it."""
+    kept = "".join(sign if sign.isprintable() else " " for sign in str(text)[: 2 * LONGEST])
+    return kept if len(kept) <= LONGEST else f"{kept[:LONGEST]}…"

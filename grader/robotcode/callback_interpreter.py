@@ -1,0 +1,194 @@
+"""Follows a callback through the code, into methods and lambdas, without running anything.
+
+Every expression becomes a Value. What a call means to the matter at hand (a command to a motor, an
+entry in a log) is for a subclass to say.
+"""
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import replace
+from types import MappingProxyType
+
+from grader.robotcode.abstract_value import Value, join_values
+from grader.robotcode.facts import Problem
+from grader.robotcode.ir import Call, Function, Member, Node, Reference, Self
+from grader.robotcode.motors import motor_label
+from grader.robotcode.name_resolution import (
+    Method,
+    called_functions,
+    class_of,
+    last_name,
+    resolve,
+    type_of,
+)
+from grader.robotcode.scope import Scope
+from grader.robotcode.statement_interpreter import Frame, StatementInterpreter
+from grader.robotcode.vocabulary import LOOPS, RUNS, is_motor, java_spelling
+
+MOST_CALLS = 4  # methods followed, one inside the other
+MOST_SPREAD = 8  # arguments that a list may be spread into
+
+
+class CallbackInterpreter(StatementInterpreter):
+    """Follows one callback.
+
+    Args:
+        names: the names of the program.
+        measures: its constants.
+    """
+
+    @abstractmethod
+    def command(
+        self, call: Call, receiver: Value | None, args: list[Value], at: Value
+    ) -> Value | None:
+        """Take note of a call of code outside these files, if it is one this trace is after.
+
+        Returns:
+            What the call gives; None if it is nothing to this trace.
+        """
+
+    @abstractmethod
+    def entries(self) -> int:
+        """How much has been noted so far."""
+
+    def run(self, callback: Node, scope: Scope, parameter: Value) -> bool:
+        """Follow a callback.
+
+        Args:
+            callback: a lambda, a method reference, or a variable that holds one.
+            scope: where it stands.
+            parameter: what it is called with.
+
+        Returns:
+            Whether it could be found.
+        """
+        node, where = resolve(callback, scope, self.names)
+        if not isinstance(node, Function | Member):
+            self.cannot_read(callback)
+            return False
+        frame = Frame(where)
+        callee = frame.value(node)
+        if isinstance(callback, Call):  # a function that makes one, with what it was given
+            made = self.evaluate(callback, Frame(scope))
+            callee = made if isinstance(made.origin, Function | Member) else callee
+        self._invoked(callee, [parameter], frame)
+        return True
+
+    def then(self, method: Method) -> None:
+        """Follow another method of the class after the callback."""
+        self.follow(method, [], {}, Frame(method[1].home), me="")
+
+    def cannot_read(self, node: Node) -> None:
+        """Say that the way leads out of these files."""
+        said = f"`{node.place.text}` leads to code that is not in this file or those beside it"
+        self.unread.setdefault(said, Problem(said, self.line_of(node)))
+
+    def call(self, node: Call, frame: Frame) -> Value:
+        """The value of a call, its arguments first."""
+        owner = node.target.owner if isinstance(node.target, Member) else None
+        receiver = None if owner is None else self.evaluate(owner, frame)
+        args = [self.evaluate(arg, frame) for arg in node.args]
+        if node.spread:  # any of the arguments that are left may be in it
+            args += [replace(frame.value(node), carries=None, factor=None)] * MOST_SPREAD
+        named = {word: self.evaluate(value, frame) for word, value in node.named}
+        return self._applied(node, receiver, args, named, frame)
+
+    def _applied(
+        self,
+        call: Call,
+        receiver: Value | None,
+        args: list[Value],
+        named: dict[str, Value],
+        frame: Frame,
+    ) -> Value:
+        """A call, when what it is called on and with is known."""
+        name = last_name(call.target)
+        if receiver is None and name in frame.locals and frame.scope.module.language == "python":
+            return self._invoked(frame.locals[name], args, frame)
+        if receiver is not None and java_spelling(name) in RUNS and self._holds_lambda(receiver):
+            return self._invoked(receiver, args, frame)
+        if receiver is not None and java_spelling(name) in LOOPS and args:
+            several = self.elements(receiver, frame)
+            return [self._invoked(args[0], [element], frame) for element in several][-1]
+        owner = None if receiver is None else (receiver.origin, receiver.scope)
+        methods = called_functions(call, frame.scope, self.names, owner=owner)
+        fresh = next((method for method in methods if method[0] not in frame.around), None)
+        if fresh is not None:
+            before = self.entries()
+            value = self.follow(fresh, args, named, frame, me=self._object(receiver, frame))
+            if fresh[0].body or self.entries() > before:
+                return value
+        every = [*args, *named.values()]
+        if fresh is not None or not methods:
+            said = self.command(call, receiver, every, frame.value(call))
+            if said is not None:
+                return said
+        self._keep(call, receiver, every, frame)
+        return self.flow.through(call, receiver, every, frame.value(call))
+
+    def _invoked(self, callee: Value, args: list[Value], frame: Frame) -> Value:
+        """A call of a lambda or of a method reference."""
+        node, scope = resolve(callee.origin, callee.scope, self.names)
+        if isinstance(node, Function):
+            method = (node, scope.within(node))
+            captured = callee.captured
+            return self.follow(method, args, {}, frame, me=callee.me, captured=captured)
+        if not isinstance(node, Member):
+            return join_values(args, at=callee).times(None)
+        inner = Frame(scope, callee.me, dict(callee.captured), around=frame.around)
+        written_out = Call(node.place, node, tuple(arg.origin for arg in args))
+        return self._applied(written_out, self.evaluate(node.owner, inner), args, {}, inner)
+
+    def follow(
+        self,
+        method: Method,
+        args: list[Value],
+        named: dict[str, Value],
+        frame: Frame,
+        *,
+        me: str,
+        captured: Mapping[str, Value] = MappingProxyType({}),
+    ) -> Value:
+        """Follow a function of these files."""
+        function, scope = method
+        if len(frame.around) > MOST_CALLS:
+            return self.too_deep(function, frame)
+        inner = Frame(scope, me, around=(*frame.around, function))
+        inner.locals |= captured
+        outer = Frame(replace(scope, functions=scope.functions[:-1]), me, around=inner.around)
+        inner.locals |= {
+            one.name: self.evaluate(one.default, outer) if one.default else inner.value(one)
+            for one in function.parameters
+        }
+        inner.locals |= {one.name: arg for one, arg in zip(function.parameters, args, strict=False)}
+        inner.locals |= named
+        for statement in function.body:
+            self.evaluate(statement, inner)
+        if len(inner.returned) == 1:
+            return inner.returned[0]
+        return join_values(inner.returned, at=inner.value(function))
+
+    def _object(self, receiver: Value | None, frame: Frame) -> str:
+        """The object whose code a method is, to be put before the names of its fields."""
+        if receiver is None:
+            return frame.me
+        if isinstance(receiver.origin, Self) or last_name(receiver.origin) == "super":
+            return receiver.me
+        if self.names.home(receiver.origin, receiver.scope) is not None:
+            return ""
+        return f"{receiver.me}{motor_label(receiver.origin)}."
+
+    def _holds_lambda(self, value: Value) -> bool:
+        node, _ = resolve(value.origin, value.scope, self.names)
+        return isinstance(node, Function | Reference)
+
+    def _keep(self, call: Call, receiver: Value | None, args: list[Value], frame: Frame) -> None:
+        """Remember what an object was given: ``m_applied.mut_replace(volts, Volts)``."""
+        if receiver is None or not isinstance(call.target, Member):
+            return
+        type_ = type_of(receiver.origin, receiver.scope, self.names)
+        foreign = bool(type_) and not is_motor(type_)
+        if foreign and class_of(receiver.origin, receiver.scope, self.names) is not None:
+            foreign = False
+        if foreign or java_spelling(call.target.name).startswith(("mut", "with")):
+            self.store(call.target.owner, join_values(args, at=frame.value(call)), frame)

@@ -1,0 +1,290 @@
+"""Gains in robot code: constants, their comments, and the feedforward they are handed to."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from grader.robotcode.closure import BoundNode, definitions, resolve_bound
+from grader.robotcode.comments import Comment, comments, comments_near
+from grader.robotcode.compiling import compile_errors
+from grader.robotcode.constant_folding import ConstantFolder
+from grader.robotcode.facts import Problem
+from grader.robotcode.files import Files
+from grader.robotcode.ir import Assign, Call, Cast, Member, Module, Name, Node, Self, iter_nodes
+from grader.robotcode.name_resolution import MOST_STEPS, constructed_class, last_name
+from grader.robotcode.scope import Definition, Scope, walk
+from grader.robotcode.symbol_table import SymbolTable
+from grader.robotcode.vocabulary import java_spelling
+
+HOLDER = re.compile(r"characteri[sz]ation", re.IGNORECASE)
+# kS, K_S, ks, kSVolts, kvVoltSecondsPerMeter; not kStatic, kAngle.
+GAIN = re.compile(r"[kK]_?([svagpSVAGP])(?=$|_|[A-Z0-9])(.*)")
+FEEDFORWARD = re.compile(r"(SimpleMotor|Elevator|Arm)Feedforward\w*")
+ARGUMENTS = {
+    "SimpleMotorFeedforward": ("kS", "kV", "kA"),
+    "ElevatorFeedforward": ("kS", "kG", "kV", "kA"),
+    "ArmFeedforward": ("kS", "kG", "kV", "kA"),
+}
+
+
+@dataclass(frozen=True)
+class GainConstant:
+    """A gain in the code.
+
+    Args:
+        gain: ``kS``, ``kV``, ``kA``, ``kG`` or ``kP``.
+        name: as written.
+        holder: the class it is in; empty at the top of a file.
+        value: the number; None if it cannot be told.
+        text: what it is given, as written.
+        comment: the comments beside it and directly above it.
+        line: its line, from 1.
+    """
+
+    gain: str
+    name: str
+    holder: str
+    value: float | None
+    text: str
+    comment: str
+    line: int
+
+
+@dataclass(frozen=True)
+class Argument:
+    """What a feedforward, or a feedback loop, is given in one place.
+
+    Args:
+        gain: whose constant it is made of; empty if of none, or of several.
+        value: the number; None if it cannot be told.
+        text: as written.
+    """
+
+    gain: str
+    value: float | None
+    text: str
+
+
+@dataclass(frozen=True)
+class Feedforward:
+    """A feedforward that is made.
+
+    Args:
+        kind: its class, without what Python adds: ``SimpleMotorFeedforward``.
+        arguments: parameter -> what it is given, where it is given anything.
+        text: the call.
+        line: its line, from 1.
+        spread: whether it gets more from a list that cannot be read.
+    """
+
+    kind: str
+    arguments: dict[str, Argument] = field(hash=False)
+    text: str = ""
+    line: int = 0
+    spread: bool = False
+
+
+@dataclass(frozen=True)
+class DeployFacts:
+    """All that the text of a robot program says about its gains.
+
+    Args:
+        language: ``java`` or ``python``.
+        holder: the class that is there for the gains; empty if there is none.
+        constants: the gains, each once: that in the holder before others.
+        general: the comments in and above the holder.
+        feedforwards: those that are made, in order.
+        feedback: the argument made of kP that something other than a feedforward is given.
+        problems: syntax errors; when there are any, the rest is empty.
+        compile_errors: what keeps the file from being compiled, as far as text can tell.
+    """
+
+    language: str
+    holder: str = ""
+    constants: tuple[GainConstant, ...] = ()
+    general: str = ""
+    feedforwards: tuple[Feedforward, ...] = ()
+    feedback: Argument | None = None
+    problems: tuple[Problem, ...] = ()
+    compile_errors: tuple[Problem, ...] = ()
+
+    def constant(self, gain: str) -> GainConstant | None:
+        """A gain's constant, if it is there."""
+        return next((one for one in self.constants if one.gain == gain), None)
+
+
+def gain_of(name: str) -> str:
+    """The gain that a name stands for; empty if for none."""
+    found = GAIN.fullmatch(name.lstrip("_").removeprefix("m_"))
+    return f"k{found[1].upper()}" if found else ""
+
+
+def gains_of(path: Path) -> DeployFacts:
+    """Read what a robot program says about its gains, without running any of it.
+
+    Raises:
+        UnreadableFile: it is missing, empty, too large, not text, or neither Java nor Python.
+    """
+    names = SymbolTable(Files(path))
+    if names.main.problems:
+        return DeployFacts(names.main.language, problems=names.main.problems)
+    return _Reader(names).facts()
+
+
+class _Reader:
+    """Goes through one file, and through those its feedforward takes gains from."""
+
+    def __init__(self, names: SymbolTable) -> None:
+        self._names = names
+        self._measures = ConstantFolder(names)
+        self._gains: dict[Node, str] = {}  # by node: the gain whose constant it is made of
+
+    def facts(self) -> DeployFacts:
+        """All facts of the file."""
+        main = self._names.main
+        every = list(walk(main.body, Scope(main)))
+        calls = [(node, scope) for node, scope in every if isinstance(node, Call)]
+        made = list(self._feedforwards(calls))
+        modules = dict.fromkeys((main, *self._others(calls)))
+        found = [one for module in modules for one in self._constants(module)]
+        found.sort(key=lambda one: (not HOLDER.search(one.holder), len(one.name)))
+        first = {one.gain: one for one in reversed(found)}
+        holders = [
+            (module, node)
+            for module in modules
+            for node, _ in walk(module.body, Scope(module))
+            if HOLDER.search(getattr(node, "name", "")) and hasattr(node, "bases")
+        ]
+        module, holder = holders[0] if holders else (main, None)
+        return DeployFacts(
+            main.language,
+            holder=getattr(holder, "name", ""),
+            constants=tuple(sorted(first.values(), key=lambda one: one.line)),
+            general=_around(holder, comments(module)),
+            feedforwards=tuple(made),
+            feedback=self._feedback(calls),
+            compile_errors=compile_errors(self._names),
+        )
+
+    def _constants(self, module: Module) -> Iterator[GainConstant]:
+        said = comments(module)
+        for node, scope in walk(module.body, Scope(module)):
+            if not isinstance(node, Assign) or node.value is None:
+                continue
+            target = node.target
+            mine = isinstance(target, Member) and isinstance(target.owner, Self)
+            if not (mine or (isinstance(target, Name) and not scope.functions)):
+                continue
+            gain = gain_of(last_name(target))
+            if gain:
+                last = node.place.line + node.place.source.count(
+                    b"\n", node.place.start, node.place.end
+                )
+                yield GainConstant(
+                    gain,
+                    last_name(target),
+                    scope.classes[-1].name if scope.classes else "",
+                    self._value(node.value, scope),
+                    node.value.place.text,
+                    comments_near(said, node.place.line, last),
+                    node.place.line,
+                )
+
+    def _value(self, node: Node, scope: Scope) -> float | None:
+        found = self._measures.of(node, scope)
+        return None if found is None or found.unit else found.value
+
+    def _feedforwards(self, calls: list[tuple[Call, Scope]]) -> Iterator[Feedforward]:
+        for call, scope in calls:
+            made = constructed_class(call, scope, self._names)
+            if not FEEDFORWARD.fullmatch(made):
+                continue
+            kind = made.partition("Feedforward")[0] + "Feedforward"
+            words = ARGUMENTS[kind]
+            given = dict(zip(words, call.args, strict=False))
+            given |= {gain_of(java_spelling(word)): node for word, node in call.named}
+            arguments = {
+                word: self._argument(node, scope) for word, node in given.items() if word in words
+            }
+            yield Feedforward(kind, arguments, call.place.text, call.place.line, spread=call.spread)
+
+    def _argument(self, node: Node, scope: Scope) -> Argument:
+        value = self._value(node, scope)
+        if value is None:
+            value = self._of_object(node, scope)
+        return Argument(self._gain(node, scope), value, node.place.text)
+
+    def _of_object(self, node: Node, scope: Scope) -> float | None:
+        """The value of an object's field; None where the object may have been made with others."""
+        one = self._one(node, scope) if isinstance(node, Member) else None
+        if one is None or one.value is None or not isinstance(node, Member):
+            return None
+        owner = resolve_bound(BoundNode(node.owner, scope), self._names).node
+        if isinstance(owner, Call) and (owner.args or owner.named or owner.spread):
+            return None
+        return self._value(one.value, one.scope)
+
+    def _gain(self, node: Node, scope: Scope) -> str:
+        """The gain whose constant a value is made of, names followed."""
+        if node not in self._gains:
+            self._gains[node] = ""  # what is made of itself is made of no gain
+            with self._names.one_deeper() as allowed:
+                if allowed:
+                    self._gains[node] = self._followed(node, scope)
+        return self._gains[node]
+
+    def _followed(self, node: Node, scope: Scope) -> str:
+        for _ in range(MOST_STEPS):
+            if isinstance(node, Cast):
+                node = node.value
+                continue
+            if not isinstance(node, Name | Member):
+                break
+            gain = gain_of(node.name)
+            if gain:
+                return gain
+            one = self._one(node, scope)
+            if one is None or one.value is None:
+                return ""
+            node, scope = one.value, one.scope
+        found = {
+            self._gain(part, scope)
+            for part in iter_nodes(node, but=(Member,))
+            if isinstance(part, Name | Member)
+        } - {""}
+        return found.pop() if len(found) == 1 else ""
+
+    def _one(self, node: Node, scope: Scope) -> Definition | None:
+        valued = [
+            one for one in definitions(BoundNode(node, scope), self._names) if one.value is not None
+        ]
+        return valued[0] if len(valued) == 1 else None
+
+    def _others(self, calls: list[tuple[Call, Scope]]) -> Iterator[Module]:
+        """Other files that hold gains which are handed to something here."""
+        for call, scope in calls:
+            for node in (*call.args, *(value for _, value in call.named)):
+                for part in iter_nodes(node, but=(Member,)):
+                    if isinstance(part, Name | Member) and gain_of(part.name):
+                        one = self._one(part, scope)
+                        if one is not None:
+                            yield one.scope.module
+
+    def _feedback(self, calls: list[tuple[Call, Scope]]) -> Argument | None:
+        for call, scope in calls:
+            if FEEDFORWARD.fullmatch(constructed_class(call, scope, self._names)):
+                continue
+            for node in (*call.args, *(value for _, value in call.named)):
+                if self._gain(node, scope) == "kP":
+                    return self._argument(node, scope)
+        return None
+
+
+def _around(holder: Node | None, said: tuple[Comment, ...]) -> str:
+    """The comments in a class and directly above it."""
+    if holder is None:
+        return ""
+    place = holder.place
+    last = place.line + place.source.count(b"\n", place.start, place.end)
+    return comments_near(said, place.line, last)

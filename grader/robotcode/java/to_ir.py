@@ -1,0 +1,76 @@
+"""One Java file on its way from tree-sitter's tree to the common syntax."""
+
+from collections.abc import Callable, Iterable
+
+from tree_sitter import Node as Tree
+
+from grader.robotcode import ir
+
+BRANCHES = frozenset(
+    {
+        "if_statement",
+        "while_statement",
+        "do_statement",
+        "for_statement",
+        "try_statement",
+        "try_with_resources_statement",
+        "switch_expression",
+    }
+)
+SKIPPED = frozenset(
+    {"line_comment", "block_comment", "modifiers", "import_declaration", "package_declaration"}
+)
+
+
+class IrBuilder:
+    """One file on its way to the common syntax; leaves first, so that no depth can hurt."""
+
+    def __init__(self, source: bytes, makers: dict[str, "Maker"]) -> None:
+        self.source = source
+        self.makers = makers
+        self.done: dict[int, tuple[ir.Node, ...]] = {}
+
+    def lower(self, root: Tree) -> tuple[ir.Node, ...]:
+        """Lower a tree; a tree-sitter node may become no node, one or several."""
+        order = [root]
+        for tree in order:
+            order.extend(tree.children)
+        for tree in reversed(order):
+            self.done[tree.id] = self._made(tree)
+        return self.many(root.children)
+
+    def _made(self, tree: Tree) -> tuple[ir.Node, ...]:
+        if not tree.is_named or tree.type in SKIPPED:
+            return ()
+        make = self.makers.get(tree.type)
+        if make is not None:
+            return make(self, tree)
+        parts = self.many(tree.children)
+        if tree.type in BRANCHES:
+            return (ir.Branch(self.place(tree), parts),)
+        return parts if len(parts) == 1 else (ir.Opaque(self.place(tree), parts),)
+
+    def place(self, tree: Tree) -> ir.Place:
+        """Where a tree stands in the file."""
+        return ir.Place(self.source, tree.start_byte, tree.end_byte, tree.start_point[0] + 1)
+
+    def said(self, tree: Tree | None) -> str:
+        """The source text of a tree."""
+        text = b"" if tree is None else self.source[tree.start_byte : tree.end_byte]
+        return text.decode("utf-8", errors="replace")
+
+    def many(self, trees: Iterable[Tree]) -> tuple[ir.Node, ...]:
+        """What some trees became."""
+        return tuple(node for tree in trees for node in self.done[tree.id])
+
+    def one(self, tree: Tree | None, *, around: Tree) -> ir.Node:
+        """What a tree became; where a mistake in the code left none, a node that says nothing."""
+        made = () if tree is None else self.done[tree.id]
+        return made[0] if len(made) == 1 else ir.Opaque(self.place(tree or around), made)
+
+    def field(self, tree: Tree, name: str) -> ir.Node:
+        """What one named child of a tree became."""
+        return self.one(tree.child_by_field_name(name), around=tree)
+
+
+Maker = Callable[[IrBuilder, Tree], tuple[ir.Node, ...]]

@@ -1,0 +1,238 @@
+"""Names followed to what they stand for: a value, a type, a method."""
+
+import re
+
+from grader.robotcode.ir import (
+    Assign,
+    Call,
+    Cast,
+    Class,
+    Element,
+    Function,
+    Items,
+    Loop,
+    Member,
+    Name,
+    Node,
+    Operation,
+    Parameter,
+    Reference,
+    Return,
+    Text,
+    iter_nodes,
+)
+from grader.robotcode.scope import Definitions, Scope
+from grader.robotcode.symbol_table import SymbolTable
+
+MOST_STEPS = 20  # names followed, one to the next
+MOST_PIECES = 5  # strings joined one into the other
+
+Placed = tuple[Node, Scope]  # a node, and the scope it stands in
+Method = tuple[Function, Scope]  # a function, and the scope inside it
+
+
+def simple_type_name(type_: str) -> str:
+    """A type's own name: ``Config`` of ``SysIdRoutine.Config``, ``List`` of ``List<TalonFX>``."""
+    return re.sub(r"[<\[|].*", "", type_, flags=re.DOTALL).strip(" \"'").rpartition(".")[2]
+
+
+def last_name(node: Node) -> str:
+    """What a name ends with: ``Config`` of ``SysIdRoutine.Config``; empty for other nodes."""
+    return node.name if isinstance(node, Name | Member) else ""
+
+
+def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
+    """Follow constants, variables and plain getters to what they stand for.
+
+    Returns:
+        The node where the way ends, and its scope: a value, or the last name that has none or
+        several.
+    """
+    for _ in range(MOST_STEPS):
+        inner = node.value if isinstance(node, Cast | Assign) else None  # Python's walrus
+        if inner is not None:
+            node = inner
+            continue
+        if isinstance(node, Call):
+            methods = called_functions(node, scope, names)
+            returned = only_return(methods[0][0]) if len(methods) == 1 else None
+            if returned is None:
+                break
+            node, scope = returned, methods[0][1]
+            continue
+        if isinstance(node, Reference):
+            break
+        valued = [d for d in names.definitions(node, scope) if d.value is not None]
+        if len(valued) != 1 or valued[0].value is None:
+            break
+        node, scope = valued[0].value, valued[0].scope
+        if isinstance(node, Function) and node.property:
+            returned = only_return(node)
+            if returned is None:
+                break
+            node, scope = returned, scope.within(node)
+    return node, scope
+
+
+def only_return(function: Function) -> Node | None:
+    """What a function returns, if it says so in one place."""
+    found = [n for n in iter_nodes(*function.body, but=(Function, Class)) if isinstance(n, Return)]
+    return found[0].value if len(found) == 1 else None
+
+
+def type_of(node: Node, scope: Scope, names: SymbolTable) -> str:
+    """The type of a variable, declared or seen from what it is made with; empty if unknown."""
+    if isinstance(node, Parameter):
+        return node.type
+    node = _without_settings(node)
+    made = _made(node, scope)
+    return made if made is not None else type_from(names.definitions(node, scope), names)
+
+
+def type_from(definitions: Definitions, names: SymbolTable) -> str:
+    """The type that the definitions of one variable give it; empty if unknown."""
+    for _ in range(MOST_STEPS):
+        declared = next((d.type for d in definitions if d.type), "")
+        first = next((d for d in definitions if d.value is not None), None)
+        if declared or first is None or first.value is None:
+            return declared
+        value = _one_of(first.value)
+        made = _made(value, first.scope)
+        if made == "" and isinstance(value, Call):
+            return _made_by_method(value, first.scope, names)
+        if made is not None:
+            return made
+        definitions = names.definitions(_without_settings(value), first.scope)
+    return ""
+
+
+def _one_of(node: Node) -> Node:
+    """Of a list, its first element; of an element, the list: their types are taken for one."""
+    for _ in range(MOST_STEPS):
+        if isinstance(node, Items) and node.items:
+            node = node.items[0]
+        elif isinstance(node, Loop) and node.body:  # a comprehension
+            node = node.body[0]
+        elif isinstance(node, Element):
+            node = node.owner
+    return node
+
+
+def constructed_class(call: Call, scope: Scope, names: SymbolTable) -> str:
+    """The class a call makes, by its own name whatever it is called here; empty if it is none."""
+    target = call.target
+    if isinstance(target, Name):
+        brought = brought_name(target.name, scope)
+        if brought:
+            return brought
+    target, _ = resolve(target, scope, names)  # Config = SysIdRoutine.Config
+    made = last_name(target)
+    return made if made[:1].isupper() else ""
+
+
+def brought_name(name: str, scope: Scope) -> str:
+    """What an imported name is called where it comes from; empty if it is not imported."""
+    path = next((one.path for one in scope.module.imports if one.name == name), "")
+    return path.rpartition(".")[2]
+
+
+def _made(node: Node, scope: Scope) -> str | None:
+    """The class that a constructor call makes; empty for another call, None for no call."""
+    node = _without_settings(node)
+    if not isinstance(node, Call):
+        return None
+    made = last_name(node.target)
+    if isinstance(node.target, Name):
+        made = brought_name(made, scope) or made
+    return made if made[:1].isupper() else ""
+
+
+def _made_by_method(call: Call, scope: Scope, names: SymbolTable) -> str:
+    """The class that a method of these files makes; a call counts as none while it is looked at."""
+    if call not in names.made:
+        names.made[call] = ""
+        with names.one_deeper() as allowed:
+            if allowed:
+                value, where = resolve(call, scope, names)
+                made = constructed_class(value, where, names) if isinstance(value, Call) else ""
+                names.made[call] = made
+    return names.made[call]
+
+
+def _without_settings(node: Node) -> Node:
+    """``new VoltageOut(0)`` of ``new VoltageOut(0).withEnableFOC(true)``."""
+    while isinstance(node, Call) and isinstance(node.target, Member):
+        if not node.target.name.startswith("with"):
+            break
+        node = node.target.owner
+    return node
+
+
+def class_of(node: Node, scope: Scope, names: SymbolTable) -> Scope | None:
+    """The class that a node names or is an instance of, if these files hold it."""
+    home = names.home(node, scope)
+    if home is None:
+        type_ = simple_type_name(type_of(node, scope, names))
+        home = names.named(type_, scope) if type_ else None
+    return home
+
+
+def text_of(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
+    """A string constant, joined from several where need be; empty if it cannot be told."""
+    node, scope = resolve(node, scope, names)
+    if isinstance(node, Text):
+        return node.value
+    if isinstance(node, Operation) and node.sign == "+" and node.left and depth < MOST_PIECES:
+        both = [text_of(n, scope, names, depth=depth + 1) for n in (node.left, node.right)]
+        return "".join(both) if all(both) else ""
+    return ""
+
+
+def called_functions(
+    call: Call, scope: Scope, names: SymbolTable, *, owner: Placed | None = None
+) -> list[Method]:
+    """The functions of these files that a call may mean: those of its name that take as much.
+
+    Args:
+        call: the call.
+        scope: where it stands.
+        names: the names of the program.
+        owner: what the method is called on, where a variable hides it.
+    """
+    target = call.target
+    count = len(call.args) + len(call.named)
+    if isinstance(target, Member):
+        home = class_of(*(owner or (target.owner, scope)), names)
+        return [] if home is None else _fitting(target.name, home, names, count)
+    if not isinstance(target, Name):
+        return []
+    functions = [
+        (d.value, d.scope.within(d.value))
+        for d in names.definitions(target, scope)
+        if isinstance(d.value, Function)
+    ]
+    if functions or scope.module.language == "python":
+        return functions
+    homes = (Scope(scope.module, scope.classes[:n]) for n in range(len(scope.classes), 0, -1))
+    return next(filter(None, (_fitting(target.name, h, names, count) for h in homes)), [])
+
+
+def methods(name: str, home: Scope, names: SymbolTable) -> list[Method]:
+    """The methods of a name in a class, or in the classes above it if it has none."""
+    places = names.lineage(home) if home.classes else [home]
+    return next(filter(None, (_methods_in(place, name, names) for place in places)), [])
+
+
+def _methods_in(home: Scope, name: str, names: SymbolTable) -> list[Method]:
+    return [
+        (node, home.within(node))
+        for node in names.members(home)
+        if isinstance(node, Function) and node.name == name
+    ]
+
+
+def _fitting(name: str, home: Scope, names: SymbolTable, count: int) -> list[Method]:
+    found = methods(name, home, names)
+    return [method for method in found if len(method[0].parameters) == count] or (
+        found if len(found) == 1 and home.module.language == "python" else []
+    )

@@ -1,0 +1,79 @@
+"""One Python file on its way from its ast to the common syntax."""
+
+import ast
+from collections.abc import Callable, Iterable
+from itertools import accumulate
+
+from grader.robotcode import ir
+
+BRANCHES = (ast.If, ast.While, ast.Try, ast.Match)
+SELF = frozenset({"self", "cls"})
+SIGNS: dict[type[ast.AST], str] = {
+    ast.Add: "+",
+    ast.Sub: "-",
+    ast.Mult: "*",
+    ast.Div: "/",
+    ast.FloorDiv: "//",
+    ast.Mod: "%",
+    ast.USub: "-",
+    ast.UAdd: "+",
+}
+
+
+class Lowering:
+    """One file on its way to the common syntax; leaves first, so that no depth can hurt."""
+
+    def __init__(self, source: bytes, makers: "dict[type[ast.AST], Maker]") -> None:
+        self.source = source
+        self.makers = makers
+        lines = self.source.split(b"\n")
+        self.begins = [0, *accumulate(len(line) + 1 for line in lines)]
+        self.done: dict[int, tuple[ir.Node, ...]] = {}
+        self.imports: list[ir.Import] = []
+
+    def lower(self, root: ast.Module) -> tuple[ir.Node, ...]:
+        """Lower a tree; an ast node may become no node, one or several."""
+        order: list[ast.AST] = [root]
+        for tree in order:
+            order.extend(ast.iter_child_nodes(tree))
+        for tree in reversed(order):
+            self.done[id(tree)] = self._made(tree)
+        return self.many(root.body)
+
+    def _made(self, tree: ast.AST) -> tuple[ir.Node, ...]:
+        make = self.makers.get(type(tree))
+        if make is not None:
+            return make(self, tree)
+        parts = self.many(ast.iter_child_nodes(tree))
+        if not isinstance(tree, ast.expr | ast.stmt):
+            return parts
+        if isinstance(tree, BRANCHES):
+            return (ir.Branch(self.place(tree), parts),)
+        return (ir.Opaque(self.place(tree), parts),)
+
+    def place(self, tree: ast.expr | ast.stmt | ast.arg) -> ir.Place:
+        """Where a tree stands in the file."""
+        start = self.begins[tree.lineno - 1] + tree.col_offset
+        end = self.begins[(tree.end_lineno or tree.lineno) - 1] + (tree.end_col_offset or 0)
+        return ir.Place(self.source, start, end, tree.lineno)
+
+    def many(self, trees: Iterable[ast.AST]) -> tuple[ir.Node, ...]:
+        """What some trees became."""
+        return tuple(node for tree in trees for node in self.done[id(tree)])
+
+    def one(self, tree: ast.expr | ast.stmt) -> ir.Node:
+        """What a tree became, as one node."""
+        made = self.done[id(tree)]
+        return made[0] if len(made) == 1 else ir.Opaque(self.place(tree), made)
+
+    def said(self, tree: ast.expr | None) -> str:
+        """The source text of a tree."""
+        return "" if tree is None else self.place(tree).text
+
+    def variables(self, target: ast.expr) -> tuple[str, ...]:
+        """The names that a loop fills; empty where it fills something else."""
+        several = target.elts if isinstance(target, ast.List | ast.Tuple) else [target]
+        return tuple(one.id if isinstance(one, ast.Name) else "" for one in several)
+
+
+Maker = Callable[..., tuple[ir.Node, ...]]  # each takes the one kind of node it stands beside

@@ -1,0 +1,259 @@
+"""What a name stands for: locals, fields, constants of other classes and of other files.
+
+By the languages' own rules where text can tell, and otherwise not at all.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from grader.robotcode.files import Files
+from grader.robotcode.ir import (
+    Assign,
+    Class,
+    Function,
+    Member,
+    Module,
+    Name,
+    Node,
+    Self,
+    iter_nodes,
+)
+from grader.robotcode.scope import Definition, Definitions, Scope, bindings, walk
+
+MOST_CLASSES = 12  # a class and those above it
+DEEPEST = 12  # files behind files, methods behind methods, on the way to one name
+LONGEST = 12  # names in a row: org.wpilib.robot.Constants.Drive.kRamp has six
+
+
+class SymbolTable:
+    """The names of one program.
+
+    What is looked up is kept, and counts as not found while it is being looked up: classes that
+    extend and files that import each other in a circle end there.
+
+    Args:
+        files: the file in hand and its neighbors.
+    """
+
+    def __init__(self, files: Files) -> None:
+        self.main = files.main
+        self.made: dict[Node, str] = {}  # by call: the class it makes
+        self._files = files
+        self._deep = 0
+        self._members: dict[Class | Module, tuple[Function | Class, ...]] = {}
+        self._bound: dict[Function | Module, dict[str, Definitions]] = {}
+        self._fields: dict[Class, dict[str, Definitions]] = {}
+        self._bases: dict[Class, tuple[Scope, ...]] = {}
+        self._tops: dict[tuple[Module, str], Definitions] = {}
+        self._classes: dict[tuple[Class | Module, str], Scope | None] = {}
+
+    @contextmanager
+    def one_deeper(self) -> Iterator[bool]:
+        """Count how deep a search has led, and tell whether it may go on."""
+        self._deep += 1
+        try:
+            yield self._deep <= DEEPEST
+        finally:
+            self._deep -= 1
+
+    def definitions(self, node: Node, scope: Scope) -> Definitions:
+        """Every place where a variable gets its value; none if it is not in these files."""
+        if isinstance(node, Name):
+            return self._variable(node.name, scope)
+        if isinstance(node, Member):
+            home = self.home(node.owner, scope)
+            return () if home is None else self._in_home(node.name, home)
+        return ()
+
+    def local(self, name: str, scope: Scope) -> Definitions:
+        """Where a variable of the functions around gets its value; none if it is not one."""
+        for count in range(len(scope.functions), 0, -1):
+            inner = Scope(scope.module, scope.classes, scope.functions[:count])
+            found = self._locals(inner).get(name)
+            if found:
+                return found
+        return ()
+
+    def field_name(self, node: Node, scope: Scope) -> str:
+        """The name of the field of this object that a node is; empty if it is none."""
+        if isinstance(node, Member) and isinstance(node.owner, Self):
+            return node.name
+        if isinstance(node, Name) and scope.module.language == "java" and scope.classes:
+            return "" if self.local(node.name, scope) else node.name
+        return ""
+
+    def fields(self, home: Scope) -> dict[str, Definitions]:
+        """The fields of a class, by every value they get anywhere in it."""
+        owner = home.classes[-1]
+        if owner not in self._fields:
+            found = {name: list(several) for name, several in bindings(owner.body, home).items()}
+            for name, definition in self._set_in_methods(home):
+                found.setdefault(name, []).append(definition)
+            self._fields[owner] = {name: tuple(several) for name, several in found.items()}
+        return self._fields[owner]
+
+    def lineage(self, home: Scope) -> list[Scope]:
+        """A class and those above it, as far as these files hold them."""
+        found = [home]
+        for place in found:
+            found += [base for base in self._above(place) if base not in found]
+            if len(found) >= MOST_CLASSES:
+                break
+        return found[:MOST_CLASSES]
+
+    def members(self, home: Scope) -> tuple[Function | Class, ...]:
+        """The methods and classes directly in a class, or in a file."""
+        owner: Class | Module = home.classes[-1] if home.classes else home.module
+        if owner not in self._members:
+            self._members[owner] = tuple(
+                node
+                for node in iter_nodes(*owner.body, but=(Function, Class))
+                if isinstance(node, Function | Class)
+            )
+        return self._members[owner]
+
+    def home(self, node: Node, scope: Scope) -> Scope | None:
+        """The class or file a node names: ``this``, ``Constants.Drive``, ``constants``."""
+        path: list[str] = []
+        while isinstance(node, Member) and len(path) < LONGEST:
+            path.insert(0, node.name)
+            node = node.owner
+        if isinstance(node, Self):
+            return self._descend(path, scope.home if scope.classes else None)
+        if not isinstance(node, Name):
+            return None
+        if self.local(node.name, scope):
+            return self._descend(path, self._other_name(node.name, scope))
+        if node.name == "super":
+            return next(iter(self.lineage(scope.home)[1:]), None) if scope.classes else None
+        start = self.named(node.name, scope)
+        if start is None and scope.module.language == "java":  # a name with its package in front
+            return self._found(".".join((node.name, *path)), scope.module)
+        return self._descend(path, start or self._other_name(node.name, scope))
+
+    def _other_name(self, name: str, scope: Scope) -> Scope | None:
+        """The class that a variable of Python is another name for: ``C = constants.Drive``."""
+        valued = [one for one in self._variable(name, scope) if one.value is not None]
+        if scope.module.language == "java" or len(valued) != 1:
+            return None
+        value = valued[0].value
+        if not isinstance(value, Name | Member) or not value.name[:1].isupper():
+            return None
+        with self.one_deeper() as allowed:
+            return self.home(value, valued[0].scope) if allowed else None
+
+    def named(self, name: str, scope: Scope) -> Scope | None:
+        """The class or file of a bare name, as seen from a scope."""
+        for count in range(len(scope.classes), 0, -1):
+            around = Scope(scope.module, scope.classes[:count])
+            found = around if around.classes[-1].name == name else self._nested(name, around)
+            if found is not None:
+                return found
+        found = self._nested(name, Scope(scope.module))
+        if found is None and scope.module.language == "java":
+            return self._found(name, scope.module)
+        return found
+
+    def _above(self, home: Scope) -> tuple[Scope, ...]:
+        owner = home.classes[-1]
+        if owner not in self._bases:
+            self._bases[owner] = ()
+            around = Scope(home.module, home.classes[:-1])
+            found = (self.named(base, around) for base in owner.bases[:MOST_CLASSES])
+            self._bases[owner] = tuple(base for base in found if base and base.classes)
+        return self._bases[owner]
+
+    def _variable(self, name: str, scope: Scope) -> Definitions:
+        found = self.local(name, scope)
+        least = 0
+        if scope.module.language == "python":  # a method sees no field without self, a class does
+            least = len(scope.classes) - (not scope.functions)
+        for count in range(len(scope.classes), least, -1):
+            found = found or self._in_home(name, Scope(scope.module, scope.classes[:count]))
+        return found or self._in_home(name, Scope(scope.module))
+
+    def _locals(self, scope: Scope) -> dict[str, Definitions]:
+        """The variables of the innermost function, its parameters among them."""
+        function = scope.functions[-1]
+        if function not in self._bound:
+            found = bindings(function.body, scope)
+            for parameter in function.parameters:
+                given = Definition(parameter, scope, parameter.type)
+                found[parameter.name] = (given, *found.get(parameter.name, ()))
+            self._bound[function] = found
+        return self._bound[function]
+
+    def _in_home(self, name: str, home: Scope) -> Definitions:
+        """A field of a class or of those above it, or a name at the top of a file."""
+        if home.classes:
+            return _first(self.fields(place).get(name, ()) for place in self.lineage(home))
+        module = home.module
+        if module not in self._bound:
+            self._bound[module] = bindings(module.body, home)
+        if (module, name) not in self._tops:
+            self._tops[module, name] = ()
+            here = self._bound[module].get(name, ())
+            self._tops[module, name] = here or _first(self._brought(name, module))
+        return self._tops[module, name]
+
+    def _brought(self, name: str, module: Module) -> Iterator[Definitions]:
+        """A constant that an import brings into a file."""
+        for path, level in _imports_of(name, module):
+            owner = self._found(path.rpartition(".")[0], module, level=level)
+            if owner is None or owner.module is module:
+                continue
+            with self.one_deeper() as allowed:
+                found = self._in_home(path.rpartition(".")[2], owner) if allowed else ()
+            yield found
+
+    def _set_in_methods(self, home: Scope) -> Iterator[tuple[str, Definition]]:
+        methods = tuple(node for node in self.members(home) if isinstance(node, Function))
+        for node, scope in walk(methods, home):
+            if isinstance(node, Assign) and not node.declares and scope.classes == home.classes:
+                name = self.field_name(node.target, scope)
+                if name:
+                    yield name, Definition(node.value, scope, node.type)
+
+    def _nested(self, name: str, home: Scope) -> Scope | None:
+        """A class in a class or file, in a class above it, or brought into the file."""
+        key = (home.classes[-1] if home.classes else home.module, name)
+        if key not in self._classes:
+            self._classes[key] = None
+            places = self.lineage(home) if home.classes else [home]
+            here = next(filter(None, (self._class_in(place, name) for place in places)), None)
+            paths = () if home.classes or here else _imports_of(name, home.module)
+            brought = (self._found(path, home.module, level=level) for path, level in paths)
+            self._classes[key] = here or next(filter(None, brought), None)
+        return self._classes[key]
+
+    def _class_in(self, home: Scope, name: str) -> Scope | None:
+        for node in self.members(home):
+            if isinstance(node, Class) and node.name == name:
+                return Scope(home.module, (*home.classes, node))
+        return None
+
+    def _found(self, path: str, module: Module, *, level: int = 0) -> Scope | None:
+        """The class or file of a dotted name in another file."""
+        found = self._files.find(path, level=level, seen_from=module)
+        if found is None or (found[0] is module and not found[1]):
+            return None
+        with self.one_deeper() as allowed:
+            return self._descend(list(found[1]), Scope(found[0])) if allowed else None
+
+    def _descend(self, path: list[str], home: Scope | None) -> Scope | None:
+        for name in path:
+            home = None if home is None else self._nested(name, home)
+        return home
+
+
+def _first(several: Iterator[Definitions]) -> Definitions:
+    return next(filter(None, several), ())
+
+
+def _imports_of(name: str, module: Module) -> Iterator[tuple[str, int]]:
+    """The dotted names, and their leading dots, that a name may have come from."""
+    for one in module.imports:
+        if one.name == name:
+            yield one.path, one.level
+        elif one.name == "*":
+            yield f"{one.path}.{name}".lstrip("."), one.level

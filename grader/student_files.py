@@ -1,0 +1,117 @@
+"""What a learner is given to work on, written where it is not there as it was made."""
+
+import hashlib
+import json
+import os
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from grader.class_package import ClassPackage, read_class_package
+from grader.draw_cache import cache_path, write_draw
+from grader.variant import folder_name
+from sim.errors import BadRequest
+from sim.work.cache import read_cached
+
+if TYPE_CHECKING:
+    from sim.log import Log
+
+Made = str | bytes | Callable[[Path], None]
+
+
+def format_log(log: "Log") -> Made:
+    """A log as a file, in the format that the file's name asks for."""
+
+    def write_to(path: Path) -> None:
+        from sim.formats import write  # noqa: PLC0415 - not where the file is there already
+
+        write(log, path)
+
+    return write_to
+
+
+def write_student_files(
+    files: Mapping[str, Made],
+    *,
+    exercise: Path,
+    student: str,
+    what: str,
+    say: Callable[[str], None],
+) -> None:
+    """Write a learner's own files into ``data/<student>`` of an exercise.
+
+    Files that are there as they were made stay untouched; others are made anew, and it is said.
+    What a class issued is never made here: only its instructor can draw it.
+
+    Args:
+        files: name -> its text, its bytes, or what writes it to a path.
+        exercise: the exercise's folder.
+        student: for whom.
+        what: what the files are to the learner: ``numbers``, ``log``.
+        say: shows a line.
+
+    Raises:
+        BadRequest: they cannot be written, or a class issued them and they are gone.
+    """
+    folder = exercise / "data" / folder_name(student)
+    of_class = read_class_package(exercise.parents[1])
+    if of_class and of_class.is_for(student):
+        _whole(files, folder, of_class)
+        return
+    place = (folder / next(iter(files))).relative_to(exercise.parents[1]).as_posix()
+    there = any((folder / name).is_file() for name in files)
+    known = cache_path(exercise, student, "files")
+    if known is not None and read_cached(known) == _seals(folder, files):
+        return
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        news = [_put(made, folder / name) for name, made in files.items()]
+        if known is not None:
+            write_draw(known, _seals(folder, files))
+    except OSError as error:
+        raise BadRequest(
+            f"your {what} cannot be written: {error.strerror}",
+            where=str(folder),
+            advice="Make room there, or allow writing.",
+        ) from error
+    number = exercise.name.removeprefix("exercise")
+    if any(news) and there:
+        was = "were" if what.endswith("s") else "was"
+        say(f"Your {what} {was} no longer as made; written anew: {place}")
+    elif any(news):
+        say(f"Your own {what} for exercise {number}: {place}")
+
+
+def _whole(files: Mapping[str, Made], folder: Path, of_class: ClassPackage) -> None:
+    for name in files:
+        if not (folder / name).is_file():
+            raise BadRequest(
+                f"{name} is missing, and only {of_class.name} can make it",
+                where=str(folder),
+                advice="Unpack your class's zip file once more.",
+            )
+
+
+def _seals(folder: Path, names: Iterable[str]) -> bytes:
+    """What tells whether any of these files was changed."""
+    found = {}
+    for name in names:
+        content = read_cached(folder / name)
+        found[name] = "" if content is None else hashlib.sha256(content).hexdigest()
+    return json.dumps(found, sort_keys=True).encode()
+
+
+def _put(made: Made, path: Path) -> bool:
+    """Write one file; whether it is new, or was not as it was made."""
+    part = path.with_name(f"{os.getpid()}.part{path.suffix}")
+    try:
+        if callable(made):
+            made(part)
+        else:
+            part.write_bytes(made.encode() if isinstance(made, str) else made)
+        if path.is_file() and path.read_bytes() == part.read_bytes():
+            return False
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)  # it is there where nothing was to be replaced, or it failed
+    return True

@@ -1,0 +1,304 @@
+"""What is right and what is wrong about a SysIdRoutine's wiring, in words for the learner.
+
+Every function looks at facts read from robot code, and raises Wrong where they are wrong, or
+where they cannot be told by reading: then it asks, and never guesses.
+"""
+
+import math
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from grader.check import NotReached, Wrong
+from grader.robotcode.facts import (
+    Certainty,
+    DriveCall,
+    LoggedSignal,
+    Output,
+    Problem,
+    Quantity,
+    RoutineFacts,
+    Source,
+)
+
+LINEAR = ("drive", "chassis", "swerve", "tank", "elevator", "lift", "climb", "telescop", "slide")
+ANGULAR = ("arm", "shooter", "flywheel", "turret", "intake", "wrist", "pivot", "hood", "roller")
+LENGTHS = ("meter", "inch", "feet", "foot", "radian", "degree", "rotation", "turn", "revolution")
+SAME_LENGTH = {"feet": "foot", "turn": "rotation", "revolution": "rotation"}
+
+# What makes a share of the battery of a voltage.
+BATTERY = re.compile(r"/ ?1[0-3](\.\d*)?\b|\.(div|divide)\(|attery", re.IGNORECASE)
+
+Advice = Callable[[float], tuple[str, str]]
+
+
+def no_advice(_value: float) -> tuple[str, str]:
+    """For a number that goes wrong in no way worth a name."""
+    return "", ""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A number of the Config, as an exercise asks for it.
+
+    Args:
+        name: in words: ``step voltage``.
+        value: in SI.
+        unit: its symbol.
+        dimension: as in ``Quantity.dimension``.
+        default: WPILib's own value.
+        java, python: how to write it.
+    """
+
+    name: str
+    value: float
+    unit: str
+    dimension: str
+    default: float
+    java: str
+    python: str
+
+    def compare(
+        self, facts: RoutineFacts, got: Quantity, *, advice: Advice = no_advice
+    ) -> str | None:
+        """Compare with what the code says.
+
+        Args:
+            facts: the code.
+            got: the number in question.
+            advice: a wrong value -> a sentence about it and the misconception behind it, or empty.
+
+        Returns:
+            A note where the number is right by default only.
+
+        Raises:
+            Wrong: it is another number, or no such quantity, or cannot be told.
+            NotReached: there is no Config.
+        """
+        if facts.config_argument < 0:
+            raise NotReached("looked at once the SysIdRoutine gets a Config")
+        if got.text == "None":
+            raise Wrong(
+                f"None for the {self.name}",
+                hint="In Java null means WPILib's default. RobotPy stops with a TypeError when the "
+                f"test begins. This exercise asks for {self._asked(facts)}.",
+            )
+        if got.known is Certainty.UNKNOWN:
+            hint = "Write it as a number, or as a named constant in this folder."
+            raise Wrong(cannot_tell(f"the {self.name}", got.text), hint=hint)
+        value = self.default if got.value is None else got.value
+        right = math.isclose(value, self.value, rel_tol=1e-9)
+        if got.known is Certainty.DEFAULT:
+            seen = f"left to WPILib's default, {value:g} {self.unit}"
+            if right:
+                return f"This is {seen}. Write it down all the same: a default may change."
+        else:
+            self._check_dimension(got, facts)
+            seen = f"{quote_code(got)}: {value:g} {self.unit}"
+        if right:
+            return None
+        said, misconception = advice(value)
+        if value == 0 and "/" in got.text:
+            said = "Whole numbers divide to a whole number in Java: 1 / 2 is 0."
+        hint = f"{said} This exercise asks for {self._asked(facts)}.".strip()
+        raise Wrong(seen, hint=hint, misconception=misconception)
+
+    def _asked(self, facts: RoutineFacts) -> str:
+        example = self.python if facts.language == "python" else self.java
+        return f"{self.value:g} {self.unit}: {example}"
+
+    def _check_dimension(self, got: Quantity, facts: RoutineFacts) -> None:
+        plain = got.dimension == "number" and facts.language == "python"
+        if got.dimension == self.dimension or plain:
+            return
+        raise Wrong(
+            f"{quote_code(got)}, which is not in {self.unit}",
+            hint=f"The {self.name} is in {self.unit}. Here it is {self._asked(facts)}.",
+            misconception="M-UNITS",
+        )
+
+
+def check_driven(motor: str, calls: Sequence[DriveCall]) -> None:
+    """Whether a motor gets the test's voltage.
+
+    Args:
+        motor: its name in the code.
+        calls: every command in the drive callback.
+
+    Raises:
+        Wrong: it does not; with why.
+    """
+    mine = [call for call in calls if call.motor == motor]
+    if not mine:
+        hint = "Drive every motor: the others carry one that is left out, and kS and kA come out "
+        hint += "too large."
+        raise Wrong(f"{motor} gets no voltage", hint=hint)
+    for call in mine:
+        hint, misconception = "setVoltage() takes the volts as they come.", ""
+        if call.output is Output.VOLTAGE and call.uses_parameter and call.scaled is False:
+            continue
+        if call.output is Output.DUTY or BATTERY.search(call.text):
+            misconception = "M-DUTY"
+        elif call.output is Output.CLOSED_LOOP:
+            misconception = "M-CLOSEDLOOP"
+        elif call.output is Output.UNKNOWN or call.uses_parameter is None or call.scaled is None:
+            raise Wrong(
+                cannot_tell(f"what {motor} gets", quote_code(call)), hint="Call setVoltage()."
+            )
+        elif not call.uses_parameter:
+            hint = "That is the same whatever the test asks for. Send the callback's own voltage."
+        else:
+            hint = f"The voltage is changed on its way. {hint}"
+        raise Wrong(quote_code(call), hint=hint, misconception=misconception)
+
+
+def check_open_loop(call: DriveCall) -> None:
+    """Whether a command leaves the voltage to the test.
+
+    Raises:
+        Wrong: it is a closed loop or a share of the battery, or it cannot be told.
+    """
+    if call.output is Output.DUTY:
+        hint = "A test asks for volts and should get volts: setVoltage(voltage), undivided."
+        raise Wrong(quote_code(call), hint=hint, misconception="M-DUTY")
+    if call.output is Output.CLOSED_LOOP:
+        hint = "Send the voltage as it comes, and leave every controller out of the test."
+        raise Wrong(quote_code(call), hint=hint, misconception="M-CLOSEDLOOP")
+    if call.output is Output.UNKNOWN:
+        raise Wrong(
+            cannot_tell("what this does", quote_code(call)), hint="Call setVoltage(voltage)."
+        )
+
+
+def check_recorded(motor: str, signals: Sequence[LoggedSignal], *, points: float) -> None:
+    """Whether everything a fit needs of one motor is recorded.
+
+    Args:
+        motor: its name in the log; empty if it cannot be told.
+        signals: what is recorded of it.
+        points: for everything; half of it is the voltage's, the rest is shared evenly.
+
+    Raises:
+        Wrong: something is missing, or the voltage is the one that was asked for.
+    """
+    there = {one.signal: one for one in signals}
+    lacking = [name for name in ("voltage", "position", "velocity") if name not in there]
+    of = f" of {motor}" if motor else ""
+    earned = points * (1.0 - (not motor) / 6 - sum(_SHARE[name] for name in lacking))
+    voltage = there.get("voltage")
+    if voltage and voltage.source is Source.COMMANDED:
+        raise Wrong(
+            f"{quote_code(voltage)}: the voltage that was asked for",
+            hint="Log what the motor put out: getMotorVoltage(), getAppliedOutput() times the bus "
+            "voltage, or in Python getVoltage().",
+            misconception="M-CMDVOLT",
+            earned=earned - points * _SHARE["voltage"],
+        )
+    if lacking:
+        hint = "A fit needs all three of every motor: voltage, position and velocity."
+        raise Wrong(f"no {' and no '.join(lacking)}{of}", hint=hint, earned=earned)
+    if voltage and voltage.source is Source.UNKNOWN:
+        raise Wrong(
+            cannot_tell(f"where the voltage{of} comes from", quote_code(voltage)),
+            hint="Ask the motor itself for it, in the log callback.",
+            earned=earned - points * _SHARE["voltage"],
+        )
+    if not motor:
+        hint = 'Write it where you log it: log.motor("left").'
+        raise Wrong(
+            cannot_tell("the motor's name", quote_code(signals[0])), hint=hint, earned=earned
+        )
+
+
+_SHARE = {"voltage": 1 / 2, "position": 1 / 6, "velocity": 1 / 6}
+
+
+def check_units(signals: Sequence[LoggedSignal], *, mechanism: str) -> None:
+    """Whether positions and velocities are in units that fit each other and the mechanism.
+
+    Args:
+        signals: the positions and velocities that are recorded.
+        mechanism: the class's name, which may tell how it moves.
+
+    Raises:
+        Wrong: they do not, or no unit can be told.
+    """
+    seen = ", ".join(f"{s.signal} {_kind(s)} (line {s.line})" for s in signals)
+    families = {one.family for one in signals if one.family}
+    if not families:
+        raise Wrong(cannot_tell("the units", seen), hint="Name the unit where you log the value.")
+    lengths = {_length(one.unit) for one in signals if one.unit}
+    wanted = motion_family(mechanism)
+    hint = ""
+    if len(families) > 1:
+        hint = "Some of these go along a line and others turn. Choose one kind for all."
+    elif len(lengths) > 1:
+        hint = "Choose one unit for the position, and the same per second for the velocity."
+    elif wanted and families != {wanted}:
+        unit = "Meters" if wanted == "linear" else "Rotations or Radians"
+        hint = f"{mechanism} sounds like something that moves in {unit}. Log it so."
+    if hint:
+        raise Wrong(seen, hint=hint, misconception="M-UNITS")
+
+
+def _kind(signal: LoggedSignal) -> str:
+    """The unit of a value, or where none is written, what kind of unit it has."""
+    kinds = {"linear": "along a line", "angular": "as an angle"}
+    return f"in {signal.unit}" if signal.unit else kinds.get(signal.family, "in an unknown unit")
+
+
+def _length(unit: str) -> str:
+    """The length or angle in a unit's name: ``rotation`` of RotationsPerSecond."""
+    name = unit.lower()
+    if name == "rpm" or "minute" in name:
+        return "rotation per minute"
+    found = next((length for length in LENGTHS if length in name), name)
+    return SAME_LENGTH.get(found, found)
+
+
+def motion_family(name: str) -> str:
+    """How a mechanism of this name moves, ``linear`` or ``angular``; empty if it does not tell."""
+    words = [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)]
+    linear = any(word.startswith(LINEAR) for word in words)
+    angular = any(word.startswith(ANGULAR) for word in words)
+    if linear == angular:
+        return ""
+    return "linear" if linear else "angular"
+
+
+def check_compiles(errors: Sequence[Problem], *, language: str, earned: float = 0.0) -> None:
+    """Whether reading finds nothing that a compiler, or Python itself, would stop at.
+
+    Args:
+        errors: what it found.
+        language: ``java`` or ``python``.
+        earned: points all the same.
+
+    Raises:
+        Wrong: it found something.
+    """
+    for one in errors:
+        stops = "the code does not compile" if language == "java" else "Python stops with an error"
+        more = f" There are {len(errors)} such lines." if len(errors) > 1 else ""
+        raise Wrong(
+            f"line {one.line}: {one.message}",
+            hint=f"Like this {stops}, and the robot runs none of it. Mend the name, its import or "
+            f"its type.{more}",
+            earned=earned,
+        )
+
+
+READ = {  # what is said of code that nobody compiled
+    "java": "Read, not compiled: build it once with WPILib before you trust it.",
+    "python": "Read, not compiled, not run: RobotPy is not installed here.",
+}
+
+
+def quote_code(what: Quantity | DriveCall | LoggedSignal) -> str:
+    """The code in question and its line."""
+    return f"{what.text} in line {what.line}"
+
+
+def cannot_tell(what: str, text: str) -> str:
+    """A question instead of a guess."""
+    return f"I cannot tell {what} by reading{f' {text}' if text else ''}"

@@ -1,0 +1,158 @@
+"""Slips: mistakes that leave a fingerprint in a wrong number, such as a factor of 2π.
+
+A slip is a suspect when undoing it brings the number into the band for full marks. One suspect is
+named, two or three are named side by side, and more say nothing.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+MANY = 3  # more suspects than this tell the learner nothing
+NOTICED = 1.2  # a gear ratio nearer to 1 would explain any number that is a little off
+ALIKE = 0.02  # [share] how near a number has to be to what a wrong recipe gives on the same log
+
+
+@dataclass(frozen=True)
+class WrongNumber:
+    """One way to get a wrong number.
+
+    Args:
+        code: a short name; the same slip in two numbers has the same code.
+        says: what it may have been, for the learner.
+        misconception: its code, or empty.
+    """
+
+    code: str
+    says: str
+    misconception: str = ""
+
+
+@dataclass(frozen=True)
+class Lookalike:
+    """What a wrong recipe gives on the learner's own log."""
+
+    value: float
+    slip: WrongNumber
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What is known about the mechanism and the tests, to recognize slips by.
+
+    Args:
+        angular: whether the mechanism turns instead of going along.
+        ratio: turns of the motor for one of the mechanism.
+        motors: how many motors drive it.
+        ramp: [V/s] of the quasistatic test.
+        period: [s] between two samples; 0 if there are none.
+        lookalikes: gain -> what wrong recipes give for it, in the unit asked for.
+    """
+
+    angular: bool = False
+    ratio: float = 1.0
+    motors: int = 1
+    ramp: float = 0.0
+    period: float = 0.0
+    lookalikes: Mapping[str, tuple[Lookalike, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class _Factor:
+    number: float
+    slip: WrongNumber
+
+
+def explain_wrong_number(
+    name: str,
+    value: float,
+    *,
+    right: Callable[[float], bool],
+    key: Mapping[str, float],
+    scene: Scene,
+) -> tuple[WrongNumber, ...]:
+    """The slips that would explain a wrong number.
+
+    Args:
+        name: the gain: ``kV``.
+        value: what was given, in the unit asked for.
+        right: whether a value of this gain would earn full marks.
+        key: gain -> its value in the unit asked for.
+        scene: the mechanism and its tests.
+    """
+    found = list(_factors_off(name, value, right=right, scene=scene))
+    if name == "kS" and {"kV", "kA"} <= key.keys():
+        excess = key["kA"] / key["kV"] * scene.ramp
+        if excess > 0 and right(value - excess):
+            found.append(_INTERCEPT)
+    for likely in scene.lookalikes.get(name, ()):
+        if abs(value - likely.value) <= ALIKE * abs(likely.value) and likely.slip not in found:
+            found.append(likely.slip)
+    return tuple(found)
+
+
+_INTERCEPT = WrongNumber(
+    "intercept",
+    "a little too large, by about what a ramp's own acceleration costs. Did you take kS where the "
+    "line through the quasistatic runs crosses v = 0?",
+    "M-KS-INTERCEPT",
+)
+
+
+def _factors_off(
+    name: str, value: float, *, right: Callable[[float], bool], scene: Scene
+) -> Iterator[WrongNumber]:
+    if right(-value):
+        yield WrongNumber(
+            "sign",
+            "the size is right, the sign is not. Positive volts have to give a positive velocity: "
+            "is one of the two columns turned around?",
+        )
+    factors = [*_factors(scene, velocity=name in {"kV", "kA"})]
+    if name == "kA" and scene.period:
+        says = (
+            f"samples are {scene.period:g} s apart. Did you divide the change of velocity by that?"
+        )
+        factors.append(_Factor(1.0 / scene.period, WrongNumber("period", says)))
+    for factor in factors:
+        for times, way in ((factor.number, "small"), (1.0 / factor.number, "large")):
+            if right(value * times):
+                says = f"about {factor.number:.3g} times too {way}: {factor.slip.says}"
+                yield WrongNumber(factor.slip.code, says, factor.slip.misconception)
+
+
+def _factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
+    """The factors a gain may be off by; kS and kG have no velocity in their unit."""
+    duty = "12 V is a full battery. Did you use an output between -1 and 1 in place of volts?"
+    yield _Factor(12.0, WrongNumber("duty", duty, "M-DUTY"))
+    if not velocity:
+        yield _Factor(
+            1000.0, WrongNumber("milli", "1 V is 1000 mV. Are these millivolts?", "M-UNITS")
+        )
+        return
+    yield from _unit_factors(scene)
+    gears = max(scene.ratio, 1.0 / scene.ratio)
+    if gears > NOTICED:
+        says = f"{gears:.3g} is the gear ratio. Is this the motor's velocity, not the mechanism's?"
+        yield _Factor(gears, WrongNumber("gear", says, "M-UNITS"))
+    says = "2 lies between a diameter and a radius. Did you take one for the other?"
+    yield _Factor(2.0, WrongNumber("radius", says, "M-UNITS"))
+    if scene.motors > 1:
+        says = f"there are {scene.motors} motors. Did you add up or divide something over them?"
+        yield _Factor(float(scene.motors), WrongNumber("motors", says))
+
+
+def _unit_factors(scene: Scene) -> Iterator[_Factor]:
+    angular = (
+        (2.0 * math.pi, "turns", "2π = 6.28. Were radians and rotations taken for each other?"),
+        (180.0 / math.pi, "degrees", "57.3 = 180/π. Were degrees and radians mixed up?"),
+        (60.0, "minutes", "60 seconds are a minute. Is your velocity in rpm, per minute?"),
+    )
+    turning = ((360.0, "circle", "a rotation is 360°. Is your velocity in degrees per second?"),)
+    going = (
+        (1.0 / 0.3048, "feet", "a meter is 3.28 feet. Is your velocity in feet per second?"),
+        (1.0 / 0.0254, "inches", "a meter is 39.4 inches. Is your velocity in inches per second?"),
+        (100.0, "centi", "a meter is 100 cm. Is your velocity in centimeters per second?"),
+    )
+    for number, code, says in angular + (turning if scene.angular else going):
+        yield _Factor(number, WrongNumber(code, says, "M-UNITS"))

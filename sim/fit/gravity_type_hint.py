@@ -1,0 +1,51 @@
+"""Whether a log that was read as of type simple is plainly of another."""
+
+from dataclasses import replace
+
+from sim.errors import NotIdentifiable
+from sim.fit.initial_guess import clamp_to_physical, orient_forward
+from sim.fit.likelihood import PredictionErrorProblem
+from sim.fit.measurements import measure_runs
+from sim.fit.open_loop_fallback import OpenLoopReplay, replay_open_loop
+from sim.fit.optimize import fit_tracking
+from sim.log import Log
+from sim.units import unit
+
+PLAINLY = 0.33  # [1] of what a simple model strays, that another may
+ACTS = {
+    "elevator": "something pushes it one way wherever it is",
+    "arm": "something pushes it by its angle",
+}
+
+
+def hint_gravity_type(log: Log, problem: PredictionErrorProblem, followed: OpenLoopReplay) -> str:
+    """What to say where gravity would explain most of what a simple model leaves.
+
+    Args:
+        log: any runs.
+        problem: of type simple.
+        followed: how closely its best point follows.
+
+    Returns:
+        A sentence that names the type to try; empty if there is none.
+    """
+    if problem.type != "simple" or not followed.strays:
+        return ""
+    angular = unit(log.units).angular
+    left = {name: _left(log, problem, name) for name in ACTS if angular or name != "arm"}
+    best = min(left, key=lambda name: left[name])
+    if not left[best] < PLAINLY * followed.rmse:
+        return ""
+    return f"Fit it as of --type {best} if gravity acts on it: {ACTS[best]}."
+
+
+def _left(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word
+    """[unit/s] by which a quick fit as of another type strays."""
+    try:
+        log, guess, _ = orient_forward(log, type=type)  # weight may hide which way is forward
+    except NotIdentifiable:
+        return float("inf")
+    guess = clamp_to_physical(guess, period=problem.period)
+    # with gravity it may lean on a stop, which no model has
+    other = replace(problem, type=type, seen=measure_runs(log, friction=guess["kS"]))
+    return replay_open_loop(other, fit_tracking(other, guess)).rmse

@@ -1,0 +1,100 @@
+"""Gains that a log cannot tell: said by name, with the test that would."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from sim.errors import NotIdentifiable
+from sim.fit.measurements import RunMeasurements
+from sim.fit.open_loop_fallback import OpenLoopReplay
+from sim.log import Log
+
+TELLS = 0.08  # [share of a gain] of a larger standard error, three are a quarter: no answer
+FOLLOWS = 0.5  # [share of the velocity's variance] a simulation of less is of something else
+REBOUND = 0.02  # [share of what moves] that a stop throws back
+LEAST = {
+    "kS": 0.35,
+    "kG": 0.2,
+}  # [V] an error smaller than this is no matter, however small the gain
+SETTLES = {
+    "kS": "Add the other direction, and a slow ramp that begins at rest.",
+    "kV": "Let it run longer at a steady speed: a quasistatic test.",
+    "kA": "Add a dynamic test: only a change of speed shows inertia.",
+    "kG": "Add the other direction: weight helps one way and hinders the other.",
+}
+TOGETHER = "Add the other direction: up they act together, down against each other."
+
+
+def moves_both_ways(seen: Sequence[RunMeasurements]) -> bool:
+    """Whether what moves does so in both directions, and not only as it rebounds from a stop."""
+    speeds = np.concatenate([run.measured[run.moving, 1] for run in seen])
+    up, down = int(np.count_nonzero(speeds > 0.0)), int(np.count_nonzero(speeds < 0.0))
+    return min(up, down) >= REBOUND * (up + down)
+
+
+def refuse_unidentifiable(
+    gains: Mapping[str, float],
+    errors: Mapping[str, float],
+    *,
+    log: Log,
+    type: str,  # noqa: A002 - the field's own word
+    hint: str = "",
+) -> None:
+    """Refuse gains that the log leaves unknown.
+
+    Args:
+        gains: name -> value.
+        errors: one standard error of each.
+        log: where they come from.
+        type: ``simple``, ``elevator`` or ``arm``.
+        hint: better advice than another test, if there is one.
+
+    Raises:
+        NotIdentifiable: naming the gains and the test that would settle them.
+    """
+    unknown = [
+        name
+        for name in SETTLES
+        if name in gains and not errors[name] <= max(TELLS * abs(gains[name]), LEAST.get(name, 0.0))
+    ]
+    if not unknown:
+        return
+    each = [
+        f"{name} (± {errors[name]:.2g})" if math.isfinite(errors[name]) else name
+        for name in unknown
+    ]
+    said = " and ".join(filter(None, [", ".join(each[:-1]), each[-1]]))
+    pair = {"kS", "kG"} <= set(unknown) and type != "simple"
+    raise NotIdentifiable(
+        f"this log cannot tell {said}",
+        where=log.source,
+        advice=hint or (TOGETHER if pair else SETTLES[unknown[-1]]),
+    )
+
+
+def refuse_unrelated(followed: OpenLoopReplay, *, log: Log, hint: str = "") -> None:
+    """Refuse gains whose simulation has little to do with the log.
+
+    Args:
+        followed: how it follows.
+        log: where they come from.
+        hint: better advice than to inspect it, if there is one.
+
+    Raises:
+        NotIdentifiable: the model lacks what matters most.
+    """
+    if followed.r2 >= FOLLOWS:
+        return
+    raise NotIdentifiable(
+        f"no gains follow this log: the closest simulation leaves it by {_size(followed.rmse)} "
+        f"where its top speed is {_size(followed.top)}",
+        where=log.source,
+        advice=hint
+        or "Inspect the log for damage, check its type and units, then ask `sysid reconcile` "
+        "what is missing.",
+    )
+
+
+def _size(error: float) -> str:
+    return f"{error:.2g}" if math.isfinite(error) else "any amount"

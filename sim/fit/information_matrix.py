@@ -1,0 +1,100 @@
+"""What the rows of a log can tell of each gain, before anything is fitted to them.
+
+Each row is one equation, V = kS·sgn(v) + kV·v + kA·a (+ kG·…): what stands beside a gain is its
+column. With X the columns and σ the noise of a row in volts, XᵀX/σ² is what the rows tell of all
+gains together, and its inverse holds the squares of their standard errors. A column that the others
+make up leaves no inverse: that gain is unknown, however many rows there are.
+
+Feed it rows without noise, from the bench: noise in an acceleration looks like acceleration.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.errors import BadRequest
+from sim.log import Array
+from sim.sysid_rows import Rows
+from sim.vocabulary import TYPES
+
+NOTHING = 1e-12  # share of the best known combination; below it, the digits are rounding errors
+TAKES_PART = 1e-5  # share of a gain in an unknown combination; below it, the gain is known
+
+
+@dataclass(frozen=True, eq=False)
+class InformationMatrix:
+    """What rows tell of gains.
+
+    Args:
+        names: of the gains.
+        information: (gains, gains), XᵀX/σ² [1/unit² of the gains].
+    """
+
+    names: tuple[str, ...]
+    information: Array
+
+    @property
+    def errors(self) -> dict[str, float]:
+        """One standard error of each gain; infinite where the rows say nothing of it."""
+        size = np.sqrt(np.diag(self.information))
+        scale = np.where(size > 0.0, size, 1.0)
+        values, vectors = np.linalg.eigh(self.information / np.outer(scale, scale))
+        told = values > NOTHING * max(float(values[-1]), 1e-300)
+        squares = (vectors[:, told] ** 2 / values[told]).sum(axis=1)
+        lost = (np.abs(vectors[:, ~told]) > TAKES_PART).any(axis=1)
+        return {
+            name: math.inf if gone else math.sqrt(float(square)) / float(one)
+            for name, gone, square, one in zip(self.names, lost, squares, scale, strict=True)
+        }
+
+    def about(self, first: str, second: str) -> Array:
+        """(2, 2) what the rows tell of two gains, the others being unknown, too.
+
+        Raises:
+            BadRequest: no such gain.
+        """
+        for name in (first, second):
+            if name not in self.names:
+                raise BadRequest(
+                    f"no gain {name!r}", advice=f"Choose from: {', '.join(self.names)}."
+                )
+        two = [self.names.index(first), self.names.index(second)]
+        rest = [place for place in range(len(self.names)) if place not in two]
+        mine, mixed = self.information[np.ix_(two, two)], self.information[np.ix_(two, rest)]
+        others = np.linalg.pinv(self.information[np.ix_(rest, rest)], rcond=1e-12, hermitian=True)
+        return np.asarray(mine - mixed @ others @ mixed.T)
+
+
+def information_matrix(rows: Mapping[str, Rows], *, type: str, noise: float) -> InformationMatrix:  # noqa: A002 - the field's word
+    """What rows tell of kS, kV, kA, and of kG where there is gravity.
+
+    Args:
+        rows: test -> its rows, such as ``sim.sysid_rows`` leaves; any tests, at least one.
+        type: ``simple``, ``elevator`` or ``arm``.
+        noise: [V] of a row, one standard deviation: kA times that of its acceleration.
+
+    Raises:
+        BadRequest: no rows, an unknown type, or a noise that is not above zero.
+    """
+    if type not in TYPES:
+        raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
+    if not (math.isfinite(noise) and noise > 0.0):
+        raise BadRequest(f"a noise of {noise:g} V", advice="Give one above 0.")
+    if not any(len(part) for part in rows.values()):
+        raise BadRequest("there are no rows", advice="Give at least one test that moves.")
+    parts = [_columns(part, type=type) for part in rows.values()]
+    columns = np.concatenate(parts, axis=1)
+    names = ("kS", "kV", "kA") if type == "simple" else ("kS", "kV", "kA", "kG")
+    return InformationMatrix(names, columns @ columns.T / noise**2)
+
+
+def _columns(rows: Rows, *, type: str) -> Array:  # noqa: A002 - the field's word
+    """(gains, n) what stands beside each gain."""
+    columns = [np.sign(rows.velocity), rows.velocity, rows.acceleration]
+    if type == "elevator":
+        columns.append(np.ones(len(rows)))
+    elif type == "arm":
+        columns.append(np.cos(rows.position))
+    return np.asarray(np.stack(columns))

@@ -1,0 +1,203 @@
+"""A model that strays: the gains whose simulation, left to itself, comes closest.
+
+Where something is missing from a model, the likeliest innovations are those of a model that is
+corrected at every sample, and such a one says little about gains: inertia can pass for anything.
+What gains are for is to say a velocity ahead, so then the velocities of whole runs are compared.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.engine import State, move
+from sim.fit.kalman import model_from_values
+from sim.fit.optimize import (
+    ANEW,
+    DEEP,
+    Estimate,
+    PredictionErrorProblem,
+    estimate_covariance,
+    levenberg_marquardt,
+    whiten,
+)
+from sim.log import Array
+
+STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
+SMALL = 0.0125  # [share of the top speed] error that is small whatever the noise
+HOLDS = 0.05  # [1/s] q over the variance of a velocity: a model that needs more lacks something
+EXACT = 1e-5  # [1/s] the same, that noise alone never asks for: more, and errors come in whiles
+STEPS = 30  # of the search
+LAGS = ("window", "lag")
+TOGETHER = 0.5  # [s] for which what is missing errs one way
+
+
+@dataclass(frozen=True, eq=False)
+class OpenLoopReplay:
+    """A simulation beside its log, sample by sample where there is a measurement.
+
+    Args:
+        velocity: (n,) measured [m/s or rad/s].
+        error: (n,) measured less simulated.
+        moving: (n,) where either moves.
+        noise: of the velocity, measured without a model.
+        astray: whether the likeliest gains strayed, and these only hide it better.
+        change: (m,) [unit/s²] between two measured velocities, as long as it moves.
+        told: (m,) the same of the simulated ones.
+    """
+
+    velocity: Array
+    error: Array
+    moving: NDArray[np.bool_]
+    noise: float
+    astray: bool = False
+    change: Array = field(default_factory=lambda: np.empty(0))
+    told: Array = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def rmse(self) -> float:
+        """[m/s or rad/s] of what moves."""
+        return float(np.sqrt(np.mean(self.error[self.moving] ** 2))) if self.moving.any() else 0.0
+
+    @property
+    def r2(self) -> float:
+        """Share of the velocity's variance that is simulated."""
+        seen = self.velocity[self.moving]
+        spread = float(np.sum((seen - seen.mean()) ** 2)) if seen.size else 0.0
+        return 1.0 - float(np.sum(self.error[self.moving] ** 2)) / max(spread, 1e-300)
+
+    @property
+    def acceleration(self) -> tuple[float, float]:
+        """R² and RMSE [unit/s²] of the changes of velocity."""
+        if not self.change.size:
+            return 0.0, 0.0
+        left = float(np.mean((self.change - self.told) ** 2))
+        return 1.0 - left / max(float(np.var(self.change)), 1e-300), math.sqrt(left)
+
+    @property
+    def top(self) -> float:
+        """[m/s or rad/s] speed that hardly any sample exceeds."""
+        return float(np.quantile(np.abs(self.velocity), 0.98)) if self.velocity.size else 0.0
+
+    @property
+    def strays(self) -> bool:
+        """Whether it leaves the log by more than noise, and by more than a little."""
+        small = 0.0 if self.astray else SMALL * self.top
+        return self.rmse > max(STRAYS * self.noise, small)
+
+
+def replay_open_loop(
+    problem: PredictionErrorProblem, point: Estimate, *, astray: bool = False
+) -> OpenLoopReplay:
+    """Simulate every run from where its first sample is seen, uncorrected.
+
+    The starts of a point that is corrected as it goes may lie anywhere, and do not count here.
+
+    Args:
+        problem: measurements.
+        point: the values.
+        astray: as of ``Followed``.
+    """
+    model = model_from_values(problem.type, point.values)
+    seen, errors, moving, changes = [], [], [], []
+    for run in problem.seen:
+        state = State.at(run.position, run.velocity)
+        track = move(model, time=run.time, voltage=run.voltage, state=state)
+        fresh = ~np.isnan(run.measured[:, 1])
+        seen.append(run.measured[fresh, 1])
+        errors.append(run.measured[fresh, 1] - track.seen[fresh])
+        moving.append((run.moving | (track.velocity != 0.0))[fresh])
+        going = np.flatnonzero(fresh & run.moving)
+        both = np.column_stack([run.measured[going, 1], track.seen[going]])
+        changes.append(np.diff(both, axis=0) / np.diff(run.time[going])[:, None])
+    change, told = np.concatenate(changes).T
+    return OpenLoopReplay(
+        np.concatenate(seen), np.concatenate(errors), np.concatenate(moving),
+        noise=problem.noise.velocity, astray=astray, change=change, told=told,
+    )  # fmt: skip
+
+
+def fit_velocity_only(
+    problem: PredictionErrorProblem, point: Estimate, before: OpenLoopReplay
+) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
+    """Where a model strays: velocities alone, and the point that simulates them best.
+
+    Lags stay: how late a velocity is shows beside the position, and alone it passes for inertia.
+
+    Args:
+        problem: what was searched.
+        point: the likeliest point.
+        before: how that follows.
+
+    Returns:
+        All as they were if the model holds, or if nothing comes closer; and if the likeliest point
+        is pardoned next to nothing, for then it is a simulation already, of the position too.
+    """
+    if point.q <= ANEW * problem.noise.velocity**2 or not before.strays:
+        return problem, point, before
+    seen = []
+    for run in problem.seen:
+        measured = run.measured.copy()
+        measured[:, 0] = np.nan
+        seen.append(replace(run, measured=measured))
+    blind = replace(problem, seen=tuple(seen), held=LAGS)
+    found = levenberg_marquardt(
+        blind, blind.at(point.values, np.zeros(len(seen)), 0.0), steps=STEPS, enough=0.01
+    )
+    after = replay_open_loop(problem, found, astray=True)
+    # samples that were left out may weigh more than all that was gained
+    return (blind, found, after) if after.rmse < before.rmse else (problem, point, before)
+
+
+def needs_large_process_noise(
+    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
+) -> bool:
+    """Whether a model that does not stray needs more pardon than one that holds."""
+    return not followed.strays and point.q > HOLDS * problem.noise.velocity**2
+
+
+def correlated_error_covariance(
+    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
+) -> Iterator[Array]:
+    """(values, values) covariances when errors come not sample by sample but for a while each.
+
+    None where a model holds. What it lacks may be too small to be seen beside noise, and still be
+    more than the errors that noise leaves: then it shows in what is pardoned, and in what a
+    simulation left to itself makes of it.
+
+    Args:
+        problem: what was searched.
+        point: the best point, with fine slopes.
+        followed: how it follows.
+    """
+    lacks = point.q > EXACT * problem.noise.velocity**2
+    if followed.strays or lacks:
+        yield _by_whiles(problem, point)
+    if lacks and not followed.strays:
+        alone = problem.at(point.values, point.starts, DEEP * problem.noise.velocity**2)
+        yield _by_whiles(problem, problem.sloped(alone))
+
+
+def _by_whiles(problem: PredictionErrorProblem, point: Estimate) -> Array:
+    """(values, values) covariance with scores summed over ``TOGETHER``.
+
+    Source: the sandwich of White (1980).
+    """
+    count = len(point.values)
+    table, rest = point.slopes, whiten(point, point.ahead)
+    whiles = np.repeat(_whiles(problem), 2)  # two measurements to a sample
+    scores = np.zeros((int(whiles.max()) + 1, table.shape[1]))
+    np.add.at(scores, whiles, table * rest[:, None])
+    bread = estimate_covariance(problem, point, starts=True)
+    return np.asarray((bread @ (scores.T @ scores) @ bread)[:count, :count])
+
+
+def _whiles(problem: PredictionErrorProblem) -> NDArray[np.int_]:
+    """(n,) which while a sample lies in, counted through all runs."""
+    parts, first = [], 0
+    for run in problem.seen:
+        parts.append(first + ((run.time - run.time[0]) // TOGETHER).astype(int))
+        first = int(parts[-1][-1]) + 1
+    return np.concatenate(parts)

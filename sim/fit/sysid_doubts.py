@@ -1,0 +1,164 @@
+"""What SysId leaves unsaid about a fit: repeated runs, stale velocities, opposed signs."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from sim.doubt import Doubt
+from sim.fit.metrics import SimulationScore
+from sim.fit.regression import Regression
+from sim.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
+from sim.sysid_rows import NEAR_TOP, Prepared
+
+DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA dubious
+GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
+STALE = 0.6  # [share of accelerating samples] that repeat; up to a half costs no bias, see _stale
+SURELY = 2.0  # [standard errors] further below zero than this is no accident of noise
+UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
+
+
+def sysid_doubts(
+    log: Log, prepared: Prepared, found: Regression, simulated: tuple[SimulationScore, ...]
+) -> tuple[Doubt, ...]:
+    """Everything to know before trusting a fit.
+
+    Args:
+        log: what was fitted.
+        prepared: the rows that were used.
+        found: the gains.
+        simulated: how well they reproduce the forward and the reverse tests.
+    """
+    return (
+        *_repeats(log),
+        *_stale(log),
+        *_signs(found.gains, found.errors),
+        *uncertain_gains(found.gains, found.errors),
+        *_poor(found.r2, simulated),
+        *_slow(prepared.velocity_delay, found.gains),
+    )
+
+
+def _repeats(log: Log) -> list[Doubt]:
+    again = [f"{test} ({len(log.of(test))} runs)" for test in FOUR_TESTS if len(log.of(test)) > 1]
+    other = sorted({run.test for run in log.runs} - set(FOUR_TESTS))
+    doubts = []
+    if again:
+        doubts.append(
+            Doubt(
+                "repeated-test",
+                f"Only the first run of each test is used, as in SysId; recorded more than once: "
+                f"{', '.join(again)}. If the first was the bad one, delete it from the log.",
+            )
+        )
+    if other:
+        doubts.append(Doubt("unused-test", f"SysId's recipe has no use for: {', '.join(other)}."))
+    return doubts
+
+
+def _stale(log: Log) -> list[Doubt]:
+    """Velocities that were logged more often than they were measured.
+
+    Of a velocity held for n samples SysId keeps the two next to each jump and spreads the jump over
+    two periods instead of n, so kA comes out as 2/n, or 2·(1 - share repeated), of its size.
+    """
+    steps = [_rise(log.of(test)[0]) for test in FOUR_TESTS if test.startswith("dynamic")]
+    repeated = np.concatenate(steps) == 0.0
+    share = float(repeated.mean()) if repeated.size else 0.0
+    if share < STALE:
+        return []
+    return [
+        Doubt(
+            "stale-velocity",
+            f"{share:.0%} of the samples that speed up repeat the velocity before them: it was "
+            "logged faster than the motor controller sends it. SysId's recipe takes the jumps "
+            f"between them for acceleration, so kA comes out at about {2 * (1 - share):.0%} of its "
+            "size. Log at the controller's own rate, or raise that rate.",
+        )
+    ]
+
+
+def _rise(run: Run) -> Array:
+    """The changes of velocity from the first motion until near the top speed."""
+    speed = np.abs(run.velocity)
+    moving = int(np.argmax(speed > 0.0))
+    top = int(np.argmax(speed >= NEAR_TOP * speed.max()))
+    return np.asarray(np.diff(run.velocity[moving : top + 1]))
+
+
+def _signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
+    if gains["kV"] < 0 and gains["kA"] < 0:
+        return [
+            Doubt(
+                "sign-opposed",
+                "kV and kA are negative: a positive voltage makes a negative velocity in this log. "
+                "Invert the encoder or the motor, so that plus is plus, and record again.",
+                grave=True,
+            )
+        ]
+    cause = {
+        "kS": "friction cannot push. Look for noise in the velocity, for a mechanism that was "
+        "moved by hand, or for gravity that the type leaves out",
+        "kV": "a motor does not speed up without voltage. Look for a wrong test name or a stuck "
+        "sensor",
+        "kA": "inertia is never negative. Look at the dynamic tests: is there a voltage step, and "
+        "a velocity that follows?",
+        "kG": "gravity should pull the mechanism back. Is forward up in this log?",
+    }
+    return [
+        Doubt(
+            "negative-gain",
+            f"{gain} = {gains[gain]:.3g} is negative: {why}.",
+            grave=gains[gain] + SURELY * errors[gain] < 0,
+        )
+        for gain, why in cause.items()
+        if gains.get(gain, 1.0) < 0
+    ]
+
+
+def uncertain_gains(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
+    """Gains whose error is about as large as they are."""
+    return [
+        Doubt(
+            "unsure-gain",
+            f"{gain} = {gains[gain]:.2g} ± {error:.1g}: this log hardly tells {gain}. A longer or "
+            "harder test would.",
+        )
+        for gain, error in errors.items()
+        if gain != "offset_rad" and error > UNSURE * abs(gains[gain])
+    ]
+
+
+def _poor(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Doubt]:
+    doubts = [
+        Doubt(
+            "low-simulated-r2",
+            f"The simulated velocity R² of the {way} tests is {part.r2:.2f}; a fit that reproduces "
+            f"its log has {GOOD_R2} or more. Plot the velocity: did the mechanism slip, stop or "
+            "sag?",
+        )
+        for way, part in zip(DIRECTIONS, simulated, strict=True)
+        if part.r2 < GOOD_R2
+    ]
+    if r2 < DUBIOUS_R2:
+        doubts.append(
+            Doubt(
+                "low-acceleration-r2",
+                f"The acceleration R² is {r2:.2f}; below {DUBIOUS_R2} WPILib's documentation calls "
+                "kA dubious. Look for noise in the velocity, and try --median 5.",
+            )
+        )
+    return doubts
+
+
+def _slow(delay: float, gains: Mapping[str, float]) -> list[Doubt]:
+    timescale = gains["kA"] / gains["kV"] if gains["kV"] else 0.0
+    if not 0.0 < timescale < delay:
+        return []
+    return [
+        Doubt(
+            "slow-measurement",
+            f"The velocity answers {delay * 1000:.0f} ms after the voltage, later than the "
+            f"mechanism itself (kA/kV = {timescale * 1000:.0f} ms): kA is not to be trusted. "
+            "Shorten the velocity filter of the motor controller, or log faster.",
+        )
+    ]

@@ -1,0 +1,59 @@
+"""Method ``sysid``: WPILib SysId's recipe from end to end, and what SysId leaves unsaid."""
+
+from sim.errors import BadRequest
+from sim.fit.metrics import score_simulated_velocity
+from sim.fit.regression import regress
+from sim.fit.result import Fit
+from sim.fit.sysid_doubts import sysid_doubts
+from sim.log import DIRECTIONS, FOUR_TESTS, Log
+from sim.sysid_rows import prepare_rows
+from sim.units import unit
+
+
+def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A002 - SysId's word
+    """Fit a log as SysId does.
+
+    Args:
+        log: with the four tests; of a test that was repeated only the first run counts.
+        type: ``simple``, ``elevator`` or ``arm``.
+        median: [samples] window of the median filter on velocity.
+
+    Raises:
+        BadRequest: an arm whose position is no angle.
+        NotIdentifiable: the log cannot tell these gains.
+    """
+    per = unit(log.units)
+    if type == "arm" and not per.angular:
+        raise BadRequest(
+            f"an arm's position must be an angle, and this log is in {per.name}",
+            where=log.source,
+            advice="Say --units radians, rotations or degrees, or --type elevator.",
+        )
+    prepared = prepare_rows(log, median=median)
+    found = regress(prepared.rows, type=type)
+    forward, reverse = (
+        score_simulated_velocity(
+            [prepared.raw[f"{kind}-{way}"] for kind in ("quasistatic", "dynamic")],
+            found.gains,
+            type=type,
+        )
+        for way in DIRECTIONS
+    )
+    return Fit(
+        type=type,
+        method="sysid",
+        units="radians" if per.angular else "meters",
+        log_units=per.name,
+        gains=found.gains,
+        errors=found.errors,
+        acceleration_r2=found.r2,
+        acceleration_rmse=found.rmse,
+        simulated_velocity_r2=forward.r2,
+        simulated_velocity_rmse=forward.rmse,
+        samples_used={test: len(prepared.rows[test]) for test in FOUR_TESTS},
+        position_delay=prepared.position_delay,
+        velocity_delay=prepared.velocity_delay,
+        velocity_threshold=prepared.threshold,
+        step_duration=prepared.step_duration,
+        doubts=(*log.doubts, *sysid_doubts(log, prepared, found, (forward, reverse))),
+    )

@@ -1,0 +1,178 @@
+"""Residuals sorted into cells: their means, how sure those are, and how many samples say so.
+
+    mean = Σ r/n        error = s·√((1 + ρ)/(1 - ρ))/√n        of r in noises, along the motion
+
+s is the spread within the cell, at least the noise; ρ is how much a sample says that the one before
+has said already, measured within cells. For white innovations s = 1 and ρ = 0.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.gap.place import SIGNALS, Place
+from sim.log import Array
+
+FEWEST = 4  # samples of which a cell's mean says anything
+STICKIEST = 0.98  # ρ, beyond which nothing could be told at all
+SURE = 4.0  # [standard errors] of 300 cells of pure noise, one in fifty logs has one beyond
+
+
+@dataclass(frozen=True, eq=False)
+class BinnedResiduals:
+    """One way to sort what is left.
+
+    Args:
+        what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps``, ``at-rest``.
+        rows: the name of each row.
+        edges: (rows, columns + 1) [s, unit/s, unit or V] between the columns.
+        shares: whether edges are told as shares of the largest, for they have the log's unit.
+        mean: (2, rows, columns) [noises] of positions and velocities; nan where too few.
+        error: the same, one standard error.
+        count: (2, rows, columns) samples.
+    """
+
+    what: str
+    rows: tuple[str, ...]
+    edges: Array
+    shares: bool
+    mean: Array
+    error: Array
+    count: NDArray[np.intp]
+
+    @property
+    def sure(self) -> Array:
+        """(2, rows, columns) [standard errors] from nothing; 0 where too few samples are."""
+        return np.nan_to_num(self.mean / self.error)
+
+    def places(self) -> Iterator[Place]:
+        """Where it is beyond doubt; neighbors that agree in their sign are one place."""
+        sure = self.sure
+        way = np.where(np.abs(sure) >= SURE, np.sign(sure), 0.0)
+        for signal, row in zip(*np.nonzero(np.any(way, axis=2)), strict=True):
+            ways = way[signal, row]
+            breaks = np.flatnonzero(np.diff(ways)) + 1
+            for part in np.split(np.arange(ways.size), breaks):
+                if ways[part[0]]:
+                    yield self._place(int(signal), int(row), slice(part[0], part[-1] + 1))
+
+    def _place(self, signal: int, row: int, part: slice) -> Place:
+        mean, error = self.mean[signal, row, part], self.error[signal, row, part]
+        weight = self.count[signal, row, part].astype(np.float64)
+        weight /= weight.sum()
+        together = float(weight @ mean)
+        spread = float(np.sqrt(np.sum((weight * error) ** 2)))
+        where = self.where(row, part)
+        return Place(self.what, where, together, abs(together) / spread, SIGNALS[signal])
+
+    def where(self, row: int, part: slice) -> str:
+        """A stretch of a row in words.
+
+        Args:
+            row: which.
+            part: of its columns.
+        """
+        edges = self.edges[row]
+        low, high = float(edges[part.start]), float(edges[part.stop])
+        if not self.shares:
+            return f"{self.rows[row]}, {_pair(low, high)} {_UNITS[self.what]}"
+        least, most = float(self.edges.min()), float(self.edges.max())
+        low, high = (100.0 * (edge - least) / ((most - least) or 1.0) for edge in (low, high))
+        return f"{self.rows[row]}, {low:.0f} to {high:.0f}% of {_WHOLES[self.what]}"
+
+
+_UNITS = {"run": "s", "after-steps": "s after it", "at-rest": "V"}
+_WHOLES = {"direction-speed": "the top speed", "direction-position": "the way"}
+
+
+def _pair(low: float, high: float) -> str:
+    """Two numbers with as many digits as they need to differ."""
+    digits = 1 if high - low >= 0.5 else 2  # noqa: PLR2004 - half a second, or half a volt
+    return f"{low:.{digits}f} to {high:.{digits}f}"
+
+
+@dataclass(frozen=True, eq=False)
+class SampleTable:
+    """All samples of all runs, one after another.
+
+    Args:
+        table: (n, 2) [noises] positions and velocities missed; nan where not compared.
+        run: (n,) which run each is of.
+    """
+
+    table: Array
+    run: NDArray[np.intp]
+
+    def into(
+        self, what: str, rows: tuple[str, ...], edges: Array, *, row: NDArray[np.intp],
+        value: Array, way: Array, shares: bool = False,
+    ) -> BinnedResiduals:  # fmt: skip
+        """Cells of one kind.
+
+        Args:
+            what: of which kind.
+            rows: their names.
+            edges: (rows, columns + 1) rising.
+            row: (n,) which row a sample is in; below 0 is in none.
+            value: (n,) what decides on its column; nan is in none.
+            way: (n,) ±1, the direction that counts as ahead.
+            shares: whether edges are told as shares.
+        """
+        columns = edges.shape[1] - 1
+        cell = _column(value, edges, row)
+        cell[cell >= 0] += columns * row[cell >= 0]
+        shape = (2, len(rows), columns)
+        mean, error = (
+            np.full((2, shape[1] * columns), np.nan),
+            np.full((2, shape[1] * columns), np.nan),
+        )
+        count = np.zeros_like(mean, dtype=np.intp)
+        for signal in range(2):
+            mean[signal], error[signal], count[signal] = self._means(
+                self.table[:, signal] * way, cell, size=mean.shape[1]
+            )
+        return BinnedResiduals(
+            what,
+            rows,
+            edges,
+            shares,
+            mean.reshape(shape),
+            error.reshape(shape),
+            count.reshape(shape),
+        )
+
+    def _means(
+        self, signed: Array, cell: NDArray[np.intp], *, size: int
+    ) -> tuple[Array, Array, NDArray[np.intp]]:
+        there = (cell >= 0) & ~np.isnan(signed)
+        cells, values = cell[there], signed[there]
+        count = np.bincount(cells, minlength=size)
+        mean = np.bincount(cells, values, minlength=size) / np.maximum(count, 1)
+        rest = values - mean[cells]
+        square = np.bincount(cells, rest**2, minlength=size) / np.maximum(count - 1, 1)
+        place = np.flatnonzero(there)
+        next_to = (np.diff(place) == 1) & (np.diff(cells) == 0) & (np.diff(self.run[place]) == 0)
+        both = float(np.sum((rest[1:] * rest[:-1])[next_to]))
+        alone = float(np.sum((rest[1:] ** 2)[next_to]))
+        said = min(max(both / alone, 0.0), STICKIEST) if alone > 0.0 else 0.0
+        longer = (1.0 + said) / (1.0 - said)
+        few = count < FEWEST
+        mean[few] = np.nan
+        error = np.sqrt(np.maximum(square, 1.0) * longer / np.maximum(count, 1))
+        error[few] = np.nan
+        return mean, error, count
+
+
+def _column(value: Array, edges: Array, row: NDArray[np.intp]) -> NDArray[np.intp]:
+    """(n,) the column of each value, -1 outside; all rows' columns may differ."""
+    column = np.full(value.size, -1, dtype=np.intp)
+    last = edges.shape[1] - 2
+    for number in range(edges.shape[0]):
+        mine = row == number
+        found = np.searchsorted(edges[number], value[mine], side="right") - 1
+        found[value[mine] == edges[number, -1]] = last
+        column[mine] = np.where(found > last, -1, found)
+    column[np.isnan(value)] = -1
+    return column

@@ -1,0 +1,116 @@
+"""All samples of all runs together, and the ways to sort them."""
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.fit.measurements import SensorNoise
+from sim.gap.binned_residuals import FEWEST, BinnedResiduals, SampleTable
+from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
+from sim.gap.residuals import Residuals
+from sim.log import Array
+
+LEAST_TIMES, TIMES, SPEEDS, POSITIONS, VOLTS = 6, 12, 8, 12, 4  # columns
+AFTER = (0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)  # [s] since a jump: short where things happen
+STILL = 0.02  # [share of the top speed] slower is at rest
+WAYS = ("forward", "reverse")
+JUMPS = ("the voltage jumps up", "the voltage jumps down")
+HELD = ("at rest under forward voltage", "at rest under reverse voltage")
+
+
+class ResidualBins:
+    """What a model leaves of some runs, with what it expected there.
+
+    Args:
+        runs: each with something to compare.
+        noise: of a position and a velocity.
+    """
+
+    def __init__(self, runs: Sequence[Residuals], *, noise: SensorNoise) -> None:
+        self.runs = runs
+        self.predicted = np.concatenate([run.predicted for run in runs])
+        self.voltage = np.concatenate([run.voltage for run in runs])
+        self.number = np.repeat(np.arange(len(runs)), [run.time.size for run in runs])
+        missed = np.concatenate([run.missed for run in runs])
+        self.kept = ~np.isnan(missed).all(axis=1)
+        self.sorted = SampleTable(missed / np.array([noise.position, noise.velocity]), self.number)
+        self.speed = np.abs(self.predicted[:, 1])
+        self.top = float(self.speed[self.kept].max())
+        self.rests = self.speed <= STILL * self.top
+
+    @cached_property
+    def way(self) -> Array:
+        """(n,) ±1 which way it moves, or is pushed while it rests."""
+        way = np.sign(np.where(self.rests, self.voltage, self.predicted[:, 1]))
+        way[way == 0.0] = 1.0
+        return np.asarray(way)
+
+    @cached_property
+    def side(self) -> NDArray[np.intp]:
+        """(n,) the row of that direction."""
+        return np.where(self.way > 0.0, 0, 1)
+
+    @cached_property
+    def moves(self) -> NDArray[np.intp]:
+        """(n,) the same where it moves; none where it rests."""
+        return np.where(self.rests, -1, self.side)
+
+    def by_run(self) -> BinnedResiduals:
+        """Run × time."""
+        ends = [run.since[run.compared][[0, -1]] for run in self.runs]
+        shortest = min(int(np.count_nonzero(run.compared)) for run in self.runs)
+        columns = min(max(shortest // FEWEST, LEAST_TIMES), TIMES)
+        edges = np.stack([np.linspace(start, end, columns + 1) for start, end in ends])
+        since = np.concatenate([run.since for run in self.runs])
+        names = _names([run.test for run in self.runs])
+        return self.sorted.into(RUN, names, edges, row=self.number, value=since, way=self.way)
+
+    def by_speed(self) -> BinnedResiduals:
+        """Direction × speed."""
+        edges = _even(0.0, self.top, SPEEDS)
+        return self.sorted.into(
+            SPEED, WAYS, edges, row=self.moves, value=self.speed, way=self.way, shares=True
+        )
+
+    def by_position(self) -> BinnedResiduals:
+        """Direction × position."""
+        position = self.predicted[:, 0]
+        kept = position[self.kept]
+        edges = _even(float(kept.min()), float(kept.max()), POSITIONS)
+        return self.sorted.into(
+            POSITION, WAYS, edges, row=self.moves, value=position, way=self.way, shares=True
+        )
+
+    def after_steps(self) -> BinnedResiduals:
+        """Direction of a jump of the voltage × time since it; ahead is where the jump goes."""
+        largest = float(np.abs(self.voltage).max())
+        found = [run.steps(largest=largest, still=STILL * self.top) for run in self.runs]
+        since, jump = (np.concatenate([one[part] for one in found]) for part in (0, 1))
+        row = np.where(jump > 0.0, 0, 1)
+        return self.sorted.into(
+            STEPS, JUMPS, np.tile(AFTER, (2, 1)), row=row, value=since, way=jump
+        )
+
+    def at_rest(self) -> BinnedResiduals:
+        """Direction × voltage that does not move it."""
+        held = np.where(self.rests & self.kept, np.abs(self.voltage), np.nan)
+        most = float(np.max(held, initial=0.0, where=~np.isnan(held)))
+        row = np.where(self.rests, self.side, -1)
+        return self.sorted.into(
+            REST, HELD, _even(0.0, most, VOLTS), row=row, value=held, way=self.way
+        )
+
+
+def _names(tests: Sequence[str]) -> tuple[str, ...]:
+    """Of each run its test, counted where there are several."""
+    return tuple(
+        f"{test} ({tests[: i + 1].count(test)})" if tests.count(test) > 1 else test
+        for i, test in enumerate(tests)
+    )
+
+
+def _even(low: float, high: float, columns: int) -> Array:
+    """(2, columns + 1) equal columns for either direction."""
+    return np.tile(np.linspace(low, max(high, low + 1e-12), columns + 1), (2, 1))

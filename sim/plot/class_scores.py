@@ -1,0 +1,96 @@
+"""Marks of a class: how they spread, and who earned what where."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from sim.errors import BadRequest
+from sim.plot.picture import COLORS, INK, Picture, panels
+from sim.plot.table import Table
+
+NAMED = 40  # students whose names still can be read beside their rows
+BINS = 10
+
+
+def score_histogram(shares: Sequence[float]) -> Picture:
+    """How many students earned which share of all points.
+
+    Args:
+        shares: one for each student, 0 to 1.
+
+    Raises:
+        BadRequest: there is nobody.
+    """
+    if not shares:
+        raise BadRequest("nobody was graded", advice="Grade somebody first.")
+    edges = np.linspace(0.0, 1.0, BINS + 1)
+    counts, _ = np.histogram(np.clip(shares, 0.0, 1.0), edges)
+    figure, ((axes,),) = panels(1, 1, height=2.4)
+    axes.bar(100 * edges[:-1] + 50 / BINS, counts, width=90 / BINS, color=COLORS[0], edgecolor=INK)
+    axes.set_xlabel("share of all points [%]", color=INK)
+    axes.set_ylabel("students", color=INK)
+    axes.set_xlim(0, 100)
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+    rows = tuple(
+        (f"{100 * low:.0f} to {100 * high:.0f}", str(count))
+        for low, high, count in zip(edges[:-1], edges[1:], counts, strict=True)
+    )
+    alt = (
+        f"Bars count students by their share of all points. Half of the {len(shares)} have at "
+        f"least {100 * float(np.median(shares)):.0f} %."
+    )
+    return Picture(figure, alt, Table(("share [%]", "students"), rows))
+
+
+def score_heatmap(
+    students: Sequence[str], exercises: Sequence[str], shares: Sequence[Sequence[float]]
+) -> Picture:
+    """Who earned which share where, the best above.
+
+    Args:
+        students: their names.
+        exercises: their names.
+        shares: a row for each student, a share for each exercise; NaN where nothing was graded.
+
+    Raises:
+        BadRequest: there is nobody, or nothing.
+    """
+    if not students or not exercises:
+        raise BadRequest("nobody was graded", advice="Grade somebody first.")
+    table = np.array(shares, dtype=float)
+    order = np.argsort(-np.nan_to_num(table).sum(axis=1), kind="stable")
+    rows = min(len(students), NAMED)
+    figure, ((axes,),) = panels(1, 1, height=1.4 + 0.2 * rows)
+    drawn = axes.imshow(
+        np.ma.masked_invalid(100 * table[order]), cmap="cividis", vmin=0, vmax=100, aspect="auto",
+        interpolation="nearest",
+    )  # fmt: skip
+    axes.set_facecolor("white")
+    axes.grid(visible=False)
+    axes.set_xticks(range(len(exercises)), exercises, rotation=45, ha="right")
+    if len(students) <= NAMED:
+        axes.set_yticks(range(len(students)), [students[place] for place in order])
+    else:
+        axes.set_ylabel(f"{len(students)} students, the best above", color=INK)
+    figure.colorbar(drawn, ax=axes, label="share of the points [%]")
+    means = _means(table)
+    worst = int(np.nanargmin(means)) if not np.isnan(means).all() else 0
+    alt = (
+        "A row for each student, a column for each exercise, colored by the share of the points; "
+        f"white where nothing was graded. The lowest column is {exercises[worst]}, "
+        f"{100 * means[worst]:.0f} % on average."
+    )
+    numbers = tuple(
+        (name, "" if np.isnan(mean) else f"{100 * mean:.0f}")
+        for name, mean in zip(exercises, means, strict=True)
+    )
+    return Picture(figure, alt, Table(("exercise", "mean share [%]"), numbers))
+
+
+def _means(table: "np.typing.NDArray[np.float64]") -> "np.typing.NDArray[np.float64]":
+    """(exercises,) mean of what was graded; NaN where nothing was."""
+    there = ~np.isnan(table)
+    count = there.sum(axis=0)
+    total = np.where(there, table, 0.0).sum(axis=0)
+    return np.where(count > 0, total / np.maximum(count, 1), np.nan)

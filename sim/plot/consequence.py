@@ -1,0 +1,100 @@
+"""What an answer would do on the robot: the motion that comes of it beside the wanted one."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from sim.errors import BadRequest
+from sim.feedback.following import FollowedProfile
+from sim.plot.decimate import decimate_curve
+from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
+
+SIDE_BY_SIDE = 2  # panels
+HEIGHT, MORE = 0.8, 2.2  # [in] of what is around the panels, and of each row of them
+MOST = 300  # points of a curve that are drawn
+MARK = 0.15  # [share of a panel] between markers
+DIGITS = 3  # of a curve: a picture is looked at, not measured
+
+
+@dataclass(frozen=True)
+class Trace:
+    """One panel: a motion that was wanted, and what came instead.
+
+    Args:
+        title: what it is of.
+        ylabel: with unit.
+        time: (n,) [s].
+        wanted: (n,) what was asked for; a limit that should be kept, where ``limit`` says so.
+        done: name -> (n,) what happens.
+        limit: whether ``wanted`` is a limit.
+    """
+
+    title: str
+    ylabel: str
+    time: Sequence[float]
+    wanted: Sequence[float]
+    done: Mapping[str, Sequence[float]]
+    limit: bool = False
+
+
+def profile_traces(one: FollowedProfile) -> tuple[Trace, ...]:
+    """The panels of a profile that was followed: velocity, and position where it matters."""
+    done, wanted = "what it does", one.wanted
+    of_speed, of_place = f"velocity [{one.symbol}/s]", f"{one.place} [{one.symbol}]"
+    speed = Trace(one.name, of_speed, wanted.time, wanted.velocity, {done: one.velocity})
+    place = Trace(one.name, of_place, wanted.time, wanted.position, {done: one.position})
+    return (speed, place) if one.place else (speed,)
+
+
+def consequence(shown: Sequence[Trace], *, words: str) -> Picture:
+    """What an answer would do, panel by panel.
+
+    Args:
+        shown: at least one panel.
+        words: the same in sentences: what happens, with rounded numbers.
+
+    Raises:
+        BadRequest: there is no panel, or a curve has another length than its time.
+    """
+    for one in shown:
+        if any(len(values) != len(one.time) for values in (one.wanted, *one.done.values())):
+            raise BadRequest(
+                f"a curve of {one.title} has not one value for each time",
+                advice="Give as many of both.",
+            )
+    if not shown:
+        raise BadRequest("there is no motion to draw", advice="Give at least one panel.")
+    columns = min(SIDE_BY_SIDE, len(shown))
+    rows = -(-len(shown) // columns)
+    figure, grid = panels(rows, columns, height=HEIGHT + MORE * rows)
+    flat = [axes for row in grid for axes in row]
+    for axes, one in zip(flat, shown, strict=False):
+        _draw(axes, one)
+    for axes in flat[len(shown) :]:
+        axes.set_visible(False)
+    legend(figure, flat[: len(shown)])
+    drawn = ", ".join(f"{one.title}'s {one.ylabel.partition(' [')[0]}" for one in shown)
+    alt = f"Curves over time, wanted and what comes of the answer: {drawn}. {words}"
+    return Picture(figure, alt)
+
+
+def _draw(axes: Axes, one: Trace) -> None:
+    """One panel; what is wanted is a broad line, so that a curve upon it stays visible."""
+    time = np.asarray(one.time, dtype=float)
+    name = "there it must stand" if one.limit else "what was wanted"
+    axes.plot(
+        time, one.wanted, color=REFERENCE, linewidth=1.4 if one.limit else 3.0,
+        alpha=1.0 if one.limit else 0.45, linestyle="--" if one.limit else "-", label=name,
+    )  # fmt: skip
+    for index, (what, values) in enumerate(one.done.items(), start=1):
+        curve = np.array([float(f"{value:.{DIGITS}g}") for value in values])
+        kept = decimate_curve(curve, most=MOST)
+        axes.plot(
+            time[kept], curve[kept], color=COLORS[index], linestyle=LINES[index],
+            marker=MARKERS[index], markevery=MARK, markersize=4, linewidth=1.5, label=what,
+        )  # fmt: skip
+    axes.set_title(one.title, fontsize=10, color=INK)
+    axes.set_ylabel(one.ylabel, color=INK)
+    axes.set_xlabel("time [s]", color=INK)

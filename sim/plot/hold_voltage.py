@@ -1,0 +1,171 @@
+"""The voltages that hold a mechanism against gravity: a window, as wide as friction is strong."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.errors import BadRequest
+from sim.log import Array
+from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.table import Table, format_cell
+
+BAND = COLORS[4]
+QUARTER_TURN = 90.0  # [deg]
+CLOSE = 0.03  # [share of the window] that near to an edge is on it
+
+
+def hold_window(
+    volts: Sequence[float] | Array,
+    speeds: Sequence[float] | Array,
+    *,
+    window: tuple[float, float],
+    marks: Mapping[str, float],
+    symbol: str = "m",
+    here: tuple[float, float] | None = None,
+) -> Picture:
+    """How fast a mechanism moves under each voltage, and the window in which it does not.
+
+    Args:
+        volts: (n,) [V] that were tried, rising.
+        speeds: (n,) [unit/s] what came of each; negative is down.
+        window: [V] its lower and its upper edge, kG - kS and kG + kS.
+        marks: name -> [V] of a voltage worth a mark: what a recipe finds.
+        symbol: of the unit of position.
+        here: a voltage and its speed, to draw attention to.
+
+    Raises:
+        BadRequest: not one speed for each voltage, or the window's edges changed places.
+    """
+    if len(volts) != len(speeds) or not len(volts):
+        raise BadRequest("every voltage needs one speed", advice="Give as many of both.")
+    low, high = window
+    if low > high:
+        raise BadRequest(f"a window from {low:g} to {high:g} V", advice="Give the lower one first.")
+    figure, ((axes,),) = panels(1, 1, height=3.6)
+    axes.axvspan(low, high, color=BAND, alpha=0.35, label="it stays: kG − kS to kG + kS")
+    axes.axhline(0.0, color=REFERENCE, linewidth=0.8)
+    axes.plot(volts, speeds, "-", marker=".", color=COLORS[0], markersize=5, label="speed")
+    for index, (name, value) in enumerate(marks.items(), start=1):
+        axes.plot(
+            value, 0.0, MARKERS[index], color=COLORS[index], markersize=10, label=name, zorder=3
+        )
+    if here is not None:
+        axes.plot(*here, "*", color=REFERENCE, markersize=15, label="here", zorder=4)
+    axes.set_xlabel("voltage [V]", color=INK)
+    axes.set_ylabel(f"speed, up is positive [{symbol}/s]", color=INK)
+    axes.legend(fontsize=8)
+    alt = (
+        f"Speed over voltage. It sinks below {format_cell(low)} V, stays between {format_cell(low)} and "
+        f"{format_cell(high)} V, which is shaded, and rises above."
+        + "".join(
+            f" A mark, “{name}”, is at {format_cell(value)} V." for name, value in marks.items()
+        )
+    )
+    if here is not None:
+        alt += (
+            f" A star marks {format_cell(here[0])} V, where the speed is {_speed(here[1], symbol)}."
+        )
+    every = {**marks, "here": here[0]} if here is not None else marks
+    rows = tuple((name, value, _where(value, low, high)) for name, value in every.items())
+    return Picture(figure, alt, Table(("mark", "voltage [V]", "in the window"), rows))
+
+
+def _speed(value: float, symbol: str) -> str:
+    return f"{value:.3f} {symbol}/s".replace("-", "−")
+
+
+def _where(value: float, low: float, high: float) -> str:
+    """In words where a voltage lies in the window."""
+    near = CLOSE * (high - low)
+    if abs(value - low) <= near:
+        return "lower edge"
+    if abs(value - high) <= near:
+        return "upper edge"
+    if abs(value - (low + high) / 2.0) <= near:
+        return "middle"
+    return "below it" if value < low else "above it" if value > high else "inside"
+
+
+@dataclass(frozen=True)
+class _Words:
+    """What the angles of a picture are called."""
+
+    angle: str
+    across: str
+    cosine: str
+    level: str
+
+
+_SHOWS_LEVEL = _Words("angle [deg]", "angle from level [deg]", "kG·cos(angle)", "the arm is level")
+
+
+def _askew(offset: float) -> _Words:
+    return _Words(
+        "reading [deg]",
+        "what the encoder reads [deg]",
+        "kG·cos(reading + offset)",
+        f"level, if the offset is {format_cell(offset)}°",
+    )
+
+
+def hold_angles(
+    holds: Sequence[tuple[float, float, float]],
+    *,
+    kg: float,
+    ks: float,
+    offset: float | None = None,
+    here: float | None = None,
+) -> Picture:
+    """The window of an arm over its angle: its middle is a cosine, its width stays.
+
+    Args:
+        holds: rows of a reading [deg] and the two edges measured there [V].
+        kg: [V] that holds it level.
+        ks: [V] of friction.
+        offset: [deg] to add to a reading for the angle from level; a guess, until the band covers
+            all marks. None says that the encoder shows the angle from level.
+        here: [deg] a reading to draw attention to.
+    """
+    words, add = _SHOWS_LEVEL if offset is None else _askew(offset), offset or 0.0
+    ends = [reading for reading, *_ in holds]
+    readings = np.linspace(min([-QUARTER_TURN, *ends]) - 5.0, max([QUARTER_TURN, *ends]) + 5.0, 181)
+    middle = kg * np.cos(np.radians(readings + add))
+    figure, ((axes,),) = panels(1, 1, height=3.6)
+    axes.fill_between(
+        readings, middle - ks, middle + ks, color=BAND, alpha=0.35, label="it stays", linewidth=0
+    )
+    axes.plot(readings, middle, "--", color=COLORS[0], label=words.cosine)
+    axes.axhline(0.0, color=REFERENCE, linewidth=0.8)
+    for index, place, name in ((1, 1, "just does not fall"), (2, 2, "just begins to rise")):
+        axes.plot(
+            ends,
+            [hold[place] for hold in holds],
+            MARKERS[index],
+            color=COLORS[index],
+            markersize=7,
+            label=name,
+        )
+    level = 0.0 - add  # never −0
+    axes.axvline(level, color=REFERENCE, linestyle=":", linewidth=1.2, label=words.level)
+    if here is not None:
+        at = kg * float(np.cos(np.radians(here + add)))
+        axes.plot(here, at, "*", color=REFERENCE, markersize=15, label="here", zorder=4)
+    axes.set_xlabel(words.across, color=INK)
+    axes.set_ylabel("voltage [V]", color=INK)
+    legend(figure, (axes,))
+    alt = (
+        f"The voltages that hold an arm, over its angle: a band of constant width, {format_cell(2 * ks)} "
+        f"V, about a cosine of {format_cell(kg)} V that is largest at {format_cell(level)} degrees: "
+        f"{words.level}. {len(holds)} measured angles have two marks each, the lowest and the "
+        f"highest voltage that hold it there."
+    )
+    if here is not None:
+        alt += f" A star marks {format_cell(at)} V at {format_cell(here)} degrees."
+    header = (words.angle, "just does not fall [V]", "just begins to rise [V]", "middle [V]",
+              "half the width [V]")  # fmt: skip
+    rows = tuple(
+        (f"{reading:g}".replace("-", "−"), low, high, (low + high) / 2.0, (high - low) / 2.0)
+        for reading, low, high in holds
+    )
+    return Picture(figure, alt, Table(header, rows))

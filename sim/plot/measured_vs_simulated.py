@@ -1,0 +1,187 @@
+"""A fit's simulation beside its log: what was measured, what the gains say, and what is left.
+
+A simulation that is right leaves nothing but noise, so beneath each curve stands what it leaves,
+with the band in which noise alone would keep it 95 times of a hundred.
+"""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, SubFigure
+
+from sim.fit_replay import RunReplay
+from sim.log import Array
+from sim.plot.decimate import decimate_curve
+from sim.plot.picture import COLORS, INK, PAPER, Picture
+from sim.plot.table import Table, format_cell
+from sim.units import Unit
+
+MOST = 500  # samples of a curve that are drawn: a panel has fewer pixels across
+BAND = 1.96  # [standard deviations] that hold 95 of 100 samples of noise
+SEEN, SAID = "measured", "simulated"
+MARK = 0.12  # [share of a panel] between the simulation's markers
+ROWS, HEIGHT, WIDTH = 3, 4.6, 7.6  # panels above each other; [in] of one run
+SIDE_BY_SIDE = 2  # runs, where all are in one picture
+EVERY = 40  # runs: more in one picture are too small to read, and too large to write
+
+
+def measured_vs_simulated(one: RunReplay, *, per: Unit) -> Picture:
+    """One run: velocity and position, measured and simulated, what is left, and the voltage.
+
+    Args:
+        one: the run.
+        per: the unit of position to show.
+    """
+    figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained", facecolor=PAPER)
+    _draw(figure, one, per=per)
+    return Picture(figure, describe_run(one, per=per), error_table([one], per=per))
+
+
+def draw_all_runs(
+    runs: Sequence[RunReplay], *, per: Unit, more: int = 0
+) -> tuple[Figure, list[SubFigure]]:
+    """All runs in one figure, two beside each other.
+
+    Args:
+        runs: of more than can be read the first are drawn.
+        per: the unit of position to show.
+        more: how many empty blocks to leave at the end.
+
+    Returns:
+        The figure, and its empty blocks.
+    """
+    drawn = runs[:EVERY]
+    rows = -(-len(drawn) // SIDE_BY_SIDE) + -(-more // SIDE_BY_SIDE)
+    size = (SIDE_BY_SIDE * WIDTH, rows * HEIGHT)
+    figure = Figure(figsize=size, layout="constrained", facecolor=PAPER)
+    parts = figure.subfigures(rows, SIDE_BY_SIDE, squeeze=False).ravel().tolist()
+    for part, one in zip(parts, drawn, strict=False):
+        _draw(part, one, per=per)
+        part.suptitle(one.run.test, fontsize=11, color=INK)
+    return figure, parts[SIDE_BY_SIDE * -(-len(drawn) // SIDE_BY_SIDE) :]
+
+
+def describe_run(one: RunReplay, *, per: Unit) -> str:
+    """What the picture of a run shows, in sentences with numbers."""
+    velocity, position = _misses(one)
+    run, symbol = one.run, per.symbol
+    return (
+        f"{run.test}: measured and simulated velocity and position over {_lasts(one):.2f} s, and "
+        "beneath them their difference with the band of noise. The voltage goes from "
+        f"{run.voltage[0]:.2f} to {run.voltage[-1]:.2f} V; the velocity reaches "
+        f"{format_cell(_farthest(run.velocity) / per.si)} {symbol}/s. While it moves, the simulation "
+        f"misses the velocity by {format_cell(velocity / per.si)} {symbol}/s RMS, "
+        f"{format_cell(velocity / max(one.velocity_noise, 1e-12))} times its noise, and the position by "
+        f"{format_cell(position / per.si)} {symbol} RMS."
+    )
+
+
+def error_table(runs: Sequence[RunReplay], *, per: Unit) -> Table:
+    """How far the simulation is off, run by run."""
+    rows = []
+    for one in runs:
+        velocity, position = _misses(one)
+        rows.append(
+            (
+                one.run.test,
+                len(one.run),
+                round(_lasts(one), 2),
+                _farthest(one.run.velocity) / per.si,
+                velocity / per.si,
+                velocity / max(one.velocity_noise, 1e-12),
+                position / per.si,
+            )
+        )
+    symbol = per.symbol
+    header = (
+        "run", "samples", "lasts [s]", f"fastest [{symbol}/s]", f"velocity off, RMS [{symbol}/s]",
+        "times its noise", f"position off, RMS [{symbol}]",
+    )  # fmt: skip
+    return Table(header, tuple(rows))
+
+
+def _misses(one: RunReplay) -> tuple[float, float]:
+    """RMS of what is left of velocity and position while it moves."""
+    where = one.moving if one.moving.any() else np.ones(len(one.run), dtype=bool)
+    return (
+        float(np.sqrt(np.mean(one.velocity_error[where] ** 2))),
+        float(np.sqrt(np.mean(one.position_error[where] ** 2))),
+    )
+
+
+def _lasts(one: RunReplay) -> float:
+    return float(one.run.time[-1] - one.run.time[0])
+
+
+def _farthest(values: Array) -> float:
+    return float(values[np.argmax(np.abs(values))])
+
+
+def _draw(figure: Figure | SubFigure, one: RunReplay, *, per: Unit) -> None:
+    """Velocity left, position right; what is left of them beneath; the voltage below."""
+    grid = figure.subplots(
+        ROWS, 2, sharex=True, squeeze=False, gridspec_kw={"height_ratios": (3, 1.5, 1.5)}
+    )
+    plain_axes(grid.flat)
+    time, symbol = one.run.time - one.run.time[0], per.symbol
+    sides = (
+        ("velocity", f"{symbol}/s", one.run.velocity, one.velocity, one.velocity_noise),
+        ("position", symbol, one.run.position, one.position, one.position_noise),
+    )
+    for column, (name, unit, seen, said, noise) in enumerate(sides):
+        _curves(grid[0, column], time, seen / per.si, said / per.si)
+        grid[0, column].set_ylabel(f"{name} [{unit}]", color=INK, fontsize=9)
+        _left(grid[1, column], time, (seen - said) / per.si, band=BAND * noise / per.si)
+        grid[1, column].set_ylabel(f"residual [{unit}]", color=INK, fontsize=9)
+        _line(grid[2, column], time, one.run.voltage, color=COLORS[5], label="voltage")
+        low, high = grid[2, column].get_ylim()
+        grid[2, column].set_ylim(min(low, -0.3), max(high, 0.3))
+        grid[2, column].set_ylabel("voltage [V]", color=INK, fontsize=9)
+        grid[2, column].set_xlabel("time [s]", color=INK, fontsize=9)
+    shared_legend(figure, (grid[0, 0], grid[1, 0]))
+
+
+def shared_legend(figure: Figure | SubFigure, axes: Iterable[Axes]) -> None:
+    """One legend below a figure or a part of one."""
+    entries = [panel.get_legend_handles_labels() for panel in axes]
+    figure.legend(
+        [handle for handles, _ in entries for handle in handles],
+        [name for _, labels in entries for name in labels],
+        loc="outside lower center",
+        ncols=4,
+        fontsize=8,
+        frameon=False,
+        labelcolor=INK,
+    )
+
+
+def plain_axes(axes: Iterable[Axes]) -> None:
+    """Empty axes as all pictures have them."""
+    for panel in axes:
+        panel.set_facecolor(PAPER)
+        panel.grid(visible=True, color="#DDDDDD", linewidth=0.6)
+        panel.spines[["top", "right"]].set_visible(False)
+        panel.tick_params(colors=INK, labelsize=8)
+
+
+def _curves(axes: Axes, time: Array, seen: Array, said: Array) -> None:
+    """Measured as a broad pale line, simulated as a thin dark one with marks, on top."""
+    kept = decimate_curve(seen, most=MOST)
+    axes.plot(time[kept], seen[kept], color=COLORS[4], linewidth=3.2, label=SEEN)
+    kept = decimate_curve(said, most=MOST)
+    axes.plot(
+        time[kept], said[kept], color=COLORS[1], linewidth=1.1, linestyle="--", marker="s",
+        markersize=3.2, markevery=MARK, label=SAID,
+    )  # fmt: skip
+
+
+def _left(axes: Axes, time: Array, rest: Array, *, band: float) -> None:
+    axes.axhspan(-band, band, color="#BBBBBB", alpha=0.6, linewidth=0, label="95% of the noise")
+    _line(axes, time, rest, color=COLORS[0], label="measured less simulated")
+    axes.axhline(0.0, color=INK, linewidth=0.6)
+
+
+def _line(axes: Axes, time: Array, values: Array, *, color: str, label: str) -> None:
+    kept = decimate_curve(values, most=MOST)
+    axes.plot(time[kept], values[kept], color=color, linewidth=0.9, label=label)

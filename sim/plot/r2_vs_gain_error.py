@@ -1,0 +1,152 @@
+"""Many fits in one picture: the score that each was given, and by how much its gains are off."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from sim.errors import BadRequest
+from sim.plot.picture import COLORS, INK, MARKERS, PAPER, REFERENCE, Picture, legend, panels
+from sim.plot.table import Table
+
+if TYPE_CHECKING:
+    from sim.plot.table import Cell
+
+PASSED, FAILED = ("✓", "#009E73", ""), ("✗", "#D55E00", "///")
+PERCENT = 100.0
+LINEAR = 10.0  # [%] within which errors are drawn to scale; beyond, by their order of size
+ROW, FOOT = 0.27, 1.25  # [in]
+TICKS = (-1000, -100, -10, 0, 10, 100, 1000)
+
+
+def r2_vs_gain_error(
+    scores: Mapping[str, float],
+    *,
+    good: float,
+    score: str,
+    off: Mapping[str, Mapping[str, float]] | None = None,
+) -> Picture:
+    """A badge for each fit, passed or failed, and beside it the truth.
+
+    Args:
+        scores: fit -> its score, from top to bottom.
+        good: a higher score passes.
+        score: what the score is called.
+        off: gain -> fit -> by which share it is off, 0.1 is 10 % too large; None hides that.
+
+    Raises:
+        BadRequest: there are no scores, or a gain lacks a fit.
+    """
+    if not scores or any(set(found) != set(scores) for found in (off or {}).values()):
+        raise BadRequest(
+            "every fit needs a score and an error", advice="Give one or more, all of them alike."
+        )
+    figure, ((left, right),) = panels(1, 2, height=FOOT + ROW * len(scores), shared=True)
+    _badges(left, scores, good=good, score=score)
+    if off is None:
+        right.text(
+            0.5, 0.5, "hidden", transform=right.transAxes, ha="center", fontsize=14, color=INK
+        )
+        right.set_xticks([])
+    else:
+        _errors(right, scores, off)
+        legend(figure, [right])
+    right.set_xlabel("off by [%]", color=INK)
+    right.set_title("the truth, which no robot tells", fontsize=10, color=INK)
+    return Picture(figure, _words(scores, good, score, off), _table(scores, good, score, off))
+
+
+def _badges(axes: Axes, scores: Mapping[str, float], *, good: float, score: str) -> None:
+    """Bars with a sign and a number each; the threshold as a line."""
+    for place, value in enumerate(scores.values()):
+        sign, color, hatch = PASSED if value > good else FAILED
+        shown = min(max(value, 0.0), 1.0)
+        axes.barh(
+            place, shown, height=0.78, color=color, hatch=hatch, edgecolor=PAPER, linewidth=0.0
+        )
+        axes.annotate(
+            f"{sign} {value:.2f}",
+            (0.0, place),
+            xytext=(5, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=9,
+            fontweight="bold",
+            color=INK,
+            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.0},
+        )
+    axes.axvline(good, color=REFERENCE, linestyle="--", linewidth=1.2)
+    axes.set_xlim(0.0, 1.0)
+    axes.set_yticks(range(len(scores)), list(scores))
+    axes.set_ylim(len(scores) - 0.4, -0.6)
+    axes.set_xlabel(f"{score} (dashed: {good:g})", color=INK)
+    axes.set_title("the score", fontsize=10, color=INK)
+
+
+def _errors(
+    axes: Axes, scores: Mapping[str, float], off: Mapping[str, Mapping[str, float]]
+) -> None:
+    """A mark for each gain, on a scale that shows 1 % and 500 % alike."""
+    axes.set_xscale("symlog", linthresh=LINEAR, linscale=0.8)
+    axes.axvline(0.0, color=REFERENCE, linewidth=1.2)
+    for index, (gain, found) in enumerate(off.items()):
+        axes.plot(
+            [PERCENT * found[name] for name in scores],
+            range(len(scores)),
+            MARKERS[index],
+            color=COLORS[index],
+            markersize=6,
+            label=gain,
+        )
+    most = max(2 * LINEAR, 1.3 * PERCENT * max(abs(v) for f in off.values() for v in f.values()))
+    axes.set_xlim(-most, most)
+    ticks = [tick for tick in TICKS if abs(tick) <= most]
+    axes.set_xticks(ticks, [f"{tick:+d}".replace("-", "−") if tick else "0" for tick in ticks])
+    axes.minorticks_off()
+
+
+def _table(
+    scores: Mapping[str, float],
+    good: float,
+    score: str,
+    off: Mapping[str, Mapping[str, float]] | None,
+) -> Table:
+    header = ("log", score, f"above {good:g}?")
+    rows: list[tuple[Cell, ...]] = [
+        (name, value, "yes" if value > good else "no") for name, value in scores.items()
+    ]
+    if off is None:
+        return Table(header, tuple(rows))
+    told = (
+        (*row, *(format_percent(found[name]) for found in off.values()))
+        for name, row in zip(scores, rows, strict=True)
+    )
+    return Table((*header, *(f"{gain} off by" for gain in off)), tuple(told))
+
+
+def format_percent(share: float) -> str:
+    """A share as a signed percentage without decimals."""
+    whole = round(PERCENT * share)
+    return f"{whole:+d} %".replace("-", "−") if whole else "0 %"
+
+
+def _words(
+    scores: Mapping[str, float],
+    good: float,
+    score: str,
+    off: Mapping[str, Mapping[str, float]] | None,
+) -> str:
+    passing = [name for name, value in scores.items() if value > good]
+    said = f"A badge for each of {len(scores)} logs: {len(passing)} have a {score} above {good:g}"
+    failing = [name for name in scores if name not in passing]
+    said += f", not so {', '.join(failing)}." if failing else "."
+    if off is None:
+        return f"{said} By how much their gains are off is hidden."
+    said += " Beside them, by how much the gains are off."
+    for gain, found in off.items():
+        sizes = np.abs([found[name] for name in scores])
+        worst = max(found, key=lambda name: abs(found[name]))
+        said += f" {gain}: half of them by more than {PERCENT * float(np.median(sizes)):.0f} %, "
+        said += f"{worst} by {format_percent(found[worst])}."
+    return said

@@ -1,0 +1,120 @@
+"""Step responses of feedback gains: those that are suggested, and the learner's own."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure, SubFigure
+
+from sim.errors import BadRequest
+from sim.feedback_trial import FeedbackTrial, format_gain_pair
+from sim.plot.decimate import decimate_curve
+from sim.plot.measured_vs_simulated import plain_axes, shared_legend
+from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture
+from sim.plot.table import Table, format_cell
+from sim.units import Unit
+
+WIDTH, HEIGHT = 7.6, 4.2  # [in]
+MOST = 500  # points of a curve that are drawn
+MARK = 0.13  # [share of a panel] between markers
+WIDER = 1.6  # [times the step] shown around it at most: what runs away leaves the picture
+
+
+def step_responses(tried: Sequence[FeedbackTrial], *, per: Unit) -> Picture:
+    """What each loop does when its target jumps, and the voltage it takes.
+
+    Args:
+        tried: at least one, of one loop or of both.
+        per: the unit of position that they count in.
+
+    Raises:
+        BadRequest: there is none.
+    """
+    if not tried:
+        raise BadRequest("no feedback gains to draw", advice="Fit a log whose gains are positive.")
+    loops = group_by_loop(tried)
+    figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained", facecolor=PAPER)
+    for part, mine in zip(figure.subfigures(1, len(loops), squeeze=False).flat, loops, strict=True):
+        draw_loop(part, mine, per=per)
+    return Picture(figure, describe_trials(tried, per=per), _numbers(tried, per))
+
+
+def group_by_loop(tried: Sequence[FeedbackTrial]) -> list[list[FeedbackTrial]]:
+    """The trials of each loop that there are any of."""
+    loops = dict.fromkeys(trial.loop for trial in tried)
+    return [[trial for trial in tried if trial.loop == loop] for loop in loops]
+
+
+def draw_loop(figure: SubFigure, tried: Sequence[FeedbackTrial], *, per: Unit) -> None:
+    """Draw the responses of one loop: what is held above, the voltage below.
+
+    Args:
+        figure: an empty one.
+        tried: of one loop.
+        per: the unit of position that they count in.
+    """
+    target, end = tried[0].response.target, max(map(_worth, tried))
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    plain_axes((upper, lower))
+    for index, trial in enumerate(tried):
+        time = np.array(trial.response.time)
+        for axes, values in ((upper, trial.response.value), (lower, trial.response.voltage)):
+            there = np.array(values)[time <= end]
+            kept = decimate_curve(there, most=MOST)
+            axes.plot(
+                time[kept], there[kept], color=COLORS[index], linestyle=LINES[index],
+                marker=MARKERS[index], markersize=4, markevery=MARK, linewidth=1.4,
+                label=trial.whose,
+            )  # fmt: skip
+    upper.axhline(target, color=REFERENCE, linestyle=":", linewidth=1.2, label="target")
+    low, high = upper.get_ylim()
+    upper.set_ylim(max(low, (1.0 - WIDER) * target), min(high, WIDER * target))
+    loop = tried[0].loop
+    upper.set_title(f"{loop} loop", fontsize=10, color=INK)
+    upper.set_ylabel(f"{loop} [{_unit(loop, per)}]", color=INK, fontsize=9)
+    lower.set_ylabel("voltage [V]", color=INK, fontsize=9)
+    lower.set_xlabel("time since the target jumped [s]", color=INK, fontsize=9)
+    shared_legend(figure, (upper,))
+
+
+def _worth(trial: FeedbackTrial) -> float:
+    """[s] how much is worth a look: twice what it takes to settle, or to leave the picture."""
+    response, settled = trial.response, trial.verdict.settled
+    reach = (WIDER - 0.5) * abs(response.target)
+    pairs = zip(response.time, response.value, strict=True)
+    left = next((t for t, y in pairs if abs(y - 0.5 * response.target) > reach), None)
+    until = settled if settled is not None else left
+    return response.time[-1] if until is None else min(response.time[-1], max(2.0 * until, 0.2))
+
+
+def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
+    """What the picture of some trials shows, a sentence for each."""
+    return " ".join(
+        f"{trial.whose.capitalize()} gains of the {trial.loop} loop, {format_gain_pair(trial.gains)}: when the "
+        f"target jumps by {format_cell(trial.response.target)} {_unit(trial.loop, per)}, the loop "
+        f"{trial.verdict.words}."
+        for trial in tried
+    )
+
+
+def _numbers(tried: Sequence[FeedbackTrial], per: Unit) -> Table:
+    rows = tuple(
+        (
+            f"{trial.loop}, {trial.whose}",
+            f"{format_cell(trial.response.target)} {_unit(trial.loop, per)}",
+            _seconds(trial.verdict.reached),
+            f"{trial.verdict.overshoot:.0%}",
+            _seconds(trial.verdict.settled),
+            f"{max(map(abs, trial.response.voltage)):.1f}",
+        )
+        for trial in tried
+    )
+    header = ("loop", "step", "90% there [s]", "past the target", "settled [s]", "most volts [V]")
+    return Table(header, rows)
+
+
+def _seconds(value: float | None) -> str:
+    return "never" if value is None else f"{value:.3f}"
+
+
+def _unit(loop: str, per: Unit) -> str:
+    return f"{per.symbol}/s" if loop == "velocity" else per.symbol

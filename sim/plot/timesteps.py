@@ -1,0 +1,216 @@
+"""The time between samples: what SysId calls "Timesteps vs. Time".
+
+SysId draws all steps over one time axis, with their mean as a line. Here every test has a panel of
+its own, the line is the median, which gaps do not move, and the gaps are marked and named.
+Source: WPILib SysId 2026, ``view/AnalyzerPlot.cpp``.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from sim.errors import BadRequest
+from sim.log import DIRECTIONS, KINDS, Array, Log, Run
+from sim.log_features import LogFeatures
+from sim.plot.decimate import decimate_cloud, decimate_curve
+from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.table import Table, format_cell
+
+GAP = 1.5  # [median steps] a longer step is a gap: 20 ms loops do end after 21 ms now and then
+HIGHEST = 15.0  # [median steps] the panels are at most this high; what is longer sits at their edge
+NEAR_MEDIAN = 2.5  # [median steps] the panels are at least this high
+MOST = 160  # ordinary steps drawn in a panel
+MOST_GAPS = 200  # gaps drawn in a panel
+TOLD = 4  # gaps of a test that are told one by one
+EDGE = 0.955  # [share of a panel's height] where the mark of a gap stands that is longer than it
+TITLE, ROW, FOOT = 0.3, 1.6, 0.85  # [in] above the panels, for each row of them, and below
+MILLI = 1e3
+
+
+@dataclass(frozen=True, eq=False)
+class _Steps:
+    """The steps of one run.
+
+    Args:
+        run: of the log.
+        after: (n,) [s] since the run began, where each step starts.
+        length: (n,) [ms].
+        gaps: (n,) which of them are gaps.
+    """
+
+    run: Run
+    after: Array
+    length: Array
+    gaps: "np.ndarray[tuple[int], np.dtype[np.bool_]]"
+
+
+def timesteps(log: Log) -> Picture:
+    """The time between one sample and the next, over the time since each test began.
+
+    Args:
+        log: any; tests that SysId does not know are drawn, too, and repeated ones together.
+
+    Raises:
+        BadRequest: no run has two samples.
+    """
+    median = LogFeatures(log).period * MILLI
+    if not np.isfinite(median):
+        raise BadRequest(
+            "no run of this log has two samples, so there is no time between them",
+            where=log.source,
+            advice="Give a log in which a test lasted a while.",
+        )
+    all_steps = [_steps(run, median=median) for run in log.runs if len(run) > 1]
+    kinds = [kind for kind in KINDS if any(steps.run.kind == kind for steps in all_steps)]
+    longest = max(float(steps.length.max()) for steps in all_steps)
+    top = median * min(max(NEAR_MEDIAN, 1.15 * longest / median), HIGHEST)
+    ways = [way for way in DIRECTIONS if any(one.run.direction == way for one in all_steps)]
+    figure, grid = panels(len(kinds), len(ways), height=_height(len(kinds)), shared=True)
+    _arrange(figure, rows=len(kinds))
+    for kind, row in zip(kinds, grid, strict=True):
+        for way, axes in zip(ways, row, strict=True):
+            these = [one for one in all_steps if one.run.test == f"{kind}-{way}"]
+            _draw(axes, these, median=median, top=top)
+            _dress(axes, f"{kind}-{way}", these)
+        row[0].set_ylabel("step [ms]", color=INK)
+    for axes in grid[-1]:
+        axes.set_xlabel("time since the test began [s]", color=INK)
+    legend(figure, [axes for row in grid for axes in row], columns=5)
+    return Picture(figure, _words(all_steps, median=median, top=top), _table(all_steps))
+
+
+def _height(rows: int) -> float:
+    """[in] of the figure: so much for each row of panels, and below them for label and legend."""
+    return TITLE + ROW * rows + FOOT
+
+
+def _arrange(figure: Figure, *, rows: int) -> None:
+    """Place the panels by hand: with a dozen of them matplotlib needs half a second for it."""
+    height = _height(rows)
+    figure.set_layout_engine(None)
+    figure.subplots_adjust(
+        left=0.085,
+        right=0.99,
+        top=1.0 - TITLE / height,
+        bottom=FOOT / height,
+        hspace=0.38,
+        wspace=0.06,
+    )
+
+
+def _steps(run: Run, *, median: float) -> _Steps:
+    length = np.diff(run.time) * MILLI
+    return _Steps(run, run.time[:-1] - run.time[0], length, length > GAP * median * (1.0 + 1e-6))
+
+
+def _draw(axes: Axes, these: Sequence[_Steps], *, median: float, top: float) -> None:
+    """Draw the steps of one test."""
+    axes.set_ylim(0.0, top)
+    axes.axhline(median, color=REFERENCE, linewidth=1.0, label=f"median, {format_cell(median)} ms")
+    axes.axhline(
+        GAP * median,
+        color=REFERENCE,
+        linestyle=":",
+        linewidth=1.0,
+        label=f"{GAP:g} × median",
+    )
+    if not these:
+        return
+    after, length, gaps = (
+        np.concatenate([getattr(one, name) for one in these])
+        for name in ("after", "length", "gaps")
+    )
+    kept = np.flatnonzero(~gaps)
+    kept = kept[
+        decimate_curve(length[kept], most=MOST)
+    ]  # as close everywhere: a hole would look like a gap
+    axes.plot(
+        after[kept],
+        length[kept],
+        MARKERS[0],
+        color=COLORS[0],
+        markersize=2.5,
+        label="a step",
+    )
+    kept = np.flatnonzero(gaps)
+    if not kept.size:
+        return
+    kept = kept[decimate_cloud(after[kept], length[kept], most=MOST_GAPS)]
+    axes.vlines(after[kept], GAP * median, np.minimum(length[kept], top), color=COLORS[1], lw=0.8)
+    for marker, these_gaps, label in (
+        (MARKERS[3], kept[length[kept] <= top], "a gap"),
+        (MARKERS[2], kept[length[kept] > top], "a longer gap"),
+    ):
+        if these_gaps.size:
+            heights = np.minimum(length[these_gaps], EDGE * top)
+            axes.plot(
+                after[these_gaps], heights, marker, color=COLORS[1], markersize=5.0, label=label
+            )
+
+
+def _dress(axes: Axes, test: str, these: Sequence[_Steps]) -> None:
+    """Title and ticks; few ticks, because their labels are most of the work of a tall picture."""
+    gaps = sum(int(one.gaps.sum()) for one in these)
+    count = "no" if not gaps else str(gaps)
+    said = f"{count} gap{'' if gaps == 1 else 's'}" if these else "not in this log"
+    axes.set_title(f"{test}: {said}", fontsize=10, color=INK)
+    axes.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
+    axes.yaxis.set_major_locator(MaxNLocator(3, steps=[1, 2, 5, 10]))
+
+
+def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
+    total = sum(one.length.size for one in all_steps)
+    gaps = sum(int(one.gaps.sum()) for one in all_steps)
+    said = "One panel for each test shows the time from one sample to the next over the time since "
+    said += f"the test began. The median step is {format_cell(median)} ms, a solid line. "
+    if not gaps:
+        longest = max(float(one.length.max()) for one in all_steps)
+        return said + (
+            f"None of the {total} steps is longer than {GAP:g} times that, a dotted line; the "
+            f"longest is {format_cell(longest)} ms."
+        )
+    said += (
+        f"Of {total} steps {gaps}, {_share(gaps, total)}, {'is' if gaps == 1 else 'are'} longer "
+    )
+    said += f"than {GAP:g} times that, a dotted line: gaps, drawn as diamonds on a stem."
+    for one in all_steps:
+        where = np.flatnonzero(one.gaps)
+        if not where.size:
+            continue
+        worst = np.sort(where[np.argsort(one.length[where])[::-1][:TOLD]])
+        told = ", ".join(f"{format_cell(one.length[i])} ms at {one.after[i]:.2f} s" for i in worst)
+        only = "" if where.size <= TOLD else f", the {TOLD} longest"
+        said += f" {one.run.test} has {where.size}{only}: {told}."
+    beyond = sum(int((one.length > top).sum()) for one in all_steps)
+    if beyond:
+        said += (
+            f" {beyond} of them {'is' if beyond == 1 else 'are'} longer than the panels are high: "
+        )
+        said += "triangles at the upper edge."
+    return said
+
+
+def _share(part: int, total: int) -> str:
+    """A share as a percentage, never rounded to nothing."""
+    return f"{format_cell(100.0 * part / total)} %"
+
+
+def _table(all_steps: Sequence[_Steps]) -> Table:
+    rows = tuple(
+        (
+            one.run.test,
+            one.length.size,
+            float(np.median(one.length)),
+            float(one.length.mean()),
+            float(one.length.max()),
+            int(one.gaps.sum()),
+            _share(int(one.gaps.sum()), one.length.size),
+        )
+        for one in all_steps
+    )
+    header = ("test", "steps", "median [ms]", "mean [ms]", "longest [ms]", "gaps", "share")
+    return Table(header, rows, caption=f"Time between samples; a gap is longer than {GAP:g} median")

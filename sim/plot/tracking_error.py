@@ -1,0 +1,93 @@
+"""A chase: a velocity that is asked for, what follows it, and by how much it misses."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.errors import BadRequest
+from sim.log import Array
+from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.table import Table, format_cell
+
+APART = 0.12  # [share of a panel] between markers
+
+
+@dataclass(frozen=True)
+class TrackingError:
+    """By how much something misses what it follows.
+
+    Args:
+        typical: root mean square.
+        largest: the largest, without its sign.
+    """
+
+    typical: float
+    largest: float
+
+
+def measure_tracking_error(target: Array, velocity: Array) -> TrackingError:
+    """By how much a velocity misses its target.
+
+    Args:
+        target: (n,).
+        velocity: (n,) in the same unit.
+    """
+    off = np.asarray(velocity) - np.asarray(target)
+    return TrackingError(float(np.sqrt(np.mean(off**2))), float(np.abs(off).max()))
+
+
+def tracking_error(
+    time: Array,
+    target: Array,
+    followers: Mapping[str, Array],
+    *,
+    unit: str = "m/s",
+    title: str = "",
+) -> Picture:
+    """A target velocity and what followed it, and below it what each one misses.
+
+    Args:
+        time: (n,) [s].
+        target: (n,) what was asked for.
+        followers: name -> (n,) what came of it.
+        unit: of all velocities.
+        title: above the picture; may be empty.
+
+    Raises:
+        BadRequest: nobody follows, or lengths differ.
+    """
+    if not followers or any(len(one) != len(time) for one in (*followers.values(), target)):
+        raise BadRequest(
+            "every velocity needs one value for each time",
+            advice="Give one or more, of equal length.",
+        )
+    figure, ((upper,), (lower,)) = panels(2, 1, height=4.4, shared=True)
+    upper.plot(time, target, color=REFERENCE, linewidth=2.2, label="target")
+    lower.axhline(0.0, color=REFERENCE, linewidth=1.2)
+    for index, (name, velocity) in enumerate(followers.items()):
+        for panel, values in ((upper, velocity), (lower, velocity - target)):
+            panel.plot(
+                time, values, color=COLORS[(index + 1) % len(COLORS)],
+                linestyle=LINES[(index + 1) % len(LINES)], linewidth=1.5, markersize=4,
+                marker=MARKERS[(index + 1) % len(MARKERS)], markevery=APART, label=name,
+            )  # fmt: skip
+    upper.set_ylabel(f"velocity [{unit}]", color=INK)
+    lower.set_ylabel(f"too fast by [{unit}]", color=INK)
+    lower.set_xlabel("time [s]", color=INK)
+    if title:
+        upper.set_title(title, fontsize=10, color=INK)
+    legend(figure, (upper,))
+    found = {name: measure_tracking_error(target, velocity) for name, velocity in followers.items()}
+    alt = (
+        f"A target velocity over time, between {format_cell(float(np.min(target)))} and "
+        f"{format_cell(float(np.max(target)))} {unit}, and what followed it; below, what each misses. "
+        + " ".join(
+            f"“{name}” misses by {format_cell(one.typical)} {unit} typically and by "
+            f"{format_cell(one.largest)} {unit} at most."
+            for name, one in found.items()
+        )
+    )
+    rows = tuple((name, one.typical, one.largest) for name, one in found.items())
+    header = ("who", f"typical miss [{unit}]", f"largest miss [{unit}]")
+    return Picture(figure, f"{title}. {alt}" if title else alt, Table(header, rows))

@@ -1,0 +1,239 @@
+"""Voltage over velocity: what speed costs, and what it costs to begin."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from sim.errors import BadRequest
+from sim.log import DIRECTIONS, Array, Log, Run
+from sim.plot.decimate import decimate_cloud
+from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, panels
+from sim.plot.table import Table
+from sim.units import Unit, unit
+
+MOST = 150  # samples of a ramp in a panel that shows all of it: more cover each other
+CLOSEST = 500  # samples of a ramp in the panel near standstill
+MOVING = 0.05  # [share of the top speed] slower samples are taken for standing
+FEWEST = 3  # samples that a straight line can miss
+ODD = 0.02  # [share of the samples near standstill] that may lie off the panel: it is no overview
+
+
+@dataclass(frozen=True)
+class Line:
+    """A straight line in the picture of voltage over velocity: V = intercept + slope·v.
+
+    Args:
+        intercept: [V].
+        slope: [V·s/unit].
+    """
+
+    intercept: float
+    slope: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Ramps:
+    """All quasistatic tests of one direction.
+
+    Args:
+        way: ``forward`` or ``reverse``.
+        runs: how many.
+        velocity: (n,) [unit/s].
+        voltage: (n,) [V].
+    """
+
+    way: str
+    runs: int
+    velocity: Array
+    voltage: Array
+
+
+def voltage_velocity(
+    log: Log, *, lines: Mapping[str, Line] | None = None, zoom: float | None = None
+) -> Picture:
+    """Voltage over velocity of the quasistatic tests, all of it and the part near standstill.
+
+    The second panel shows forward motion; of a mechanism with gravity both directions, because
+    there the two meet standstill at different voltages, kG + kS and kG - kS.
+
+    Args:
+        log: with a quasistatic test.
+        lines: name -> straight line for forward motion, per the log's unit; extended to v = 0.
+        zoom: [unit/s] width of the second panel; None takes an eighth of the top speed.
+
+    Raises:
+        BadRequest: the log has no quasistatic test, or the zoom is not above zero.
+    """
+    per = unit(log.units)
+    ramps = _ramps([run for run in log.runs if run.kind == "quasistatic" and len(run)], per)
+    if not ramps:
+        raise BadRequest(
+            "this log has no quasistatic test",
+            where=log.source,
+            advice="Give a log with a slow ramp in it.",
+        )
+    if zoom is not None and not zoom > 0.0:
+        raise BadRequest(f"a zoom of {zoom:g} {per.symbol}/s", advice="Choose one above 0.")
+    drawn = dict(lines or {})
+    top = max(float(np.abs(one.velocity).max()) for one in ramps)
+    near = zoom or top / 8.0 or 1.0  # of what never moved, any width shows the same
+    figure, ((whole, close),) = panels(1, 2)
+    _draw(whole, ramps, drawn, top=top, most=MOST)
+    _limit(close, ramps, drawn, near=near, both=log.type in {"elevator", "arm"})
+    _draw(close, _within(ramps, close), drawn, top=top, most=CLOSEST)
+    for axes in (whole, close):
+        axes.set_xlabel(f"velocity [{per.symbol}/s]", color=INK)
+    whole.set_ylabel("voltage [V]", color=INK)
+    whole.set_title("the whole ramp", fontsize=10, color=INK)
+    close.set_title("close to standstill", fontsize=10, color=INK)
+    whole.legend(fontsize=9)
+    return Picture(figure, _words(ramps, drawn, per, top=top), _table(ramps, drawn, per, top=top))
+
+
+def _ramps(runs: Sequence[Run], per: Unit) -> list[_Ramps]:
+    """The runs of each direction together; only directions there are."""
+    found = []
+    for way in DIRECTIONS:
+        these = [run for run in runs if run.direction == way]
+        if these:
+            velocity = np.concatenate([run.velocity for run in these]) / per.si
+            voltage = np.concatenate([run.voltage for run in these])
+            found.append(_Ramps(way, len(these), velocity, voltage))
+    return found
+
+
+def _limit(
+    axes: Axes, ramps: Sequence[_Ramps], lines: Mapping[str, Line], *, near: float, both: bool
+) -> None:
+    """Set the limits of the panel near standstill to what there is to see."""
+    ways = {one.way for one in ramps}
+    left = -near if both or ways == {"reverse"} else -0.15 * near
+    right = 0.15 * near if ways == {"reverse"} and not both else near
+    axes.set_xlim(left, right)
+    there = np.concatenate(
+        [
+            one.voltage[(one.velocity >= left) & (one.velocity <= right)]
+            for one in ramps
+            if both or one.way == "forward" or len(ways) == 1
+        ]
+    )
+    usual = np.quantile(there, [ODD, 1.0 - ODD]) if there.size else np.zeros(0)
+    ends = [line.intercept + line.slope * v for line in lines.values() for v in (0.0, near)]
+    seen = np.array([0.0, *usual, *ends])
+    room = 0.06 * (float(np.ptp(seen)) or 1.0)
+    axes.set_ylim(float(seen.min()) - room, float(seen.max()) + room)
+
+
+def _within(ramps: Sequence[_Ramps], axes: Axes) -> list[_Ramps]:
+    """The samples that a panel shows."""
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    shown = []
+    for one in ramps:
+        seen = (one.velocity >= left) & (one.velocity <= right)
+        seen &= (one.voltage >= bottom) & (one.voltage <= top)
+        shown.append(_Ramps(one.way, one.runs, one.velocity[seen], one.voltage[seen]))
+    return shown
+
+
+def _draw(
+    axes: Axes, ramps: Sequence[_Ramps], lines: Mapping[str, Line], *, top: float, most: int
+) -> None:
+    """Draw the samples, at most so many of each direction, and the lines."""
+    for one in ramps:
+        index = DIRECTIONS.index(one.way)
+        kept = (
+            decimate_cloud(one.velocity, one.voltage, most=most) if one.velocity.size else slice(0)
+        )
+        axes.plot(
+            one.velocity[kept],
+            one.voltage[kept],
+            MARKERS[index],
+            color=COLORS[index],
+            markersize=2.5,
+            alpha=0.6,
+            label=one.way,
+        )
+    ends = np.array([0.0, top])
+    for index, (name, line) in enumerate(lines.items(), start=len(DIRECTIONS)):
+        axes.plot(
+            ends,
+            line.intercept + line.slope * ends,
+            color=REFERENCE if index == len(DIRECTIONS) else COLORS[index % len(COLORS)],
+            linestyle=LINES[index % len(LINES)],
+            linewidth=1.8,
+            label=name,
+        )
+
+
+def _moving(one: _Ramps, *, top: float) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
+    """(n,) which samples move the way their test is called; an elevator begins by falling."""
+    sign = 1.0 if one.way == "forward" else -1.0
+    return np.asarray(sign * one.velocity > MOVING * top)
+
+
+def _stray(one: _Ramps, *, top: float) -> float | None:
+    """[V] by how much the moving samples miss their own best straight line; None if undefined."""
+    moving = _moving(one, top=top)
+    velocity, voltage = one.velocity[moving], one.voltage[moving]
+    if velocity.size < FEWEST or not np.ptp(velocity) > 0.0:
+        return None
+    across, up = velocity - velocity.mean(), voltage - voltage.mean()
+    slope = float(across @ up) / float(across @ across)
+    return float(np.sqrt(np.mean((up - slope * across) ** 2)))
+
+
+def _two(value: float) -> str:
+    return f"{value:.2f}".replace("-", "−")
+
+
+def _way(way: str) -> str:
+    return "in reverse" if way == "reverse" else way
+
+
+def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> str:
+    said = "Two panels of voltage over velocity: the whole ramp, and the part near standstill."
+    for one in ramps:
+        index = int(np.argmax(np.abs(one.velocity)))
+        moving = _moving(one, top=top)
+        tests = f"{one.way} test" if one.runs == 1 else f"{one.runs} {one.way} tests"
+        said += f" The {one.velocity.size} samples of the {tests} reach "
+        said += f"{_two(one.velocity[index])} {per.symbol}/s at {_two(one.voltage[index])} V"
+        said += f"; they move {_way(one.way)}, faster than {MOVING * top:.2f} {per.symbol}/s, "
+        said += f"from {_two(one.voltage[moving][0])} V on" if moving.any() else "nowhere"
+        stray = _stray(one, top=top)
+        if stray is not None:
+            said += f"; in motion they stray {stray:.3f} V from a straight line"
+        said += "."
+    for name, line in lines.items():
+        said += f" The line “{name}” meets standstill at {line.intercept:.3f} V and rises by "
+        said += f"{line.slope:.3f} V per {per.symbol}/s."
+    return said
+
+
+def _table(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> Table:
+    """The lines in numbers; without lines the samples."""
+    if lines:
+        return Table(
+            ("line", "at standstill [V]", f"slope [V·s/{per.symbol}]"),
+            tuple((name, line.intercept, line.slope) for name, line in lines.items()),
+        )
+    rows = tuple(
+        (
+            one.way,
+            one.velocity.size,
+            float(one.voltage[np.argmax(np.abs(one.voltage))]),
+            float(one.velocity[np.argmax(np.abs(one.velocity))]),
+            "–" if (stray := _stray(one, top=top)) is None else stray,
+        )
+        for one in ramps
+    )
+    header = (
+        "direction",
+        "samples",
+        "most V",
+        f"fastest [{per.symbol}/s]",
+        "off a straight line [V]",
+    )
+    return Table(header, rows)

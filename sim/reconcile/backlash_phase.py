@@ -1,0 +1,85 @@
+"""Where in its free play each run began: nothing tells, but how it went on.
+
+Teeth that rest on one another push at once, others first cross the slack and then meet; which it
+is, is left from whatever was before the run.
+"""
+
+import math
+
+import numpy as np
+
+from sim.log import Array
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+
+PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # [1] of half the play
+FINER = 0.2  # [1] to both sides of the place that was the best one
+ASIDE = 2.0 * math.log(3.0)  # [of -2 log L] of telling that teeth rested on one side
+BETWEEN = ASIDE + 2.0 * math.log(10.0)  # the same, between them, where only friction holds them
+
+# Slack that a run crosses from its edge, and twice as much from its middle, push the load at the
+# same moment: the prices say which is the usual one.
+
+
+def estimate_backlash_phase(
+    problem: PredictionErrorProblem, point: Estimate, *, aside: bool = False
+) -> Estimate:
+    """The same values, each run begun where it follows best; the same point without free play.
+
+    Args:
+        problem: the measurements.
+        point: with free play or without.
+        aside: only the two sides are tried, for a quick look.
+    """
+    if not point.hypothesis.plays or not math.isfinite(point.cost):
+        return point
+    before = point.outset.meshed
+    if not point.outset.is_meshed:
+        places = PLACES[:: len(PLACES) - 1] if aside else PLACES
+        others = [np.full(before.size, place) for place in places]
+    else:
+        others = [
+            np.where(np.isnan(before), math.copysign(1.0, by), np.clip(before + by, -1.0, 1.0))
+            for by in (-FINER, FINER)
+        ]
+    model = point.hypothesis.model(point.values)
+    costs = [_costs(problem, point, point.ahead, before)]
+    for each in others:
+        ahead = problem.ahead(model, point.outset.meshing(each), point.trust)
+        costs.append(_costs(problem, point, ahead, each))
+    tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
+    if not chosen.any():
+        return point
+    outset = point.outset.meshing(tried[chosen, np.arange(before.size)])
+    found = problem.at(point.hypothesis, point.values, outset, point.q)
+    return (
+        found
+        if found.cost + backlash_phase_prior(found) < point.cost + backlash_phase_prior(point)
+        else point
+    )
+
+
+def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """Half the play, and each run begun in it anew: as much of it may be crossed as before."""
+    slacks = {name: 0.5 * point.values[name] for name in point.hypothesis.slacks}
+    values = {**point.values, **slacks}
+    return estimate_backlash_phase(
+        problem, problem.at(point.hypothesis, values, point.outset.unmeshed, point.q)
+    )
+
+
+def _costs(problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshed: Array) -> Array:
+    """(runs,) what the innovations of each cost, by the spread at a point, and what was told."""
+    squares = np.square(problem.white(point, ahead)).reshape(-1, 2).sum(axis=1)
+    costs: Array = np.add.reduceat(squares, problem.edges[:-1]) + _prices(meshed)
+    return costs
+
+
+def backlash_phase_prior(point: Estimate) -> float:
+    """[of -2 log L] of what was told of where its runs began."""
+    return float(np.sum(_prices(point.outset.meshed)))
+
+
+def _prices(meshed: Array) -> Array:
+    """(runs,) [of -2 log L]."""
+    told = np.where(np.abs(meshed) == 1.0, ASIDE, BETWEEN)
+    return np.where(np.isnan(meshed), 0.0, told)

@@ -1,0 +1,148 @@
+"""Second thoughts: what an earlier effect is worth beside the later ones, and what would do better.
+
+Of two effects that mask each other, the first that is found may be a third one that resembles both.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from sim.effects import EFFECTS
+from sim.log import Log
+from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
+from sim.reconcile.cross_validation import Fold, Gap, validation_gap
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.model_selection import (
+    WIDENS,
+    rejection_reason,
+    required_improvement,
+    score_improvement,
+)
+from sim.reconcile.optimize import minimize
+from sim.reconcile.selection_round import SelectionRound
+from sim.reconcile.thresholds import CLOSE, ONCE, SIMPLER, SURER
+from sim.voltage_residual import compute_voltage_residual
+
+ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
+
+
+def replace_effects(
+    problem: PredictionErrorProblem, done: list[SelectionRound], log: Log, parts: Sequence[Fold]
+) -> list[SelectionRound]:
+    """The same, with an earlier effect in another's place where that is likelier by now."""
+    last = done[-1]
+    for place in range(1, len(done) - 1):
+        effect = done[place].suspect.effect
+        others = _others(done, place)
+        if not others:
+            continue
+        reduced = refit_without(problem, last.suspect, effect)
+        if reduced.score - last.suspect.score < required_improvement(
+            effect
+        ):  # it has become needless
+            gap = validation_gap(problem, reduced.point, parts)
+            if not math.isfinite(gap.velocity + gap.position):
+                continue
+            rest = [*done[:place], *done[place + 1 : -1]]
+            return [
+                *rest,
+                replace(last, suspect=replace(reduced, effect=last.suspect.effect), gap=gap),
+            ]
+        model = reduced.point.hypothesis.model(reduced.point.values)
+        evidence = compute_voltage_residual(
+            log, dict(model.gains), type=reduced.point.hypothesis.type
+        )
+        found = rank_candidates(problem, reduced.point, evidence, only=others, seeds=last.seeds)
+        if not found or score_improvement(last.suspect, found[0]) < _clear(effect, found[0].effect):
+            continue
+        gap = validation_gap(problem, found[0].point, parts)
+        if rejection_reason(gap, last.gap, SURER) == WIDENS:
+            continue
+        return _replaced(done, place, found[0], gap)
+    return done
+
+
+def _clear(effect: str, other: str) -> float:
+    """[of -2 log L] by which another effect must be likelier to take the place of one."""
+    passing = EFFECTS[other].happens and not EFFECTS[effect].happens
+    return ONCE if passing else CLOSE
+
+
+def simplify_effects(
+    problem: PredictionErrorProblem, done: list[SelectionRound], log: Log, parts: Sequence[Fold]
+) -> list[SelectionRound]:
+    """The same, each effect's simpler sister in its place where that explains as much by now.
+
+    What an effect had to explain before all was found may have needed its further parameters.
+    """
+    for place in range(1, len(done)):
+        last = done[-1]
+        effect = done[place].suspect.effect
+        had = last.suspect.point.hypothesis.effects  # those that nobody names among them
+        names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []
+        model = last.suspect.point.hypothesis.model(last.suspect.point.values)
+        evidence = compute_voltage_residual(
+            log, dict(model.gains), type=last.suspect.point.hypothesis.type
+        )
+        begun = simplify_effect(problem, last.suspect.point, names, evidence, effect=effect)
+        if begun is None or not math.isfinite(begun.cost):
+            continue
+        found = score_estimate(problem, minimize(problem, begun), begun.hypothesis.effects[-1])
+        gap = validation_gap(problem, found.point, parts)
+        as_good = found.score - last.suspect.score <= SIMPLER
+        if as_good and rejection_reason(gap, last.gap, SURER) != WIDENS:
+            done = _replaced(done, place, found, gap)
+    return done
+
+
+def _others(done: Sequence[SelectionRound], place: int) -> list[str]:
+    """Effects that looked like one that was added, or are known to."""
+    effect = done[place].suspect.effect
+    had = {one.suspect.effect for one in done}
+    tried = done[place - 1].tried
+    best = max((one.score for one in tried), default=0.0)
+    alike = [one.effect for one in tried if one.score > ALIKE * best]
+    return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
+
+
+def _replaced(
+    done: Sequence[SelectionRound], place: int, found: Candidate, gap: Gap
+) -> list[SelectionRound]:
+    """The rounds with another effect in the place of one."""
+    last = done[-1]
+    old = done[place]
+    if old is last:
+        return [*done[:place], replace(last, suspect=found, gap=gap, rivals=())]
+    swapped = replace(old.suspect, effect=found.effect)
+    middle = [*done[:place], replace(old, suspect=swapped, rivals=()), *done[place + 1 : -1]]
+    end = replace(found, effect=last.suspect.effect)
+    return [*middle, replace(last, suspect=end, gap=gap, rivals=())]
+
+
+def measure_removals(
+    problem: PredictionErrorProblem, done: list[SelectionRound], parts: Sequence[Fold]
+) -> list[SelectionRound]:
+    """The same, each with what the last model would be without its effect."""
+    last = done[-1].suspect
+    if len(last.point.hypothesis.effects) <= 1:  # what it brought is what it is worth
+        return done
+    told = [done[0]]
+    for one in done[1:]:
+        reduced = refit_without(problem, last, one.suspect.effect)
+        gap = validation_gap(problem, reduced.point, parts)
+        told.append(replace(one, lost=reduced.score - last.score, bare=gap))
+    return told
+
+
+def refit_without(problem: PredictionErrorProblem, suspect: Candidate, effect: str) -> Candidate:
+    """A model without one of its effects, fitted anew."""
+    point = suspect.point
+    hypothesis = point.hypothesis - effect
+    values = {name: point.values[name] for name in hypothesis.names}
+    begin = problem.at(hypothesis, values, point.outset, point.q)
+    return score_estimate(problem, minimize(problem, begin))
+
+
+def separating_test(effect: str, other: str) -> str:
+    """The test that tells two effects apart; empty where none is known."""
+    return EFFECTS[effect].apart.get(other, "") or EFFECTS[other].apart.get(effect, "")

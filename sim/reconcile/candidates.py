@@ -1,0 +1,237 @@
+"""Suspects: every effect of the catalogue, tried on top of a point, the likeliest first.
+
+A start of each is drawn from what the log shows (``Effect.starts``) and simulated once; the most
+promising go downhill a little, the best of those to the end. What shakes only for a moment after
+each change of voltage, as two bodies do, is tried on the lively runs first; of a point that much
+pushes, which bears with anything, only near a calmer one.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from sim.effect import Effect
+from sim.effects import EFFECTS
+from sim.reconcile.backlash_phase import backlash_phase_prior
+from sim.reconcile.likelihood import STEPWISE, Estimate, PredictionErrorProblem
+from sim.reconcile.onset_scan import refine_onset, scan_onsets
+from sim.reconcile.optimize import (
+    AGITATED,
+    CALM,
+    Begun,
+    joint_jacobian,
+    levenberg_marquardt,
+    minimize,
+    predicted_improvement,
+    total_cost,
+)
+from sim.reconcile.random_friction import laplace_correction
+from sim.reconcile.two_body_starts import SHAKES, TwoBodyStarts
+from sim.voltage_residual import VoltageResidual
+
+TRIED, KEPT = 8, 4  # suspects that go downhill a little, and to the end
+A_LITTLE = 2  # steps
+FURTHER = 6  # steps from each valley of what shakes, which are to be compared
+TRIED_CALM = 3  # more, where a large q hides what the base model lacks
+STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
+OWN: dict[str, tuple[str, ...]] = {
+    "elevator": ("constant-load", "gravity-cosine"),
+    "arm": ("gravity-cosine",),
+}
+"""Base type -> the effects that it has already, or cannot have: an elevator turns about nothing."""
+
+
+Seeds = Mapping[str, Mapping[str, float]]
+"""Effect -> its parameters, as ``effect.parameter``."""
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """An effect on top of a point.
+
+    Args:
+        effect: its name; empty for the point itself.
+        point: the best with it.
+        score: [of -2 log L] of the point, friction that varies and the number of values priced in;
+            the smaller, the likelier.
+    """
+
+    effect: str
+    point: Estimate
+    score: float
+
+
+def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
+    """A point with its score: -2 log L + k·ln N, as of Schwarz (1978)."""
+    values = point.hypothesis.free * math.log(max(problem.count, 2))
+    own = laplace_correction(point.values, problem.by_frictions(point))
+    return Candidate(effect, point, point.cost + own + backlash_phase_prior(point) + values)
+
+
+def rank_candidates(
+    problem: PredictionErrorProblem, point: Estimate, evidence: VoltageResidual, *,
+    only: Iterable[str] | None = None, seeds: Seeds | None = None,
+) -> list[Candidate]:  # fmt: skip
+    """The effects that explain most of what a point leaves, the likeliest first.
+
+    Args:
+        problem: the measurements.
+        point: the best without them.
+        evidence: what the point leaves, in volts.
+        only: names to choose from; None is the whole catalogue.
+        seeds: an effect's parameters as found before something else was added: where two effects
+            are in a log, what one of them hides at first is hardly found anew beside the other.
+    """
+    seeds = seeds or {}
+    had = (*point.hypothesis.effects, *OWN.get(point.hypothesis.type, ()))
+    names = [name for name in (EFFECTS if only is None else only) if name not in had]
+    effects = [EFFECTS[name] for name in names]
+    calmer = _calmer(problem, point)
+    here = effects if calmer is None else [one for one in effects if one.kind != SHAKES]
+    begun = _begun(problem, point, here, evidence, seeds)[:TRIED]
+    gone = [
+        descend_candidate(problem, point, refine_onset(problem, one))
+        for starts in begun
+        for _, one in starts
+    ]
+    best = _each_once(gone)[:KEPT]
+    if calmer is not None:
+        begun = _begun(problem, calmer, effects, evidence, seeds, heavy=True)
+        shaken = [one for one in begun[TRIED_CALM:] if _shakes(one[0][1])]
+        begun = [*begun[:TRIED_CALM], *shaken]
+        calm = [descend_candidate(problem, point, one) for starts in begun for _, one in starts]
+        best = _each_once([*gone, *calm])[:KEPT]
+        best += _each_once(calm)[:1]  # the likeliest of these has the longer way to go
+    ended = [minimize(problem, one) for one in dict.fromkeys(best)]
+    simpler = [simplify_effect(problem, one, names, evidence) for one in ended]
+    ended = _each_once([*ended, *(minimize(problem, one) for one in simpler if one)])
+    found = [score_estimate(problem, one, one.hypothesis.effects[-1]) for one in ended]
+    return sorted(found, key=lambda one: one.score)
+
+
+def descend_candidate(
+    problem: PredictionErrorProblem, point: Estimate, start: Estimate
+) -> Estimate:
+    """A start of a suspect after some steps downhill, by which it is compared with others.
+
+    Where in free play a run began is told before the gains have adjusted to it: if that leads to
+    less than the point without the suspect, the start may do better untold.
+
+    Args:
+        problem: the measurements.
+        point: the best without the suspect.
+        start: with it.
+    """
+    if not _shakes(start):
+        return levenberg_marquardt(problem, start, steps=A_LITTLE)
+    gone = levenberg_marquardt(problem, start, steps=FURTHER)
+    if gone.cost < point.cost or not start.outset.is_meshed:
+        return gone
+    untold = problem.at(start.hypothesis, start.values, start.outset.unmeshed, start.q)
+    return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=total_cost)
+
+
+def _shakes(point: Estimate) -> bool:
+    """Whether the last effect of a point is a joint of two bodies."""
+    return EFFECTS[point.hypothesis.effects[-1]].kind == SHAKES
+
+
+def _calmer(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None:
+    """A point that little pushes, near one that much does; None where little does anyway."""
+    calm = CALM * problem.noise.velocity**2
+    if point.q <= AGITATED * calm:
+        return None
+    calmer = problem.at(point.hypothesis, point.values, point.outset, calm)
+    calmer = levenberg_marquardt(problem, calmer, steps=A_LITTLE)
+    return calmer if math.isfinite(calmer.cost) else None
+
+
+def simplify_effect(
+    problem: PredictionErrorProblem,
+    point: Estimate,
+    names: Sequence[str],
+    evidence: VoltageResidual,
+    *,
+    effect: str = "",
+) -> Estimate | None:
+    """A point with an effect of fewer parameters in place of one; None if there is none.
+
+    A search that came far with more parameters is a good start for fewer: if it needs no more, the
+    simpler one must not miss only because its own start was worse.
+
+    Args:
+        problem: the measurements.
+        point: with the effect.
+        names: of effects to choose from.
+        evidence: what a log shows.
+        effect: to replace; empty for the last one.
+    """
+    old = EFFECTS[effect or point.hypothesis.effects[-1]]
+    name = old.simpler
+    if name not in names:
+        return None
+    mine = {one: point.values[f"{old.name}.{one}"] for one in old.names}
+    values = old.simplified(mine, evidence)
+    hypothesis = point.hypothesis - old.name + name
+    more = {
+        f"{name}.{one}": hypothesis.within(f"{name}.{one}", value) for one, value in values.items()
+    }
+    kept = {one: point.values[one] for one in (point.hypothesis - old.name).names}
+    return problem.at(hypothesis, {**kept, **more}, point.outset, point.q)
+
+
+def _each_once(points: Iterable[Estimate]) -> list[Estimate]:
+    """The best point of each effect, the likeliest first."""
+    best: dict[str, Estimate] = {}
+    for one in sorted(points, key=total_cost):
+        best.setdefault(one.hypothesis.effects[-1], one)
+    return list(best.values())
+
+
+def _begun(
+    problem: PredictionErrorProblem, point: Estimate, effects: Iterable[Effect], evidence: VoltageResidual, seeds: Seeds,
+    *, heavy: bool = False,
+) -> list[list[Begun]]:  # fmt: skip
+    """The best start of each effect, with what it promises; the most promising effect first.
+
+    Of what shakes, each valley that its lively runs show: how promising one is, is no sign of where
+    it leads. ``heavy`` tries two bodies of more inertia, too.
+    """
+    kept = joint_jacobian(problem, point)
+    found = []
+    lively = None
+    for effect in effects:
+        hypothesis = point.hypothesis + effect.name
+        more = [
+            {
+                f"{effect.name}.{one.name}": min(max(start[one.name], one.least), one.most)
+                for one in effect.parameters
+            }
+            for start in effect.starts(evidence)
+        ]
+        shakes = False
+        if effect.kind == SHAKES:
+            lively = lively or TwoBodyStarts(problem, point)
+            if shakes := lively.there:
+                more = lively.valleys(hypothesis, more, heavy=heavy)
+        more += _steps_below(effect, more)
+        if effect.happens:
+            more += scan_onsets(problem, point, effect, kept=kept)
+        if effect.name in seeds:
+            more.append(dict(seeds[effect.name]))
+        begun = predicted_improvement(problem, point, hypothesis, more, kept=kept, as_given=shakes)
+        begun.sort(key=lambda one: -one[0])
+        if begun:
+            found.append(begun if shakes else begun[:1])
+    return sorted(found, key=lambda starts: -starts[0][0])
+
+
+def _steps_below(
+    effect: Effect, starts: Sequence[Mapping[str, float]]
+) -> Iterator[dict[str, float]]:
+    """The least start, and less and less of what acts by a threshold: no slope leads down to it."""
+    names = [f"{effect.name}.{name}" for name in effect.names if name in STEPWISE]
+    if names and starts:
+        least = min(starts, key=lambda one: one[names[0]])
+        for power in range(1, STEPS_BELOW + 1):
+            yield {**least, **{name: least[name] * STEP_BELOW**power for name in names}}

@@ -1,0 +1,182 @@
+"""The gap on runs that a fit has not seen: what a new effect has to narrow."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.engine import Track
+from sim.log import Array
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.optimize import levenberg_marquardt
+from sim.reconcile.random_friction import LEAST_KS
+from sim.reconcile.run_nuisance import RunNuisance
+
+REFIT = 4  # steps
+MOST_VARIED = 0.12  # [of kS] by which a run's friction may differ
+EASED = (-1.0, -2 / 3, -1 / 3, 0.0, 1 / 3, 2 / 3, 1.0)
+"""[1] of the most that friction varies."""
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Simulation without correction against measurement.
+
+    Args:
+        velocity: [unit/s] root mean square.
+        position: [unit] the same.
+    """
+
+    velocity: float
+    position: float
+
+
+@dataclass(frozen=True, eq=False)
+class Fold:
+    """Runs to fit, and runs to predict.
+
+    Args:
+        fitted: places among a problem's runs.
+        predicted: the same.
+    """
+
+    fitted: tuple[int, ...]
+    predicted: tuple[int, ...]
+
+
+def make_folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
+    """What is fitted to predict what.
+
+    With two logs the first predicts the second; with one, each run is predicted by the others.
+
+    Args:
+        sessions: (runs,) the log of each.
+    """
+    every = range(len(sessions))
+    if len(set(sessions)) > 1:
+        first = min(sessions)
+        return (
+            Fold(
+                tuple(n for n in every if sessions[n] == first),
+                tuple(n for n in every if sessions[n] != first),
+            ),
+        )
+    return tuple(Fold(tuple(m for m in every if m != n), (n,)) for n in every)
+
+
+def validation_gap(problem: PredictionErrorProblem, point: Estimate, parts: Sequence[Fold]) -> Gap:
+    """The gap of a hypothesis on runs that its values were not fitted to."""
+    errors = [np.empty((0, 2))]
+    for part in parts:
+        if not (_tells(problem, part.fitted) and _tells(problem, part.predicted)):
+            continue
+        fitted = _some(problem, part.fitted)
+        begin = fitted.at(point.hypothesis, point.values, point.outset.of(part.fitted), point.q)
+        found = levenberg_marquardt(fitted, begin, steps=REFIT)
+        outset = point.outset.of(part.predicted).alike
+        errors.append(open_loop_errors(_some(problem, part.predicted), found, outset, eased=True))
+    return rms_gap(np.concatenate(errors))
+
+
+def _tells(problem: PredictionErrorProblem, chosen: Sequence[int]) -> bool:
+    """Whether anything of these runs is compared."""
+    edges = problem.edges.tolist()
+    return any(problem.telling[edges[n] : edges[n + 1]].any() for n in chosen)
+
+
+def open_loop_errors(
+    problem: PredictionErrorProblem, point: Estimate, outset: RunNuisance, *, eased: bool = False
+) -> Array:
+    """(n, 2) position and velocity, measured less simulated without correction, where it moves.
+
+    Args:
+        problem: the runs.
+        point: values that are simulated.
+        outset: how each run begins.
+        eased: each run may have a friction of its own, as ``friction.py`` has it: what one run's
+            accident does to the gap says nothing about an effect.
+    """
+    track = problem.track(point.hypothesis.model(point.values), outset)
+    errors = problem.measured - track.read
+    moves = problem.moving | ((track.velocity != 0.0) & problem.telling)
+    if not eased:
+        return np.asarray(errors[moves])
+    errors = _with_run_friction(problem, point, outset, track, moves)
+    away = np.isinf(errors).any(axis=1)  # which is not left out of the mean
+    return np.asarray(errors[moves | away])
+
+
+def _with_run_friction(
+    problem: PredictionErrorProblem,
+    point: Estimate,
+    outset: RunNuisance,
+    track: Track,
+    moves: NDArray[np.bool_],
+) -> Array:
+    """The errors with the likeliest friction of each run's own.
+
+    Each is simulated: over a long way, a wave along it falls out of step with a little friction,
+    and what that changes is in no proportion to it. Between those that are tried, each run's
+    likeliest is where a parabola is lowest.
+    """
+    most = MOST_VARIED * max(point.values["kS"], LEAST_KS)
+    model, runs = point.hypothesis.model(point.values), len(problem.lanes)
+
+    def missed(rubs: Array) -> Array:
+        other = problem.track(model, outset.rubbing(rubs)) if rubs.any() else track
+        return _missed(problem, other)
+
+    every = np.stack([missed(np.full(runs, share * most)) for share in EASED])  # (shares, n, 2)
+    costs = _costs(problem, every, moves)
+    best = np.clip(np.argmin(costs, axis=0), 1, len(EASED) - 2)
+    less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
+    aside = parabola_minima(less, here, more)
+    between = missed((np.array(EASED)[best] + (EASED[1] - EASED[0]) * aside) * most)
+    every = np.concatenate([every, between[None]])
+    best = np.argmin(_costs(problem, every, moves), axis=0)
+    return np.asarray(every[np.repeat(best, np.diff(problem.edges)), np.arange(len(moves))])
+
+
+def parabola_minima(less: Array, here: Array, more: Array) -> Array:
+    """Where parabolas through values at -1, 0 and 1 are lowest; 0 where they nowhere are."""
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        aside = 0.5 * (less - more) / (less - 2.0 * here + more)
+    return np.asarray(np.clip(np.nan_to_num(aside, posinf=0.0, neginf=0.0), -1.0, 1.0))
+
+
+def _costs(problem: PredictionErrorProblem, every: Array, moves: NDArray[np.bool_]) -> Array:
+    """(shares, runs) what each run misses, position and velocity in what is ordinary for both."""
+    with np.errstate(over="ignore", invalid="ignore"):  # of what ran away
+        squares = np.where(moves[:, None] & ~np.isnan(every), np.square(every), 0.0)
+        sizes = np.mean(squares[EASED.index(0.0)], axis=0) + 1e-300
+        costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.edges[:-1], axis=1)
+    return np.asarray(np.nan_to_num(costs, nan=np.inf))
+
+
+def _missed(problem: PredictionErrorProblem, track: Track) -> Array:
+    """(n, 2) measured less simulated, without end where a simulation ran away."""
+    seen = track.read
+    away = ~np.isfinite(seen) & ~np.isnan(problem.measured)
+    return np.where(away, np.inf, problem.measured - seen)
+
+
+def rms_gap(errors: Array) -> Gap:
+    """The gap of errors (n, 2); not a number where nothing was measured to compare with."""
+    if not errors.size:
+        return Gap(0.0, 0.0)
+    counts = np.count_nonzero(~np.isnan(errors), axis=0)
+    with np.errstate(over="ignore", invalid="ignore"):  # what ran away, and what is not there
+        position, velocity = np.sqrt(np.nansum(np.square(errors), axis=0) / counts)
+    return Gap(float(velocity), float(position))
+
+
+def missed_motion(strays: float, problem: PredictionErrorProblem) -> float:
+    """[1] of the motion that a gap of so many noises misses."""
+    speeds = problem.measured[problem.moving, 1]
+    size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
+    return strays * problem.noise.velocity / max(size, 1e-300)
+
+
+def _some(problem: PredictionErrorProblem, chosen: Sequence[int]) -> PredictionErrorProblem:
+    return PredictionErrorProblem(tuple(problem.lanes[n] for n in chosen), problem.noise)

@@ -1,0 +1,72 @@
+"""What an inspection found, judged: what is cut out, and what is reported."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from sim.reconcile.damage import DamagedInterval
+from sim.reconcile.run_records import ExcludedInterval
+from sim.reconcile.thresholds import SLIPPED, SPOILT
+
+FOR_GOOD = ("hard-stop",)
+"""Faults after which a run tells nothing more: it leans on a stop."""
+
+OF_THE_RECORD: Mapping[str, float] = {
+    "hard-stop": 0.5,
+    "encoder-slip": SLIPPED,
+    "voltage-dropout": SPOILT,
+    "stuck-sensor": SPOILT,
+    "sign-flip": SPOILT,
+}
+"""Fault -> confidence from which its stretch is cut out before anything is fitted. Others look like
+physics that is missing (a soft joint shakes as a slipping wheel does): the fit decides on them."""
+
+WHOLE = ("sign-flip",)
+"""Faults of a whole run. Two such runs are no fault: voltage and motion do not belong together."""
+
+LONGEST = 0.3
+"""[s] of an encoder's slip, which is over in a moment: what takes longer is a start that sticks."""
+
+
+@dataclass(frozen=True)
+class DamageDecision:
+    """Damage, judged.
+
+    Args:
+        cut: which log -> stretches that are left out.
+        found: what is reported as a finding, one of each fault.
+    """
+
+    cut: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
+    found: tuple[DamagedInterval, ...] = ()
+
+    def of(self, name: str) -> tuple[ExcludedInterval, ...]:
+        """What is left out of a log."""
+        return self.cut.get(name, ())
+
+
+def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDecision:
+    """Sort out what an inspection found in each log."""
+    cut: dict[str, list[ExcludedInterval]] = {}
+    found: dict[str, DamagedInterval] = {}
+    for name, every in damages.items():
+        turned = {one.run for one in every if one.fault in WHOLE}
+        for one in every:
+            if not _of_the_record(one) or (one.fault in WHOLE and len(turned) > 1):
+                continue
+            if one.run is not None:
+                stretch = ExcludedInterval(one.run, one.start, one.end, one.fault in FOR_GOOD)
+                cut.setdefault(name, []).append(stretch)
+            if name != "held_out" and one.confidence > _confidence(found.get(one.fault)):
+                found[one.fault] = one
+    return DamageDecision({name: tuple(some) for name, some in cut.items()}, tuple(found.values()))
+
+
+def _confidence(one: DamagedInterval | None) -> float:
+    return -1.0 if one is None else one.confidence
+
+
+def _of_the_record(one: DamagedInterval) -> bool:
+    """Whether it is damage to the record beyond doubt, and no physics."""
+    if one.confidence < OF_THE_RECORD.get(one.fault, 2.0):
+        return False
+    return one.fault != "encoder-slip" or one.end - one.start <= LONGEST

@@ -1,0 +1,226 @@
+"""Findings and a verdict, from what the rounds admitted and what they left."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from sim.effect import ONSET
+from sim.effects import EFFECTS
+from sim.reconcile.backward_elimination import separating_test
+from sim.reconcile.cross_validation import missed_motion
+from sim.reconcile.damage import DamagedInterval
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.model_selection import is_ordinary_size, is_significant, is_unrivalled
+from sim.reconcile.optimize import append_prior_rows
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.selection_round import SelectionRound
+from sim.reconcile.story import Chapter, Finding, ParameterEstimate
+from sim.reconcile.thresholds import (
+    AFTER,
+    FAR_MAJOR,
+    KNOCK,
+    LOST,
+    MAJOR,
+    STRAYS,
+    TOLD_FIRST,
+)
+from sim.units import Unit
+
+TURNLESS = (
+    "How much free play there is, is known to a factor of two: no run that was fitted turns, and "
+    "only one that does is sure to cross all of it. Record steps forth and back."
+)
+
+BELIED = (
+    "The last model has {} right before the moment that it explains least. It is not named: what "
+    "happened then may be something else."
+)
+
+
+def make_findings(
+    problem: PredictionErrorProblem, done: Sequence[SelectionRound], damages: Sequence[DamagedInterval],
+    chapters: Sequence[Chapter], *, left: ResidualSummary, per: Unit,
+) -> tuple[Finding, ...]:  # fmt: skip
+    """What was missing or wrong: faults first, then effects, the major ones first.
+
+    What any robot has a little of stays in the model and is no finding, however much of a small gap
+    it takes. A fault that is cut out for safety's sake, but may be physics, comes after the major
+    effects.
+
+    Args:
+        problem: the measurements.
+        done: the base and the rounds.
+        damages: of the record.
+        chapters: of the shown log, one for each round.
+        left: what the last model leaves.
+        per: the owner's unit.
+    """
+    faults = [_fault(one, chapters[0].gap) for one in damages]
+    last = done[-1].suspect.point
+    end = done[-1].gap.velocity / problem.noise.velocity
+    far = end > STRAYS or left.something
+    effects = _sized(problem, done, chapters, far=far, per=per)
+    if not missed_motion(end, problem) <= LOST:  # no number at all is lost, too
+        effects = []
+    effects = [one for one in effects if not is_ordinary_size(one.effect, last.values)]
+    alone = all(one.size != "major" for one in effects)
+    effects = [one for one in effects if one.size == "major" or not alone or _headline(one, done)]
+    effects = [one for one in effects if not is_contradicted(one.effect, problem, last, left)]
+    effects.sort(key=lambda one: -one.score)
+    return tuple(sorted((*faults, *effects), key=_rank))
+
+
+def _sized(
+    problem: PredictionErrorProblem,
+    done: Sequence[SelectionRound],
+    chapters: Sequence[Chapter],
+    *,
+    far: bool,
+    per: Unit,
+) -> list[Finding]:
+    """What each round added, major or minor.
+
+    Of effects that stand in for one another none is missed alone: if together they closed the gap,
+    the one that closed most of it is major.
+    """
+    least = FAR_MAJOR if far else MAJOR
+    errors = standard_errors(problem, done[-1].suspect.point)
+    found = [
+        _effect(
+            done[n - 1],
+            done[n],
+            done[-1],
+            errors,
+            chapters[n - 1].gap,
+            chapters[n].gap,
+            per=per,
+            least=least,
+        )
+        for n in range(1, len(done))
+    ]
+    closed = done[-1].gap.velocity <= least * done[0].before.velocity
+    if closed and not far and all(one.size != "major" for one in found):
+        most = min(range(len(found)), key=lambda n: _step(done[n + 1]), default=None)
+        if most is not None:
+            found[most] = replace(found[most], size="major")
+    return found
+
+
+def _headline(one: Finding, done: Sequence[SelectionRound]) -> bool:
+    """Whether a minor effect is worth a name where nothing else is missing."""
+    last = done[-1].suspect.point
+    places = (n for n in range(1, len(done)) if done[n].suspect.effect == one.effect)
+    lone = any(is_unrivalled(one.effect, done[n - 1].tried) for n in places)
+    return is_significant(one.effect, last.values, one.score, lone=lone)
+
+
+def _step(one: SelectionRound) -> float:
+    """[1] of the gap before it that an effect left when it was added."""
+    return one.gap.velocity / one.before.velocity if one.before.velocity > 0.0 else math.inf
+
+
+def _rank(one: Finding) -> int:
+    """Its place: sure faults, major effects, faults that are none perhaps, minor effects."""
+    return 2 * (one.size != "major") + (one.kind == "effect")
+
+
+def is_contradicted(
+    effect: str, problem: PredictionErrorProblem, last: Estimate, left: ResidualSummary
+) -> bool:
+    """Whether what came of it is what the model explains least.
+
+    A sensor that slips or a robot that is bumped loses speed as one does that takes up a load, but
+    has it back at another pace. The knock itself is known to a sample, and never explained quite.
+    """
+    moment = left.moment
+    if not (EFFECTS[effect].happens and left.shaken):
+        return False
+    lane = problem.lanes[moment.lane]
+    onset = last.values[f"{effect}.{ONSET}"] - lane.clock + float(lane.seen.time[0])
+    return onset + KNOCK * problem.period < moment.start < onset + AFTER
+
+
+def list_remarks(
+    problem: PredictionErrorProblem,
+    done: Sequence[SelectionRound],
+    findings: Sequence[Finding],
+    left: ResidualSummary,
+) -> tuple[str, ...]:
+    """What a person should know of the last model: what was not named, and what no run told."""
+    last = done[-1].suspect.point
+    hypothesis = last.hypothesis
+    named = {one.effect for one in findings}
+    unsure = [name for name in hypothesis.effects if is_contradicted(name, problem, last, left)]
+    rest = [name for name in hypothesis.effects if name not in {*named, *unsure}]
+    said = []
+    if rest:
+        what = " and ".join(rest)
+        why = "no more than on other robots, or too little to narrow the gap"
+        said.append(f"In the last model there is also a little {what}: {why}.")
+    said += [BELIED.format(name) for name in unsure]
+    if hypothesis.plays and not _turned(problem):
+        said.append(TURNLESS)
+    return tuple(said)
+
+
+def _turned(problem: PredictionErrorProblem) -> bool:
+    """Whether it moved both ways within a run."""
+    ways = [
+        np.sign(problem.measured[first:last, 1][problem.moving[first:last]])
+        for first, last in pairwise(problem.edges.tolist())
+    ]
+    return any((one > 0.0).any() and (one < 0.0).any() for one in ways)
+
+
+def _fault(one: DamagedInterval, gap: float) -> Finding:
+    size = "major" if one.confidence >= TOLD_FIRST else "minor"
+    return Finding(
+        effect=one.fault, kind="fault", size=size, ambiguous_with=(), parameters={},
+        gap_before=gap, gap_after=gap, score=math.inf, sentence=one.sentence, inspect=one.advice,
+        separating_test="",
+    )  # fmt: skip
+
+
+def _effect(  # noqa: PLR0917 - two rounds, and what to call them
+    before: SelectionRound, now: SelectionRound, end: SelectionRound, errors: Mapping[str, float], gap_before: float,
+    gap_after: float, *, per: Unit, least: float,
+) -> Finding:  # fmt: skip
+    name = now.suspect.effect
+    effect = EFFECTS[name]
+    last = end.suspect.point
+    with_, bare = (now.gap, before.gap) if now.bare is None else (end.gap, now.bare)
+    major = with_.velocity <= least * bare.velocity
+    score = before.suspect.score - now.suspect.score if math.isnan(now.lost) else now.lost
+    parameters = {}
+    for one in effect.parameters:
+        whole = f"{name}.{one.name}"
+        scale = per.si**one.power
+        error = errors.get(whole)
+        parameters[one.name] = ParameterEstimate(
+            last.values[whole] * scale, None if error is None else error * scale,
+            one.unit.format(u=per.symbol),
+        )  # fmt: skip
+    tests = [test for rival in now.rivals if (test := separating_test(name, rival))]
+    return Finding(
+        effect=name, kind="effect", size="major" if major else "minor", ambiguous_with=now.rivals,
+        parameters=parameters, gap_before=gap_before, gap_after=gap_after,
+        score=score,
+        sentence=f"{effect.summary[0].upper()}{effect.summary[1:]}. {effect.fingerprint}",
+        inspect=effect.inspect, separating_test=" ".join(dict.fromkeys(tests)),
+    )  # fmt: skip
+
+
+def standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[str, float]:
+    """Value -> one standard error, from how the innovations change with each."""
+    table, _ = append_prior_rows(problem, point)
+    size = np.linalg.norm(table, axis=0)
+    size[size == 0.0] = np.inf
+    table = table / size
+    told, ways = np.linalg.eigh(table.T @ table)
+    inverse = (ways / np.maximum(told, 1e-11)) @ ways.T
+    errors = np.sqrt(np.maximum(np.diag(inverse), 0.0)) / size
+    names = point.hypothesis.searched
+    return {name: float(error) for name, error in zip(names, errors, strict=False) if error > 0.0}

@@ -1,0 +1,290 @@
+"""Round by round: try every suspect, admit one that narrows the gap, refit everything, go on."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from sim.effects import EFFECTS
+from sim.log import Log
+from sim.reconcile.backward_elimination import measure_removals, replace_effects, simplify_effects
+from sim.reconcile.candidates import Seeds, score_estimate
+from sim.reconcile.cross_validation import Fold, missed_motion, validation_gap
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.model_selection import (
+    HARDLY,
+    WIDENS,
+    choose_simplest,
+    is_ordinary_size,
+    is_significant,
+    list_blocked,
+    list_rivals,
+    rejection_reason,
+    score_improvement,
+    weigh_candidates,
+)
+from sim.reconcile.onset_scan import flip_duration, refine_onset
+from sim.reconcile.optimize import ENOUGH, minimize, minimize_fully
+from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
+from sim.reconcile.thresholds import (
+    CLOSE,
+    FAR_MAJOR,
+    LOST,
+    MAJOR,
+    MOST,
+    MOST_QUIET,
+    NEAR,
+    PART,
+    PATHS,
+    STRAYS,
+    SURE,
+    SURER,
+    UNDRIVEN,
+    USUAL,
+)
+
+SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
+BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
+Progress = Callable[[str, float], None]
+
+
+def select_effects(
+    problem: PredictionErrorProblem,
+    base: Estimate,
+    log: Log,
+    parts: Sequence[Fold],
+    progress: Progress,
+) -> list[SelectionRound]:
+    """The base, then a round for each effect that was added.
+
+    Args:
+        problem: the measurements of all that may be fitted.
+        base: the best point without effects.
+        log: the runs of the problem.
+        parts: what predicts what.
+        progress: told what is done.
+    """
+    gap = validation_gap(problem, base, parts)
+    done = _gone(
+        problem, [SelectionRound(score_estimate(problem, base), gap, gap)], log, parts, progress
+    )
+    done = add_pair(problem, done, log, parts, progress)
+    done = choose_path(problem, done, log, parts, progress)
+    done = simplify_effects(problem, done, log, parts)
+    return measure_removals(problem, done, parts)
+
+
+def _gone(
+    problem: PredictionErrorProblem,
+    done: list[SelectionRound],
+    log: Log,
+    parts: Sequence[Fold],
+    progress: Progress,
+) -> list[SelectionRound]:
+    """The same, gone on until nothing is to be added and no earlier effect gives way."""
+    for _ in range(SECOND_THOUGHTS + 1):
+        done = _added(problem, done, log, parts, progress)
+        thought = replace_effects(problem, done, log, parts) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
+        if thought is done:
+            break
+        done = thought
+    return done
+
+
+def add_pair(
+    problem: PredictionErrorProblem,
+    done: list[SelectionRound],
+    log: Log,
+    parts: Sequence[Fold],
+    progress: Progress,
+) -> list[SelectionRound]:
+    """The same; or with two effects of which one alone is far likelier, and yet widens the gap.
+
+    What a spring gives back may be hidden by a limit that nobody has named, and misses more than no
+    spring until that is there, too. Such a pair has to close much of the gap.
+    """
+    now = done[-1]
+    found = list_blocked(now.weighed)
+    if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
+        return done
+    one = found[0]
+    begun = SelectionRound(one.suspect, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
+    path = _gone(problem, [*done, begun], log, parts, lambda what, _: progress(what, BESIDE))
+    closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
+    narrows = closes and rejection_reason(path[-1].gap, now.gap, SURER) != WIDENS
+    new = {other.suspect.effect for other in path} - {other.suspect.effect for other in done}
+    return path if narrows and len(new) > 1 else done  # what was there may have become needless
+
+
+def choose_path(
+    problem: PredictionErrorProblem,
+    done: list[SelectionRound],
+    log: Log,
+    parts: Sequence[Fold],
+    progress: Progress,
+) -> list[SelectionRound]:
+    """The same; or, where that led astray, a path that turned off it and came nearer."""
+    best = done
+    if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
+        return best
+    for place, other in alternative_paths(done, lost=_leads_nowhere(problem, done))[:PATHS]:
+        now = done[place]
+        begun = SelectionRound(other.suspect, other.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
+        path = [*done[: place + 1], begun]
+        path = _gone(problem, path, log, parts, lambda what, _: progress(what, BESIDE))
+        likelier = score_improvement(best[-1].suspect, path[-1].suspect) >= CLOSE
+        if likelier and rejection_reason(path[-1].gap, best[-1].gap, SURER) != WIDENS:
+            best = path
+    return best
+
+
+def alternative_paths(
+    done: Sequence[SelectionRound], *, lost: bool
+) -> list[tuple[int, WeighedCandidate]]:
+    """Rounds in which another effect came near, and that effect: the first ones first.
+
+    What is taken first masks what comes after it; later choices have their second thoughts. Where
+    a path is lost, what was likeliest has led astray: the next one goes by the gap.
+
+    Args:
+        done: the path.
+        lost: whether it leads nowhere.
+    """
+    gone = {frozenset(one.suspect.effect for one in done[: n + 1]) for n in range(len(done))}
+    found = []
+    for place, one in enumerate(done[:-1]):
+        had = {before.suspect.effect for before in done[: place + 1]}
+        admitted = [other for other in one.weighed if other.tried.admitted]
+        top = max((other.tried.score for other in admitted), default=0.0)
+        near = [other for other in admitted if other.tried.score >= NEAR * top]
+        near.sort(key=lambda other: other.tried.gap if lost else -other.tried.score)
+        for other in near:
+            names = frozenset({*had, other.suspect.effect})
+            if names not in gone:
+                gone.add(names)
+                found.append((place, other))
+    return found
+
+
+def _added(
+    problem: PredictionErrorProblem,
+    done: list[SelectionRound],
+    log: Log,
+    parts: Sequence[Fold],
+    progress: Progress,
+) -> list[SelectionRound]:
+    """The same, and a round for each effect that narrows the gap."""
+    done = list(done)
+    while len(done) <= MOST and not _leads_nowhere(problem, done):
+        progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
+        now = done[-1]
+        weighed = weigh_candidates(problem, now, log, parts)
+        tried = tuple(one.tried for one in weighed)
+        seeds = {**now.seeds, **_seeds(weighed)}
+        done[-1] = now = replace(now, tried=tried, seeds=seeds, weighed=tuple(weighed))
+        admitted, quiet = admissible_candidates(weighed, most=MOST_QUIET - now.quiet)
+        if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
+            one = quiet[0]
+            if is_significant(one.suspect.effect, one.suspect.point.values, one.tried.score):
+                done.append(
+                    SelectionRound(one.suspect, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
+                )
+            else:
+                done[-1] = _with_quiet(now, one)
+            continue
+        if not admitted:
+            break
+        chosen = choose_simplest(admitted)
+        best, near = _ended(problem, chosen, parts), list_rivals(chosen, weighed)
+        if best is not chosen:
+            near = [one for one in near if _near(_ended(problem, one, parts), best)]
+        done.append(
+            SelectionRound(
+                best.suspect,
+                best.gap,
+                now.gap,
+                tuple(one.suspect.effect for one in near),
+                quiet=now.quiet,
+                seeds=now.seeds,
+            )
+        )
+    return done
+
+
+def admissible_candidates(
+    weighed: Sequence[WeighedCandidate], *, most: int
+) -> tuple[list[WeighedCandidate], list[WeighedCandidate]]:
+    """What may be added: what is admitted, and what is likely and hardly narrows the gap.
+
+    What any robot has a little of goes first, and alone, if it is nearly the likeliest: beside it
+    the others are seen as they are. A limit of the current resembles a late command and a weak
+    battery together more than each of them does alone.
+
+    Args:
+        weighed: the suspects of a round.
+        most: how many may be added without a name.
+    """
+    admitted = [one for one in weighed if one.tried.admitted]
+    quiet = [one for one in weighed if one.tried.why == HARDLY and one.tried.score >= SURER][:most]
+    every = sorted([*admitted, *quiet], key=lambda one: -one.tried.score)
+    usual = [one for one in every if is_ordinary_size(one.suspect.effect, one.suspect.point.values)]
+    if usual and usual[0].tried.score >= USUAL * every[0].tried.score:
+        admitted = [one for one in admitted if one is usual[0]]
+        quiet = [one for one in quiet if one is usual[0]]
+    return admitted, quiet
+
+
+def _leads_nowhere(problem: PredictionErrorProblem, done: Sequence[SelectionRound]) -> bool:
+    """Whether the model is lost, and has nothing to add to, or its last effect took little away.
+
+    Of such a model nothing is told in the end, and it may take minutes to see four effects of it.
+    """
+    now = done[-1]
+    share = missed_motion(now.gap.velocity / problem.noise.velocity, problem)
+    if share <= LOST:
+        return False
+    values = now.suspect.point.values
+    if len(done) == 1:
+        return values["kA"] > UNDRIVEN * values["kV"]
+    return not now.gap.velocity <= FAR_MAJOR * now.before.velocity
+
+
+def _ended(
+    problem: PredictionErrorProblem, best: WeighedCandidate, parts: Sequence[Fold]
+) -> WeighedCandidate:
+    """The same, as far as its search leads: suspects are only compared, the one taken goes on."""
+    suspect = best.suspect
+    point = minimize_fully(problem, suspect.point)
+    for other in flip_duration(problem, point):
+        settled = minimize(problem, other)
+        if settled.cost < point.cost - CLOSE:
+            point = settled
+    near = refine_onset(problem, point)
+    if near is not point:
+        point = minimize(problem, near)
+    if abs(suspect.point.cost - point.cost) < ENOUGH:
+        return best
+    gap = validation_gap(problem, point, parts)
+    if rejection_reason(gap, best.gap, SURER) == WIDENS:
+        return best
+    return replace(best, suspect=score_estimate(problem, point, suspect.effect), gap=gap)
+
+
+def _near(other: WeighedCandidate, best: WeighedCandidate) -> bool:
+    return other.suspect.score - best.suspect.score <= CLOSE
+
+
+def _seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
+    """What the suspects' parameters are, of those that explain something."""
+    found = {}
+    for one in weighed:
+        if one.tried.score >= SURE:
+            name, values = one.suspect.effect, one.suspect.point.values
+            found[name] = {f"{name}.{p}": values[f"{name}.{p}"] for p in EFFECTS[name].names}
+    return found
+
+
+def _with_quiet(now: SelectionRound, best: WeighedCandidate) -> SelectionRound:
+    """A round whose model has one effect more, which nobody names."""
+    suspect = replace(best.suspect, effect=now.suspect.effect)
+    plain = now.plain or now.suspect
+    return replace(now, suspect=suspect, gap=best.gap, quiet=now.quiet + 1, plain=plain)

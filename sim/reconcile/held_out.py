@@ -1,0 +1,165 @@
+"""The log on which the gap is shown, and each model's simulation of it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.gap import Place
+from sim.log import Log
+from sim.reconcile.backlash_phase import estimate_backlash_phase
+from sim.reconcile.cross_validation import open_loop_errors, rms_gap
+from sim.reconcile.damage_policy import DamageDecision
+from sim.reconcile.input_checks import count_repeated_runs
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.residual_map import residual_map
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import run_records, session_length
+from sim.reconcile.selection_round import SelectionRound, reported_estimate
+from sim.reconcile.story import Chapter
+from sim.units import unit
+
+TOLD = 5  # places
+LOOKS = 3  # at where in its free play a run began, each nearer
+FAR = 5.0  # [of the gap on runs that were fitted] from which a held-out log is another matter
+HOW: Mapping[str, str] = {
+    "held_out": "The gap is shown on a log that nothing was fitted to.",
+    "validation": "No held-out log was given: the gap is shown on the validation's, by which the "
+    "effects were chosen.",
+    "log": "Only one log was given: an effect is admitted if the other runs, fitted with it, "
+    "predict each run better; the gap is shown on the log that was fitted.",
+}
+ORDER = ("log", "validation", "held_out")  # in which they were recorded
+MESHED = (
+    "Where in its free play each run of it began is taken from that run, as its first position is: "
+    "no log says so."
+)
+AGAIN: Mapping[str, str] = {
+    "held_out": "The held-out log repeats runs that were fitted, so the gap on it proves nothing.",
+    "validation": "The validation repeats runs of the log, so it confirms nothing.",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class HeldOutLog:
+    """A log that is shown.
+
+    Args:
+        log: the runs.
+        problem: what is compared of them.
+        how: a sentence about how it was used.
+        doubts: what a person should know of the logs.
+        held_out: whether nothing was fitted to it.
+    """
+
+    log: Log
+    problem: PredictionErrorProblem
+    how: str
+    doubts: tuple[str, ...]
+    held_out: bool
+
+    @classmethod
+    def of(cls, logs: Mapping[str, Log | None], aside: DamageDecision) -> "HeldOutLog":
+        """The one that was used least: held out, else validation, else the log itself."""
+        given = {name: logs[name] for name in HOW if logs.get(name) is not None}
+        name, log = next(iter(given.items()))
+        first = logs["log"]
+        if log is None or first is None:
+            raise KeyError(name)
+        log = replace(log, units=first.units)  # numbers of one story have one unit
+        again = _again(logs)
+        return cls(
+            log, PredictionErrorProblem.of(run_records(log, since=_since(logs, name), aside=aside.of(name))),
+            again.get(name, HOW[name]),
+            (*(text for other, text in again.items() if other != name), *_said(given)),
+            name == "held_out" and name not in again,
+        )  # fmt: skip
+
+    def notes(self, last: Chapter, fitted: float) -> tuple[str, ...]:
+        """What a person should know of the logs.
+
+        Args:
+            last: the last model, on this log.
+            fitted: [unit/s] its gap on the runs that were fitted or chosen by.
+        """
+        gap = last.gap * unit(self.log.units).si
+        said = (*self.doubts, *((MESHED,) if _plays(last) else ()))
+        if not self.held_out or gap <= FAR * max(fitted, self.problem.noise.velocity):
+            return said
+        far = (
+            f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times what "
+            "it misses of the others: make sure that it is of the same mechanism, in the same "
+            "units, and that nothing was changed in between."
+        )
+        return (far, *said)
+
+    @property
+    def noise_floor(self) -> float:
+        """[owner's unit/s] noise of its velocity."""
+        return self.problem.noise.velocity / unit(self.log.units).si
+
+    @property
+    def compared(self) -> tuple[NDArray[np.bool_], ...]:
+        """A run -> (n,) its samples that count: where it moves, and nothing was set aside."""
+        return tuple(one.seen.telling for one in self.problem.lanes)
+
+    def places(self, base: Chapter) -> tuple[Place, ...]:
+        """Where the base model's velocity is off, the surest first."""
+        noise = self.problem.noise.velocity
+        found = residual_map(self.log, base.tracks, compared=self.compared, floor=noise)
+        return found.places(TOLD, signal="velocity") if found else ()
+
+    def chapters(self, done: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
+        """Each model's gap and simulated runs."""
+        return tuple(map(self._chapter, done))
+
+    def _chapter(self, one: SelectionRound) -> Chapter:
+        point = reported_estimate(one)
+        model = point.hypothesis.model(point.values)
+        outset = self._outset(point)
+        gap = (
+            rms_gap(open_loop_errors(self.problem, point, outset)).velocity
+            / unit(self.log.units).si
+        )
+        track = self.problem.track(model, outset).read
+        runs = tuple(track[first:last] for first, last in pairwise(self.problem.edges.tolist()))
+        return Chapter(one.suspect.effect, model, one.tried, gap, runs)
+
+    def _outset(self, point: Estimate) -> RunNuisance:
+        """How its runs begin: where they were first seen, and where in free play they say."""
+        seen = RunNuisance.seen(len(self.problem.lanes))
+        here = self.problem.at(point.hypothesis, point.values, seen, point.q)
+        for _ in range(LOOKS):
+            here = estimate_backlash_phase(self.problem, here)
+        return here.outset
+
+
+def _since(logs: Mapping[str, Log | None], name: str) -> float:
+    """[s] of the first log's clock at which one of them began: what changed for good stays so."""
+    before = (logs.get(one) for one in ORDER[: ORDER.index(name)])
+    return session_length(*(one for one in before if one is not None))
+
+
+def _plays(chapter: Chapter) -> bool:
+    """Whether motor and load of its model have free play."""
+    names = tuple(part.effect for part in chapter.model.parts)
+    return ModelStructure(chapter.model.type, names).plays
+
+
+def _again(logs: Mapping[str, Log | None]) -> dict[str, str]:
+    """A log that repeats runs of those before it -> what that means."""
+    log, validation, held_out = (logs.get(name) for name in ("log", "validation", "held_out"))
+    pairs = (("validation", validation, (log,)), ("held_out", held_out, (log, validation)))
+    return {
+        name: AGAIN[name]
+        for name, one, others in pairs
+        if one is not None and count_repeated_runs(one, others)
+    }
+
+
+def _said(logs: Mapping[str, Log | None]) -> tuple[str, ...]:
+    """What reading the logs left to say, each once."""
+    return tuple(dict.fromkeys(d.message for log in logs.values() if log for d in log.doubts))

@@ -1,0 +1,182 @@
+"""Weighing: each suspect of a round against the gates, and the one that is taken."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+from sim.effects import EFFECTS
+from sim.log import Log
+from sim.reconcile.candidates import Candidate, rank_candidates
+from sim.reconcile.cross_validation import Fold, Gap, validation_gap
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
+from sim.reconcile.story import Tried
+from sim.reconcile.thresholds import (
+    AS_GOOD,
+    CLOSE,
+    FAR,
+    HALF,
+    LONE,
+    MUCH_NARROWER,
+    NARROWER,
+    NOT_WIDER,
+    ONCE,
+    SIMPLER,
+    SURE,
+    SURER,
+    WORTH_A_NAME,
+)
+from sim.voltage_residual import compute_voltage_residual
+
+HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
+TINY = 1e-300  # no gap at all
+
+
+def weigh_candidates(
+    problem: PredictionErrorProblem, now: SelectionRound, log: Log, parts: Sequence[Fold]
+) -> list[WeighedCandidate]:
+    """The suspects of a round, each against the gates; the likeliest first."""
+    point = now.suspect.point
+    model = point.hypothesis.model(point.values)
+    evidence = compute_voltage_residual(log, dict(model.gains), type=point.hypothesis.type)
+    found = []
+    for suspect in rank_candidates(problem, point, evidence, seeds=now.seeds):
+        score = now.suspect.score - suspect.score
+        if score < required_improvement(suspect.effect):
+            tried = Tried(suspect.effect, score, 1.0, admitted=False, why="explains too little")
+            found.append(WeighedCandidate(suspect, now.gap, tried))
+            continue
+        gap = validation_gap(problem, suspect.point, parts)
+        why = rejection_reason(gap, now.gap, score)
+        if why == HARDLY and EFFECTS[suspect.effect].happens:
+            why = ""
+        share = gap.velocity / max(now.gap.velocity, TINY)
+        tried = Tried(suspect.effect, score, share, admitted=not why, why=why)
+        found.append(WeighedCandidate(suspect, gap, tried))
+    return found
+
+
+def required_improvement(effect: str) -> float:
+    """[of -2 log L] by which it must make the model likelier."""
+    return ONCE if EFFECTS[effect].happens else SURE
+
+
+def rejection_reason(gap: Gap, before: Gap, score: float) -> str:
+    """The gate that a suspect does not pass; empty if it passes all."""
+    if not math.isfinite(gap.velocity + gap.position):
+        return WIDENS
+    velocity = gap.velocity / max(before.velocity, TINY)
+    position = gap.position / max(before.position, TINY)
+    if velocity > NOT_WIDER and (velocity * position) ** 0.5 > NOT_WIDER:
+        return WIDENS
+    if velocity > NARROWER and ((velocity * position) ** 0.5 > NARROWER or score < SURER):
+        return HARDLY
+    return ""
+
+
+def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
+    """The likeliest, or one about as likely with fewer parameters.
+
+    Of as many parameters each, about as likely, the one that the validation clearly prefers; or one
+    half as likely, if that closes far more of its gap. What may be one run's accident has to be
+    likelier than all that lasts by as much as than nothing.
+    """
+    best = admitted[0]
+    lasting = [one for one in admitted if not EFFECTS[one.suspect.effect].happens]
+    if lasting and best is not lasting[0] and best.tried.score - lasting[0].tried.score < ONCE:
+        admitted, best = lasting, lasting[0]
+    closer = [one for one in admitted if one.tried.score > HALF * best.tried.score]
+    closest = min(closer, key=lambda one: one.tried.gap)
+    if closest.tried.gap < MUCH_NARROWER * best.tried.gap:
+        best = closest
+    top = best.tried.score
+    admitted = [one for one in admitted if one.tried.score <= top]
+    simpler = EFFECTS[best.suspect.effect].simpler
+    near = [
+        one
+        for one in admitted
+        if top - one.tried.score <= SIMPLER
+        or (one.suspect.effect == simpler and one.tried.score > AS_GOOD * top)
+    ]
+    fewest = min(one.suspect.point.hypothesis.free for one in near)
+    near = [one for one in near if one.suspect.point.hypothesis.free == fewest]
+    likeliest = max(near, key=lambda one: one.tried.score)
+    nearest = min(near, key=lambda one: one.tried.gap)
+    return nearest if nearest.tried.gap < NARROWER * likeliest.tried.gap else likeliest
+
+
+def list_rivals(
+    best: WeighedCandidate, weighed: Sequence[WeighedCandidate]
+) -> list[WeighedCandidate]:
+    """The effects that explain about as much as the one that was taken."""
+    return [
+        one
+        for one in weighed
+        if one is not best and one.tried.admitted and best.tried.score - one.tried.score <= CLOSE
+    ]
+
+
+def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
+    """What is far likelier than nothing, and yet widens the gap of other runs; the likeliest first.
+
+    It is not what is missing, or not alone: something is. What happens once is left out, of which
+    other runs know nothing, and so is what any robot has a little of.
+    """
+    return [
+        one
+        for one in weighed
+        if one.tried.why == WIDENS
+        and one.tried.score >= ONCE
+        and not EFFECTS[one.suspect.effect].happens
+        and not is_ordinary_size(one.suspect.effect, one.suspect.point.values)
+    ]
+
+
+def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
+    """Whether an effect of a model is as small as on any robot in good order."""
+    known = EFFECTS[effect]
+    return known.everyday({name: values[f"{effect}.{name}"] for name in known.names})
+
+
+def is_significant(
+    effect: str, values: Mapping[str, float], score: float, *, lone: bool = False
+) -> bool:
+    """Whether an effect is there beyond doubt, and no robot has a little of it.
+
+    Free play of a motor is lost in what a simulation misses after ten seconds, and yet is there.
+
+    Args:
+        effect: its name.
+        values: of the model.
+        score: [of -2 log L] by which it makes the model likelier.
+        lone: no other effect that lasts explained half as much in its place.
+    """
+    if is_ordinary_size(effect, values):
+        return False
+    known = EFFECTS[effect]
+    part = {
+        one.name: one.neutral + (values[f"{effect}.{one.name}"] - one.neutral) / FAR
+        for one in known.parameters
+    }
+    far = known.everyday(known.neutral) and not known.everyday(part)
+    return score >= (LONE if lone else SURER if far else WORTH_A_NAME)
+
+
+def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
+    """Whether no other effect that lasts explained half as much.
+
+    Args:
+        effect: that was added.
+        tried: the suspects of its round.
+    """
+    scores = {one.effect: one.score for one in tried}
+    most = max(
+        (score for name, score in scores.items() if name != effect and not EFFECTS[name].happens),
+        default=-math.inf,
+    )
+    return effect in scores and most < HALF * scores[effect]
+
+
+def score_improvement(now: Candidate, other: Candidate) -> float:
+    """[of -2 log L] by which another model is likelier; one with fewer values wins when close."""
+    fewer = now.point.hypothesis.free - other.point.hypothesis.free
+    return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)

@@ -1,0 +1,113 @@
+"""A hypothesis: the base model and some effects, as numbers that a search can move."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from inspect import signature
+
+from sim.effect import Parameter
+from sim.effects import EFFECTS
+from sim.fit.kalman import model_from_values
+from sim.model import Model, Part
+
+BASE: Mapping[str, tuple[str, ...]] = {
+    "simple": ("kS", "kV", "kA"),
+    "elevator": ("kS", "kV", "kA", "kG"),
+    "arm": ("kS", "kV", "kA", "level", "upright"),
+}
+POSITIVE = ("kV", "kA")
+ORDINARY: Mapping[str, float] = {"V": 0.05, "s": 0.004, "1": 0.02}
+"""Unit -> how much of it is not nothing on a robot: the least by which a search moves a value."""
+
+
+@dataclass(frozen=True)
+class ModelStructure:
+    """What is believed to be in the model.
+
+    Args:
+        type: ``simple``, ``elevator`` or ``arm``.
+        effects: their names, in the order in which they were found.
+    """
+
+    type: str
+    effects: tuple[str, ...] = ()
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The values: gains, then ``effect.parameter``."""
+        return (*BASE[self.type], *self.parameters)
+
+    @cached_property
+    def parameters(self) -> Mapping[str, Parameter]:
+        """``effect.parameter`` -> what is known of it."""
+        return {
+            f"{name}.{one.name}": one for name in self.effects for one in EFFECTS[name].parameters
+        }
+
+    @cached_property
+    def searched(self) -> tuple[str, ...]:
+        """The values that a search moves; the others are chosen by its start."""
+        known = self.parameters
+        return tuple(n for n in self.names if n not in known or known[n].searched)
+
+    @cached_property
+    def free(self) -> int:
+        """How many values the data decide on, those of a start among them."""
+        known = self.parameters
+        return sum(1 for name in self.names if name not in known or known[name].counts)
+
+    @cached_property
+    def slacks(self) -> tuple[str, ...]:
+        """The values that are free play between motor and load."""
+        acts = {name: EFFECTS[name].acts.get("slack") for name in self.effects}
+        return tuple(
+            f"{name}.{one}"
+            for name, act in acts.items()
+            if act
+            for one in signature(act).parameters
+        )
+
+    @property
+    def plays(self) -> bool:
+        """Whether motor and load have free play."""
+        return bool(self.slacks)
+
+    def __add__(self, effect: str) -> "ModelStructure":
+        return ModelStructure(self.type, (*self.effects, effect))
+
+    def __sub__(self, effect: str) -> "ModelStructure":
+        return ModelStructure(self.type, tuple(name for name in self.effects if name != effect))
+
+    def model(self, values: Mapping[str, float]) -> Model:
+        """The model with these values."""
+        model = model_from_values(self.type, values)
+        for name in self.effects:
+            model += Part(name, {p: values[f"{name}.{p}"] for p in EFFECTS[name].names})
+        return model
+
+    def size(self, name: str, value: float) -> float:
+        """By how much a value must change to matter: its own size, or what is ordinary."""
+        if name in POSITIVE:
+            return abs(value)
+        known = self.parameters.get(name)
+        if known is None:
+            return max(abs(value), ORDINARY["V"])
+        return max(abs(value), ORDINARY.get(known.unit, 0.0), 1e-12)
+
+    def within(self, name: str, value: float) -> float:
+        """The value, kept where it is physics."""
+        known = self.parameters.get(name)
+        if known is not None:
+            return min(max(value, known.least), known.most)
+        return max(value, 0.0) if name == "kS" else value
+
+    def stepped(self, name: str, value: float, by: float) -> float:
+        """The value after a step, which changes what cannot be negative by a factor at most."""
+        if name in POSITIVE:
+            return value * min(max(1.0 + by / value, 1.0 / 3.0), 3.0)
+        known = self.parameters.get(name)
+        if known is not None and known.least >= 0.0 and math.isfinite(by):
+            size = self.size(name, value)
+            by = min(max(by, -0.7 * size), 2.0 * size)
+        return self.within(name, value + by)

@@ -1,0 +1,295 @@
+"""When something happened that happens once: every moment of every run is tried.
+
+What a little of it would change is simulated from each moment to the end of the run, in all runs at
+the same time; how much of it the innovations ask for, and what that explains, is then a matter of
+sums. An acceleration taken from a noisy velocity does not tell as much: late in a step little is
+accelerated, and yet the position knows.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise, product
+
+import numpy as np
+
+from sim.effect import ONSET, UNTIL, Effect
+from sim.effects import EFFECTS
+from sim.log import Array
+from sim.model import Part
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.optimize import JointJacobian
+from sim.reconcile.run_nuisance import RunNuisance
+
+PARTS = 24  # moments of a run that are tried
+NEARER, LOOKS = 4, 2  # moments between two of these, and how often they are taken closer
+HALVINGS = 5  # of a sample, in a last look around
+NEXT, ECHO, LONGEST = 1, 3.0, 50  # [samples] about a knock; [timescales], [samples] it is heard
+EARLY = 0.25  # [samples] after the last one before it: a search looks around from there
+SHOWN = 2  # moments of each kind that are worth a start
+PROBE = 0.1  # [1] of kA: so little that what it does is in proportion
+LEAST, MOST = -0.8, 2.0  # [1] of kA that may leave, and that may join: a search goes on from there
+HARDLY = 1e-9  # [1] of what it does is no matter of gains and starts
+CLOCK = 1e4  # [s] at which it happens in every run while moments are tried: longer than any run
+LATER = 1e6  # [s] after any log
+MOMENT = 1e-6  # [s] so that the last sample is in
+
+
+@dataclass(frozen=True, eq=False)
+class _Sums:
+    """What a change does to innovations: sums over the rows of some runs.
+
+    Args:
+        along: with what the point leaves unexplained.
+        size: with itself.
+        kept: (k,) with what values and starts can make of it.
+    """
+
+    along: float
+    size: float
+    kept: Array
+
+    def __add__(self, other: "_Sums") -> "_Sums":
+        return _Sums(self.along + other.along, self.size + other.size, self.kept + other.kept)
+
+    def best(self, least: float, most: float) -> tuple[float, float]:
+        """[of -2 log L] that it explains at most between two sizes, and at which."""
+        own = self.size - float(self.kept @ self.kept)
+        if not own > HARDLY * self.size:
+            return 0.0, 0.0
+        size = min(max(-self.along / own, least), most)
+        return -size * (2.0 * self.along + size * own), size
+
+
+def scan_onsets(
+    problem: PredictionErrorProblem, point: Estimate, effect: Effect, *, kept: JointJacobian
+) -> Iterator[dict[str, float]]:
+    """Values of its parameters at the moments that explain most.
+
+    Args:
+        problem: the measurements.
+        point: the best without it.
+        effect: that happens once.
+        kept: what the point adjusts to.
+    """
+    scan = _Scan(problem, point, effect, kept)
+    for kind in fixed_parameter_choices(effect):
+        likeliest = sorted(scan.coarse(kind), key=lambda one: -one.gained)[:SHOWN]
+        for one in map(scan.nearer, likeliest):
+            yield {f"{effect.name}.{name}": value for name, value in scan.values(one).items()}
+
+
+def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[Estimate]:
+    """The same with what happened over by the end of its run where it was for good, and so on.
+
+    No search moves from one to the other, and what was likelier before another effect was added may
+    not be likelier beside it.
+    """
+    for name in point.hypothesis.effects:
+        effect = EFFECTS[name]
+        if not effect.happens:
+            continue
+        onset = point.values[f"{name}.{ONSET}"]
+        ends = [lane.clock + float(np.ptp(lane.seen.time)) + MOMENT for lane in problem.lanes]
+        over = min((end for end in ends if end > onset), default=LATER)
+        for kind, until in product(fixed_parameter_choices(effect), (over, LATER)):
+            changed = {f"{name}.{one}": value for one, value in {**kind, UNTIL: until}.items()}
+            values = {**point.values, **changed}
+            if values != point.values:
+                yield problem.at(point.hypothesis, values, point.outset, point.q)
+
+
+def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The same at the likeliest moment around, where something happens once.
+
+    No search moves a moment: across a sample what is likely jumps.
+    """
+    for name in point.hypothesis.effects:
+        if not EFFECTS[name].happens:
+            continue
+        onset, step, hypothesis = f"{name}.{ONSET}", problem.period, point.hypothesis
+        for _ in range(HALVINGS):
+            around = (hypothesis.within(onset, point.values[onset] + by) for by in (-step, step))
+            moved = ({**point.values, onset: moment} for moment in around)
+            tried = [problem.at(hypothesis, one, point.outset, point.q) for one in moved]
+            point = min(point, *tried, key=lambda one: one.cost)
+            step *= 0.5
+    return point
+
+
+def fixed_parameter_choices(effect: Effect) -> Iterator[Mapping[str, float]]:
+    """Values of what a search does not move, and which is no moment: all ends of them."""
+    ends = {
+        one.name: (one.least, one.most)
+        for one in effect.parameters
+        if not one.searched and one.name not in {ONSET, UNTIL}
+    }
+    for chosen in product(*ends.values()):
+        yield dict(zip(ends, chosen, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class _Moment:
+    """One that was tried.
+
+    Args:
+        kind: values of what is neither searched nor a moment.
+        run: in which it is.
+        share: [1] of that run, before it.
+        here: what it does in that run.
+        later: what it does in all runs after it; None if it is over with its run.
+        ka: of the point.
+    """
+
+    kind: Mapping[str, float]
+    run: int
+    share: float
+    here: _Sums
+    later: _Sums | None
+    ka: float
+
+    @cached_property
+    def best(self) -> tuple[float, float]:
+        """[of -2 log L] that it explains, and its size; what leaves takes no momentum of others."""
+        sums = self.here + self.later if self.later else self.here
+        least = 0.0 if any(self.kind.values()) else LEAST * self.ka
+        return sums.best(least, MOST * self.ka)
+
+    @property
+    def gained(self) -> float:
+        return self.best[0]
+
+
+class _Scan:
+    def __init__(
+        self, problem: PredictionErrorProblem, point: Estimate, effect: Effect, kept: JointJacobian
+    ) -> None:
+        self.problem, self.point, self.effect, self.kept = problem, point, effect, kept.ways
+        most = min(one.most for one in effect.parameters if one.searched)
+        self.ka = min(point.values["kA"], most / MOST)  # which may be any number in the wild
+        self.lasts = [float(lane.seen.time[-1] - lane.seen.time[0]) for lane in problem.lanes]
+        self._some: dict[tuple[int, ...], tuple[PredictionErrorProblem, RunNuisance]] = {}
+        rest = problem.white(point, point.ahead)
+        self.rest = rest - kept.ways @ kept.told(rest)
+
+    def coarse(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
+        """Each run's likeliest moment, for the rest of the run and for good.
+
+        What takes momentum is looked for where speed is lost, anything else all over the run.
+        """
+        every = range(len(self.problem.lanes))
+        knocks = any(kind.values())
+        shares = [0.0] if knocks else [0.0, *((n + 0.5) / PARTS for n in range(PARTS))]
+        table = [self._sums(kind, share, every) for share in shares]
+        later = _Sums(0.0, 0.0, np.zeros(self.kept.shape[1]))
+        for run in reversed(every):
+            sums = [(share, row[run]) for share, row in zip(shares, table, strict=True)]
+            if knocks:
+                sums += [(one, self._sums(kind, one, (run,))[0]) for one in self._knocks(run)]
+            for more in (None, later) if run < every[-1] else (None,):
+                tried = (
+                    _Moment(kind, run, share, here, more, self.ka)
+                    for share, here in sums
+                    if share or run or more is None  # else it was never otherwise
+                )
+                yield max(tried, key=lambda one: one.gained)
+            later += table[0][run]
+
+    def nearer(self, one: _Moment) -> _Moment:
+        """The same, at the likeliest moment around."""
+        step = 1.0 / PARTS
+        for _ in range(LOOKS if one.share else 0):
+            step /= NEARER
+            shares = (one.share + by * step for by in range(1 - NEARER, NEARER) if by)
+            tried = [
+                replace(one, share=share, here=self._sums(one.kind, share, (one.run,))[0])
+                for share in shares
+                if 0.0 < share < 1.0
+            ]
+            one = max((one, *tried), key=lambda one: one.gained)
+        return one
+
+    def values(self, one: _Moment) -> dict[str, float]:
+        """Of all parameters, if it happens then."""
+        began = self.problem.lanes[one.run].clock
+        return {
+            **self._sized(one.best[1]),
+            **one.kind,
+            ONSET: began + one.share * self.lasts[one.run],
+            UNTIL: LATER if one.later else began + self.lasts[one.run] + MOMENT,
+        }
+
+    def _knocks(self, run: int) -> list[float]:
+        """[1] of a run, about its sharpest loss of speed, which is over too soon for any grid.
+
+        A knock echoes in the innovations until measurements have corrected it, everywhere alike.
+        """
+        rest = self.rest[slice(*self._edges[run : run + 2])].reshape(-1, 2)
+        speed = self.problem.measured[slice(*self.problem.edges[run : run + 2]), 1]
+        echo = self._echo[: len(rest)]
+        size = np.cumsum(np.sum(np.square(echo), axis=1))
+        heard = sum(np.correlate(rest[:, n], echo[:, n], "full")[len(echo) - 1 :] for n in (0, 1))
+        left = np.minimum(np.arange(len(rest), 0, -1), len(echo))
+        lost = -np.asarray(heard) * np.sign(np.nan_to_num(speed)) / np.sqrt(size[left - 1])
+        time = self.problem.lanes[run].seen.time
+        within = time[:-1] + EARLY * np.diff(time) - time[0]
+        place = int(np.argmax(lost[1:]))
+        near = within[max(place - NEXT, 0) : place + NEXT + 1] / self.lasts[run]
+        return [float(one) for one in near]
+
+    @cached_property
+    def _echo(self) -> Array:
+        """(samples, 2) white innovations after a velocity that is one more than expected."""
+        rate, dt = self.point.values["kV"] / self.ka, self.problem.period
+        kept = math.exp(-rate * dt)
+        step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]]) @ (np.eye(2) - self.point.trust)
+        off, heard = np.array([0.0, 1.0]), []
+        for _ in range(min(max(math.ceil(ECHO / (rate * dt)), 4), LONGEST)):
+            heard.append(off)
+            off = step @ off
+        return self.problem.white(self.point, np.array(heard)).reshape(-1, 2)
+
+    def _sized(self, size: float) -> dict[str, float]:
+        return {one.name: size for one in self.effect.parameters if one.searched}
+
+    def _sums(self, kind: Mapping[str, float], share: float, runs: Sequence[int]) -> list[_Sums]:
+        """What it changes from that share of each of these runs on, to its end."""
+        some, outset = self._alone(tuple(runs))
+        clocks = CLOCK - share * np.array([self.lasts[run] for run in runs])
+        size = PROBE * self.ka
+        given = {**self._sized(size), **kind, ONSET: CLOCK, UNTIL: LATER}
+        model = self.point.hypothesis.model(self.point.values)
+        with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
+            model += Part(self.effect.name, given)
+            ahead = some.ahead(model, outset, self.point.trust, clocks)
+            return [
+                self._summed(run, (ahead[slice(*rows)] - self._plain[run]) / size)
+                for run, rows in zip(runs, pairwise(some.edges.tolist()), strict=True)
+            ]
+
+    def _summed(self, run: int, change: Array) -> _Sums:
+        one, rows = self.problem.white(self.point, change), slice(*self._edges[run : run + 2])
+        return _Sums(float(one @ self.rest[rows]), float(one @ one), self.kept[rows].T @ one)
+
+    def _alone(self, runs: tuple[int, ...]) -> tuple[PredictionErrorProblem, RunNuisance]:
+        """These runs, none finding warm what another heated, and how they begin."""
+        if runs not in self._some:
+            lanes = (replace(self.problem.lanes[run], memory=run) for run in runs)
+            some = PredictionErrorProblem(tuple(lanes), self.problem.noise)
+            self._some[runs] = some, self.point.outset.of(runs)
+        return self._some[runs]
+
+    @property
+    def _edges(self) -> list[int]:
+        """(runs + 1,) where each run begins among white innovations."""
+        edges: list[int] = (2 * self.problem.edges).tolist()
+        return edges
+
+    @cached_property
+    def _plain(self) -> list[Array]:
+        """A run -> (n, 2) innovations without it."""
+        alone, outset = self._alone(tuple(range(len(self.problem.lanes))))
+        model = self.point.hypothesis.model(self.point.values)
+        ahead = alone.ahead(model, outset, self.point.trust)
+        return [ahead[slice(*rows)] for rows in pairwise(self.problem.edges.tolist())]

@@ -1,0 +1,312 @@
+"""Downhill: values whose innovations are as small as noise allows.
+
+Levenberg and Marquardt's steps on white innovations, in turn with a search for the size q of what
+pushes at random.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.log import Array
+from sim.reconcile.backlash_phase import (
+    backlash_phase_prior,
+    estimate_backlash_phase,
+    halve_backlash,
+)
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.random_friction import friction_sd
+from sim.reconcile.thresholds import CLOSE
+
+FIRST_DAMPING, TRIES = 1e-3, 5
+SOFTER = 4.0  # [1] steps of q
+LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which q is none
+SCANNED = (-12, -9, -6, -4, -2)  # powers of it: what pushes is first thought too large
+SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size between which a part of it is tried, too
+LARGEST_PART = 30.0  # [1] the same, the other way
+SURELY_MORE = 10.0  # [of -2 log L]
+HALVINGS = 3  # of the best start: what an effect offers may be too large for what is subtle
+ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
+AGAIN = 6  # times that a point is settled at most
+CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
+Begun = tuple[float, Estimate]  # what a start promises, and where it begins
+HALVED = 6  # times at most that play is halved
+ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
+NOTHING = 0.1  # [of -2 log L] a step that promises less is not taken
+
+
+@dataclass(frozen=True, eq=False)
+class JointJacobian:
+    """All that the values of a point, and what is each run's own, can make of white innovations.
+
+    Args:
+        ways: (2 n, k) orthonormal with rows for the priors, which are left out here.
+        held: (k,) what those rows hold of the point along each.
+    """
+
+    ways: Array
+    held: Array
+
+    def told(self, white: Array) -> Array:
+        """(k,) what of innovations (2 n,) the point adjusts to."""
+        return np.asarray(self.ways.T @ white + self.held)
+
+    def square(self, white: Array) -> float:
+        """Sum of the squares that are left once it has, but for a constant."""
+        told = self.told(white)
+        return float(white @ white - told @ told)
+
+    def along(self, change: Array, white: Array) -> tuple[float, float]:
+        """What is left of a change's product with innovations, and with itself."""
+        told = self.ways.T @ change
+        product = float(change @ white - told @ self.told(white))
+        return product, float(change @ change - told @ told)
+
+
+def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The best point near one: values, then q, until neither gains.
+
+    Values go first: far from the best ones a large q is the likeliest, and hides what they miss.
+    """
+    point = levenberg_marquardt(problem, point, steps=FIRST_STEPS)
+    for _ in range(ROUNDS):
+        before = point.cost
+        point = levenberg_marquardt(
+            problem,
+            tune_process_noise(problem, estimate_backlash_phase(problem, point)),
+            steps=STEPS,
+        )
+        if before - point.cost < 2.0 * ENOUGH:
+            break
+    return point
+
+
+def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The best point near one, however long the way; and, where much pushes it, near a calmer one.
+
+    A large q bears with anything: it is where a search for gains that are far off comes to rest.
+    """
+    found = [_settled(problem, point)]
+    calm = CALM * problem.noise.velocity**2
+    if found[0].q > AGITATED * calm:
+        calmer = problem.at(point.hypothesis, found[0].values, found[0].outset, calm)
+        found.append(_settled(problem, levenberg_marquardt(problem, calmer, steps=STEPS)))
+    best = min(found, key=total_cost)
+    return _tight(problem, best) if point.hypothesis.plays else best
+
+
+def _tight(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The least play of those about as likely: what no run crosses may be of any size."""
+    best = point
+    for _ in range(HALVED):
+        less = minimize(problem, halve_backlash(problem, point))
+        if not total_cost(less) < total_cost(best) + CLOSE:
+            break
+        point = less
+        best = min(best, point, key=total_cost)
+    return point
+
+
+def total_cost(point: Estimate) -> float:
+    """[of -2 log L] of a point, and of what was told of where its runs began."""
+    return point.cost + backlash_phase_prior(point)
+
+
+def _settled(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The same, settled until that gains no more."""
+    for _ in range(AGAIN):
+        before = point.cost
+        point = minimize(problem, point)
+        if not before - point.cost > SURELY_MORE:
+            break
+    return point
+
+
+def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The same values with the likeliest q: in steps of four, then by a parabola through three."""
+    least = LEAST_Q * problem.noise.velocity**2
+
+    def at(part: float) -> Estimate:
+        return problem.at(point.hypothesis, point.values, point.outset, point.q * part)
+
+    beside = {way: at(way) for way in (SOFTER, 1.0 / SOFTER)}
+    for way in (SOFTER, 1.0 / SOFTER):
+        while beside[way].cost < point.cost - 0.1 and least < beside[way].q < problem.most_q:
+            beside[1.0 / way], point = point, beside[way]
+            beside[way] = at(way)
+    more, less = beside[SOFTER].cost, beside[1.0 / SOFTER].cost
+    bend = more + less - 2.0 * point.cost
+    if not (math.isfinite(bend) and bend > 0.0 and beside[SOFTER].q < problem.most_q):
+        return point
+    other = at(SOFTER ** (0.5 * (less - more) / bend))
+    return min(point, other, key=lambda one: one.cost)
+
+
+def levenberg_marquardt(
+    problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float = ENOUGH
+) -> Estimate:
+    """The point after some steps, fewer when one gains hardly anything."""
+    if not math.isfinite(point.cost):
+        return point
+    damping = FIRST_DAMPING
+    for _ in range(steps):
+        table, rest = append_prior_rows(problem, point)
+        with np.errstate(over="ignore"):  # a value that nothing bears to be moved
+            size = np.linalg.norm(table, axis=0)
+        size[size == 0.0] = 1.0
+        table /= size
+        square, slope = table.T @ table, table.T @ rest
+        found = point
+        for _ in range(TRIES):
+            way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
+            if -float(way @ (2.0 * slope + square @ way)) < NOTHING:
+                break
+            moved = _moved(problem, point, way / size)
+            if moved.cost < point.cost:
+                found, damping = moved, max(damping / 10.0, 1e-9)
+                break
+            damping *= 10.0
+        gained, point = point.cost - found.cost, found
+        if not gained > enough:
+            break
+    return point
+
+
+def predicted_improvement(
+    problem: PredictionErrorProblem, point: Estimate, hypothesis: ModelStructure,
+    more: Sequence[Mapping[str, float]], *, kept: JointJacobian, as_given: bool = False,
+) -> list[Begun]:  # fmt: skip
+    """What each start of a suspect may gain once the gains have adjusted to it, and its point.
+
+    A start that goes too far, or the wrong way, as it may beside another effect that no start knows
+    of, is tried again at the size that would gain most, if what it does were proportional to it;
+    the best of all is halved while that promises more, for what does not act in proportion (free
+    play, a limit) and is smaller than every start.
+
+    Args:
+        problem: the measurements.
+        point: the best without the suspect.
+        hypothesis: with it.
+        more: values that it adds, one start after another.
+        kept: what the point adjusts to.
+        as_given: none is tried smaller: they have been chosen from some that were.
+    """
+
+    def begun(one: Mapping[str, float]) -> tuple[float, Estimate]:
+        other = problem.at(hypothesis, {**point.values, **one}, point.outset, point.q)
+        if not point.hypothesis.plays:  # else its runs are told by now
+            other = estimate_backlash_phase(problem, other, aside=not as_given)
+        if not math.isfinite(other.cost):
+            return -math.inf, other
+        return square - kept.square(problem.white(point, other.ahead)) - backlash_phase_prior(
+            other
+        ), other
+
+    now = problem.white(point, point.ahead)
+    square = kept.square(now)
+    found = []
+    for one in more:
+        gained, other = begun(one)
+        if not math.isfinite(gained):
+            continue
+        change = problem.white(point, other.ahead) - now
+        along, size = kept.along(change, now)
+        part = -along / size if size > 0.0 else 0.0
+        found.append((gained, other))
+        if as_given or not _another_size(hypothesis, part):
+            continue
+        if part**2 * size > gained + SURELY_MORE:
+            found.append(begun(_sized(hypothesis, one, part)))
+    if found and not as_given:
+        found += _halved(hypothesis, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
+    return [one for one in found if math.isfinite(one[0])]
+
+
+def _halved(
+    hypothesis: ModelStructure, names: Sequence[str], best: Begun,
+    begun: Callable[[Mapping[str, float]], Begun],
+) -> Iterator[Begun]:  # fmt: skip
+    """Half of the best start, and half of that, as long as it promises more."""
+    for _ in range(HALVINGS):
+        half = begun(_sized(hypothesis, {name: best[1].values[name] for name in names}, 0.5))
+        if not half[0] > best[0]:
+            return
+        yield half
+        best = half
+
+
+def _another_size(hypothesis: ModelStructure, part: float) -> bool:
+    """Whether a part of a start's size is worth a look: a smaller one, or one the other way."""
+    if part > 0.0:
+        return SMALL_PART < part < LARGE_PART
+    sizes = _sizes(hypothesis)
+    signed = bool(sizes) and all(hypothesis.parameters[name].least < 0.0 for name in sizes)
+    return signed and SMALL_PART < -part < LARGEST_PART
+
+
+def _sizes(hypothesis: ModelStructure) -> list[str]:
+    """The parameters of the last effect that are nothing where it is not there."""
+    own = f"{hypothesis.effects[-1]}."
+    return [
+        name
+        for name, known in hypothesis.parameters.items()
+        if name.startswith(own) and known.neutral == 0.0 and known.searched
+    ]
+
+
+def _sized(hypothesis: ModelStructure, one: Mapping[str, float], part: float) -> dict[str, float]:
+    """A start at a part of its size."""
+    sizes = _sizes(hypothesis)
+    return {
+        name: hypothesis.within(name, value * part) if name in sizes else value
+        for name, value in one.items()
+    }
+
+
+def joint_jacobian(problem: PredictionErrorProblem, point: Estimate) -> JointJacobian:
+    """All that the values of a point, and what is each run's own, can make of it."""
+    table, rest = append_prior_rows(problem, point)
+    size = 2 * len(problem.measured)
+    ways, _ = np.linalg.qr(table)
+    return JointJacobian(np.ascontiguousarray(ways[:size]), np.asarray(ways[size:].T @ rest[size:]))
+
+
+def append_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
+    """Columns and white innovations, with a row for what is each run's own: it is priced as noise.
+
+    Args:
+        problem: the measurements.
+        point: the values.
+    """
+    table, rest = problem.columns(point), problem.white(point, point.ahead)
+    runs, tau = len(problem.lanes), friction_sd(point.values)
+    prior = np.zeros((2 * runs, table.shape[1]))
+    prior[:, -2 * runs :] = np.diag(np.repeat([1.0 / problem.loose, 1.0 / tau], runs))
+    own = [point.outset.beside / problem.loose, point.outset.rubs / tau]
+    return np.vstack([table, prior]), np.concatenate([rest, *own])
+
+
+def _moved(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Estimate:
+    hypothesis = point.hypothesis
+    values = dict(point.values)
+    searched = hypothesis.searched
+    for name, step in zip(searched, by.tolist(), strict=False):
+        values[name] = hypothesis.stepped(name, values[name], step)
+    starts, rubs = by[len(searched) :].reshape(2, -1)
+    outset = point.outset.moved(starts).rubbing(rubs)
+    common = float(np.mean(outset.rubs))  # what all runs have is kS: only the price tells, hardly
+    values["kS"] = max(values["kS"] + common, 0.0)
+    outset = outset.rubbing(np.full_like(outset.rubs, -common))
+    return problem.at(hypothesis, values, outset, point.q)
+
+
+def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The same values with the likeliest q of all sizes: there may be more than one valley."""
+    tried = [
+        problem.at(point.hypothesis, point.values, point.outset, point.q * SOFTER**power)
+        for power in SCANNED
+    ]
+    return min([point, *tried], key=lambda one: one.cost)

@@ -1,0 +1,40 @@
+"""Friction that is a little different in every run: a random effect, and no finding.
+
+A gear warms up, a chain lies otherwise, a carpet has a seam: kS of a run is kS + δ, δ ~ N(0, τ²),
+and what is believed of δ goes into the search as what is believed of starts does:
+
+    Σ (δ/τ)² + Σ log(1 + τ² a)        a the square of how a run's innovations change with its δ
+
+The second sum is what is lost by how little else each could have been (Laplace's integral). A τ
+that the runs themselves may widen makes friction of a load: more of it forward, less in reverse.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from sim.log import Array
+from sim.reconcile.run_nuisance import RunNuisance
+
+VARIES = 0.04  # [of kS] τ, measured on logs of one day: two to six hundredths
+LEAST_KS = 0.05  # [V] of which it is a share where kS is less
+
+
+def friction_sd(values: Mapping[str, float]) -> float:
+    """[V] τ, by which friction differs from run to run."""
+    return VARIES * max(values["kS"], LEAST_KS)
+
+
+def friction_prior(values: Mapping[str, float], outset: RunNuisance) -> float:
+    """[of -2 log L] of frictions that are each run's own."""
+    return float(np.sum(np.square(outset.rubs / friction_sd(values))))
+
+
+def laplace_correction(values: Mapping[str, float], slopes: Array) -> float:
+    """[of -2 log L] what is lost by how little else each could have been.
+
+    Args:
+        values: of a point.
+        slopes: (2 n, runs) change of the white innovations with each.
+    """
+    return float(np.sum(np.log1p(friction_sd(values) ** 2 * np.sum(np.square(slopes), axis=0))))

@@ -1,0 +1,40 @@
+"""Where a simulation and the log that is shown disagree: the samples of a story, sorted."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.fit.measurements import RunMeasurements, estimate_noise, measure_runs
+from sim.gap import GapMap, Residuals, gap_map
+from sim.log import Array, Log, Run
+
+FEWEST = 4  # samples of a run that is simulated, as ``lanes`` has it
+
+
+def residual_map(
+    log: Log, tracks: Sequence[Array], *, compared: Sequence[NDArray[np.bool_]] = (), floor: float
+) -> GapMap | None:
+    """What a simulation leaves of a log; None where there is nothing to compare, or it ran away.
+
+    Args:
+        log: that is shown.
+        tracks: a run of it that has enough samples -> (n, 2) simulated position and velocity, SI.
+        compared: the same runs -> (n,) which of their samples count; empty: all of them.
+        floor: [unit/s] noise of the velocity.
+    """
+    runs = tuple(run for run in log.runs if len(run) >= FEWEST)
+    seen = measure_runs(replace(log, runs=runs), friction=None)
+    counts = compared or [np.ones(len(run), dtype=bool) for run in runs]
+    left = [_left(*one) for one in zip(runs, seen, tracks, counts, strict=True)]
+    if not (floor > 0.0 and any(one.compared.any() for one in left)):
+        return None
+    return gap_map(left, noise=replace(estimate_noise(seen), velocity=floor))
+
+
+def _left(run: Run, seen: RunMeasurements, track: Array, counts: NDArray[np.bool_]) -> Residuals:
+    """What it leaves of a run's fresh samples."""
+    missed = seen.measured - track
+    missed[~counts | ~np.isfinite(track).all(axis=1)] = np.nan
+    return Residuals(run.test, run.time, run.voltage, np.nan_to_num(track), missed)

@@ -1,0 +1,1 @@
+"""Tests of what a model leaves that is not noise."""

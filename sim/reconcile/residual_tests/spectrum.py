@@ -1,0 +1,80 @@
+"""What comes back in time: a push that goes to and fro, whatever the mechanism does meanwhile.
+
+    power(f) = Σ |Σ w·exp(-2πi·f·t)|²/(n·mean(w²))        w how much of a push each innovation has
+
+summed over the runs. Of noise the power of a run is exponential, that of several a gamma deviate.
+What q takes for pushes at random is small in each innovation, and yet a line in their spectrum.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from sim.log import Array
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.residual_tests.repeatability import smooth_innovations
+
+FASTEST = 5.0  # [Hz] faster is a joint that swings, or a wave along the way
+TURNS = 2.0  # that a run has to last
+FINER = 0.5  # [1] of the steps that the longest run can tell apart
+SHORTEST = 20  # samples of a run
+
+
+@dataclass(frozen=True)
+class SpectralPeak:
+    """What comes back in time.
+
+    Args:
+        size: [1] -log of the odds that noise has as much of it, at the frequency that has most.
+        rate: [Hz].
+    """
+
+    size: float = 0.0
+    rate: float = 0.0
+
+
+def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> SpectralPeak:
+    """The rhythm that noise would have least.
+
+    Args:
+        problem: the measurements.
+        point: what is believed.
+    """
+    runs = list(_runs(problem, point))
+    squares = sum(float(push @ push) for _, push in runs)
+    if not squares > 0.0:
+        return SpectralPeak()
+    mean = squares / sum(push.size for _, push in runs)
+    lasts = [float(np.ptp(time)) for time, _ in runs]
+    rates: Array = np.arange(TURNS / max(lasts), FASTEST, FINER / max(lasts))
+    power, count = np.zeros(rates.size), np.zeros(rates.size)
+    for (time, push), lasting in zip(runs, lasts, strict=True):
+        told = np.flatnonzero(rates * lasting >= TURNS)
+        waves = np.exp(-2j * np.pi * rates[told, None] * time)
+        power[told] += np.abs(waves @ push) ** 2 / (push.size * mean)
+        count[told] += 1.0
+    sizes = (_unlikely(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True))
+    found = (SpectralPeak(size, rate) for size, rate in zip(sizes, rates.tolist(), strict=True))
+    return max(found, key=lambda one: one.size, default=SpectralPeak())
+
+
+def _runs(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[Array, Array]]:
+    """Of each run that is long enough: times, and pushes less their mean."""
+    every, told = smooth_innovations(problem, point), np.asarray(~problem.untold.all(axis=1))
+    for lane, (first, last) in zip(problem.lanes, pairwise(problem.edges.tolist()), strict=True):
+        mine = told[first:last]
+        push = every[first:last][mine]
+        if push.size >= SHORTEST:
+            yield lane.seen.time[mine], push - np.mean(push)
+
+
+def _unlikely(power: float, count: int) -> float:
+    """-log of the chance that so many exponential deviates sum up to as much (Erlang's tail)."""
+    if not (power > 0.0 and count):
+        return 0.0
+    terms = [k * math.log(power) - math.lgamma(k + 1.0) for k in range(count)]
+    most = max(terms)
+    return power - most - math.log(sum(math.exp(one - most) for one in terms))

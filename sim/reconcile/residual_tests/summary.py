@@ -1,0 +1,53 @@
+"""What a last model leaves that is not noise: at a moment, at one place, at one speed, in time."""
+
+from dataclasses import dataclass, field
+
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_repeated_residual
+from sim.reconcile.residual_tests.spectrum import SpectralPeak, find_spectral_peak
+from sim.reconcile.residual_tests.whiteness import CALM, WorstWindow, find_worst_window
+from sim.reconcile.thresholds import ALIKE, RHYTHM, SHAKEN
+
+
+@dataclass(frozen=True)
+class ResidualSummary:
+    """What is left.
+
+    Args:
+        moment: that the model explains least.
+        alike: what runs miss of it alike.
+        rhythm: what comes back in time.
+    """
+
+    moment: WorstWindow = CALM
+    alike: RepeatedResidual = field(default_factory=RepeatedResidual)
+    rhythm: SpectralPeak = field(default_factory=SpectralPeak)
+
+    @property
+    def shaken(self) -> bool:
+        """Whether there is a moment that is not explained."""
+        return self.moment.size > SHAKEN
+
+    @property
+    def swings(self) -> bool:
+        """Whether something comes back in time."""
+        return self.rhythm.size > RHYTHM
+
+    @property
+    def repeats(self) -> bool:
+        """Whether runs miss the same at the same places or speeds."""
+        return self.alike.size > ALIKE
+
+    @property
+    def something(self) -> bool:
+        """Whether any of it is more than noise."""
+        return self.shaken or self.swings or self.repeats
+
+    @classmethod
+    def by(cls, problem: PredictionErrorProblem, point: Estimate) -> "ResidualSummary":
+        """What a point leaves of its problem."""
+        return cls(
+            find_worst_window(problem, point),
+            find_repeated_residual(problem, point),
+            find_spectral_peak(problem, point),
+        )

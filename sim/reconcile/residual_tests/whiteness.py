@@ -1,0 +1,131 @@
+"""What a model leaves: whether its innovations are noise, or something nobody has named.
+
+A window of innovations that is far from nothing, measured by how far all such windows are: a force
+at one place, a push at one moment, a voltage that was not there.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from sim.fit.measurements import ROBUST
+from sim.log import Array
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.run_records import RunRecord
+
+WINDOWS = (0.1, 0.2, 0.4)  # [s]
+JUMP, SOON = 1.0, 0.15  # [V] of a step, and [s] after it
+FEWEST = 20  # windows that tell what is ordinary
+LEAST = 0.5  # [1] of what independent innovations would add up to
+PART = 0.5  # of a sample, by which a run may be late or early
+DELAY, LAG = "delay", "delay.lag"
+
+
+@dataclass(frozen=True)
+class WorstWindow:
+    """The moment that a model explains least.
+
+    Args:
+        size: [robust standard deviations of all windows as long].
+        lane: which run.
+        start: [s] on the run's clock.
+        end: [s].
+    """
+
+    size: float
+    lane: int
+    start: float
+    end: float
+
+
+CALM = WorstWindow(0.0, 0, 0.0, 0.0)
+"""None at all."""
+
+
+def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> WorstWindow:
+    """The most unlikely window of innovations.
+
+    What pushes moves position and velocity the same way: where both say so, they count together.
+    """
+    white = _in_time(problem, point)
+    moments = []
+    for length in WINDOWS:
+        count = max(round(length / problem.period), 2)
+        position, velocity = (_sizes(problem, white[:, column], count) for column in (0, 1))
+        for lane, one in position.items():
+            other = velocity[lane]
+            together = np.where(one * other > 0.0, np.hypot(one, other), 0.0)
+            size = np.max([np.abs(one), np.abs(other), together], axis=0)
+            place = int(np.argmax(size))
+            time = problem.lanes[lane].seen.time
+            end = min(place + count, time.size - 1)
+            moments.append(
+                WorstWindow(float(size[place]), lane, float(time[place]), float(time[end]))
+            )
+    return max(moments, key=lambda one: one.size, default=CALM)
+
+
+def _sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
+    """Which run -> (windows,) their sums, in what is ordinary."""
+    sums = {lane: one for lane, one in _windows(problem, white, count) if one.size}
+    every = np.concatenate([*sums.values(), np.zeros(0)])
+    if every.size < FEWEST:
+        return {lane: np.zeros(one.size) for lane, one in sums.items()}
+    spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
+    spread = max(spread, LEAST * count**0.5)
+    return {
+        lane: one / (spread * _ordinary(problem.lanes[lane])[: one.size])
+        for lane, one in sums.items()
+    }
+
+
+def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
+    """(n, 2) white innovations, less what a clock of each run's own makes of them.
+
+    A step comes a part of a sample late, another part in each run: that is of clocks, not of
+    physics.
+    """
+    delayed = point.hypothesis
+    if DELAY not in delayed.effects:
+        delayed = delayed + DELAY
+    late = PART * problem.period
+    values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
+    more = problem.ahead(delayed.model(values), point.outset, point.trust)
+    white = point.ahead @ point.whitening.T
+    change = np.nan_to_num(more - point.ahead) @ point.whitening.T
+    for first, last in pairwise(problem.edges.tolist()):
+        column, rest = change[first:last].ravel(), white[first:last].ravel()
+        along = float(column @ column)
+        share = -float(column @ rest) / along if along > 0.0 else 0.0
+        white[first:last] += min(max(share, -1.0), 1.0) * change[first:last]
+    return np.asarray(white)
+
+
+def _ordinary(lane: RunRecord) -> Array:
+    """(n,) what is ordinary for a window that begins there, in what is ordinary elsewhere.
+
+    Soon after a step of the voltage everything is fast: what happens between two samples, as a
+    battery that gives way and recovers, adds up to twice as much.
+    """
+    time = lane.seen.time
+    jumps = time[np.abs(np.diff(lane.seen.voltage, prepend=0.0)) > JUMP]
+    last = np.searchsorted(jumps, time, side="right") - 1
+    since = time - np.concatenate((jumps, [-np.inf]))[last]
+    return np.where(since <= SOON, 2.0, 1.0)
+
+
+def _windows(
+    problem: PredictionErrorProblem, white: Array, count: int
+) -> Iterator[tuple[int, Array]]:
+    """Sums of so many innovations, of each run; windows with untold samples are left out."""
+    for lane, (first, last) in enumerate(zip(problem.edges[:-1], problem.edges[1:], strict=True)):
+        mine, told = white[first:last], problem.telling[first:last]
+        if mine.size <= count:
+            continue
+        total = np.concatenate(([0.0], np.cumsum(mine)))
+        there = np.concatenate(([0], np.cumsum(told)))
+        sums = total[count:] - total[:-count]
+        sums[there[count:] - there[:-count] < count] = 0.0
+        yield lane, sums

@@ -1,0 +1,151 @@
+"""The runs of a log as reconcile compares them: fresh samples, where they began, stops, clocks."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from sim.fit.measurements import ROBUST, RunMeasurements, measure_runs
+from sim.log import Array, Log
+from sim.voltage_residual import run_start_times, share_a_clock
+
+FEWEST = 4  # samples of a run that can be compared, as ``see`` has it
+AT_REST = 0.05  # [share of the top speed] that a position may creep in one sample of a rest
+SAME_PLACE = 0.01  # [share of a run's way] within which a place is the place it began at
+SANK = 5.0  # [1] times the roughness of its position, by which a run sank below where it began
+AROUND = 0.03  # [s] on both sides of what is set aside
+MOST_RUNS = 1_000_000  # of one log
+AFTER = 1e-6  # [s] by which a log begins after another: nobody knows how long the pause was
+
+
+@dataclass(frozen=True)
+class ExcludedInterval:
+    """A stretch of a run that is damage to the record, or no business of the model.
+
+    Args:
+        run: which one, from 0.
+        start: [s] on the run's own clock.
+        end: [s].
+        for_good: nothing after it is believed, unless the run begins so: it leans on a stop.
+    """
+
+    run: int
+    start: float
+    end: float
+    for_good: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class RunRecord:
+    """One run.
+
+    Args:
+        seen: its measurements.
+        test: its name.
+        low: [unit] the stop on which it lay when it began; minus infinity if none shows.
+        high: [unit] the same above.
+        clock: [s] when it began, since its log did.
+        session: which log it is from.
+        memory: runs of one number followed one another: what one heated, the next found warm.
+    """
+
+    seen: RunMeasurements
+    test: str
+    low: float
+    high: float
+    clock: float
+    session: int
+    memory: int
+
+    def without(self, aside: ExcludedInterval) -> "RunRecord":
+        """The same, and that stretch says nothing."""
+        time = self.seen.time
+        begins = aside.start <= time[0] + AROUND  # on the stop: it leaves it, and all is well
+        end = np.inf if aside.for_good and not begins else aside.end + AROUND
+        out = (time >= aside.start - AROUND) & (time <= end)
+        seen = replace(self.seen, telling=self.seen.telling & ~out, moving=self.seen.moving & ~out)
+        return replace(self, seen=seen)
+
+
+def run_records(
+    log: Log, *, session: int = 0, since: float = 0.0, aside: Iterable[ExcludedInterval] = ()
+) -> tuple[RunRecord, ...]:
+    """All runs of a log that have enough samples.
+
+    Args:
+        log: any runs.
+        session: number of the log.
+        since: [s] of the clock at which it began.
+        aside: what to leave out.
+    """
+    places = [number for number, run in enumerate(log.runs) if len(run) >= FEWEST]
+    runs = [log.runs[number] for number in places]
+    began = run_start_times(log)
+    together = share_a_clock(log)
+    top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in runs), default=0.0)
+    found = {}
+    for number, run, one in zip(places, runs, measure_runs(log, friction=None), strict=True):
+        seen = _rested(one, top=top)
+        memory = session * MOST_RUNS + (0 if together else number)
+        clock = since + float(began[number])
+        found[number] = RunRecord(seen, run.test, *_stops(seen), clock, session, memory)
+    for part in aside:
+        if part.run in found:
+            found[part.run] = found[part.run].without(part)
+    return tuple(found.values())
+
+
+def session_length(*logs: Log) -> float:
+    """[s] on the clock of the first log when the last one ended; no pause between them."""
+    lasted = (one.runs[-1].time[-1] - one.runs[-1].time[0] for one in logs)
+    return float(
+        sum(run_start_times(one)[-1] + last for one, last in zip(logs, lasted, strict=True))
+    )
+
+
+def join_records(log: Log, later: Log) -> Log:
+    """The runs of both, on one clock if each has one: as ``lanes`` has them, with no pause."""
+    runs = later.runs
+    if share_a_clock(log) and share_a_clock(later):
+        by = log.runs[0].time[0] + session_length(log) + AFTER - later.runs[0].time[0]
+        runs = tuple(replace(run, time=run.time + by) for run in runs)
+    return replace(log, runs=(*log.runs, *runs))
+
+
+def _rested(seen: RunMeasurements, *, top: float) -> RunMeasurements:
+    """The same, beginning at rest if its position says so: a noisy velocity alone cannot tell."""
+    x = seen.measured[:, 0]
+    fresh = np.flatnonzero(~np.isnan(x))[:2]
+    if fresh.size < 2:  # noqa: PLR2004 - two make a rate
+        return seen
+    rate = abs(float((x[fresh[1]] - x[fresh[0]]) / (seen.time[fresh[1]] - seen.time[fresh[0]])))
+    return replace(seen, velocity=0.0) if rate < AT_REST * top else seen
+
+
+def _stops(seen: RunMeasurements) -> tuple[float, float]:
+    """What lies beneath a run that began at rest and was never far beyond where it began.
+
+    Arms and elevators begin on a stop, and stay there whatever gravity does until the voltage
+    lifts them. Where it is friction that holds instead, a stop at that place changes nothing. One
+    that first sank a little, more than its position is rough, found its stop there.
+    """
+    x = seen.measured[:, 0]
+    x = x[~np.isnan(x)]
+    if seen.velocity != 0.0 or not x.size:
+        return -np.inf, np.inf
+    near = SAME_PLACE * float(np.ptp(x))
+    low = x.min() > seen.position - near
+    high = x.max() < seen.position + near
+    if low == high:
+        return -np.inf, np.inf
+    rough = SANK * _roughness(x)
+    lowest, highest = float(x.min()), float(x.max())
+    if low:
+        return (lowest if lowest < seen.position - rough else seen.position), np.inf
+    return -np.inf, (highest if highest > seen.position + rough else seen.position)
+
+
+def _roughness(x: Array) -> float:
+    """[unit] of positions, from how far each is off the line between its neighbours."""
+    bends = np.diff(x, 2)
+    return float(np.median(np.abs(bends))) * ROBUST / 6.0**0.5 if bends.size else 0.0

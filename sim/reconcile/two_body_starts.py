@@ -1,0 +1,113 @@
+"""What shakes: where a search for two bodies starts, from the runs in which the voltage jumps.
+
+Free play and a soft joint show for a moment after each change of voltage, and a slow ramp says
+little of them. They have many valleys: a light motor, a heavy one, a swing that falls in step with
+the samples. So many starts are simulated on the lively runs, the best go downhill there, which
+costs little, and the valleys that these find are tried on all runs.
+"""
+
+from collections.abc import Iterable, Sequence
+from math import isclose, isfinite
+
+from sim.effects import EFFECTS
+from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.optimize import (
+    Begun,
+    joint_jacobian,
+    levenberg_marquardt,
+    predicted_improvement,
+    total_cost,
+)
+from sim.reconcile.thresholds import SURE
+
+SHAKES = "two-body"  # kind of effects
+SLOW = "quasistatic"  # tests that say little of them
+MOST = 4  # starts of each kind that go a step downhill on the lively runs
+GO_ON = (4, 4)  # of them that go a second step, and a third
+VALLEYS = 2  # that are tried on all runs
+SAME = 0.2  # [1] by which the parameters of two valleys differ at least
+NEAR = 0.5  # [1] of the best one's gain that another valley gains, to be tried on all runs, too
+HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
+
+
+class TwoBodyStarts:
+    """The runs in which the voltage jumps.
+
+    Args:
+        problem: the measurements of all runs.
+        point: the best without what shakes.
+    """
+
+    def __init__(self, problem: PredictionErrorProblem, point: Estimate) -> None:
+        chosen = [n for n, lane in enumerate(problem.lanes) if SLOW not in lane.test]
+        self.there = False
+        if not chosen:
+            return
+        self.problem = PredictionErrorProblem(
+            tuple(problem.lanes[n] for n in chosen), problem.noise
+        )
+        self.point = self.problem.at(
+            point.hypothesis, point.values, point.outset.of(chosen), point.q
+        )
+        if isfinite(self.point.cost):  # else all of them were set aside, or fly off
+            self.there = True
+            self.kept = joint_jacobian(self.problem, self.point)
+
+    def valleys(
+        self, hypothesis: ModelStructure, more: list[dict[str, float]], *, heavy: bool
+    ) -> list[dict[str, float]]:
+        """The starts that are worth a look at all runs.
+
+        None where none makes the lively runs likelier by as much as an effect must (``SURE``):
+        these are the runs in which a joint shows, and a look at all of them takes longest.
+
+        Args:
+            hypothesis: with the effect that shakes as its last one.
+            more: values that it adds, one start after another.
+            heavy: two bodies of more inertia are tried, too.
+        """
+        effect = hypothesis.effects[-1]
+        names = ["kA", *(f"{effect}.{name}" for name in EFFECTS[effect].names)]
+        tried = list(more)
+        if heavy:
+            tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in more]
+        begun = predicted_improvement(self.problem, self.point, hypothesis, tried, kept=self.kept)
+        gone = self._a_step(_best_of_each(begun, effect))
+        for most in GO_ON:
+            gone = self._a_step(_apart(gone, names)[:most])
+        best = _apart(gone, names)
+        if not best:
+            return []
+        least = max(NEAR * self._gain(best[0]), SURE)
+        found = [one for one in best if self._gain(one) > least][:VALLEYS]
+        return [{name: one.values[name] for name in names} for one in found]
+
+    def _a_step(self, points: Iterable[Estimate]) -> list[Estimate]:
+        return [levenberg_marquardt(self.problem, one, steps=1) for one in points]
+
+    def _gain(self, point: Estimate) -> float:
+        return self.point.cost - total_cost(point)
+
+
+def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Estimate]:
+    """The most promising of the starts that differ in size alone: the same share of the motor."""
+    kinds: dict[tuple[float, ...], list[Estimate]] = {}
+    fixed = [f"{effect}.{one.name}" for one in EFFECTS[effect].parameters if one.neutral]
+    for _, point in sorted(begun, key=lambda one: -one[0]):
+        kinds.setdefault(tuple(point.values[name] for name in fixed), []).append(point)
+    return [one for kind in kinds.values() for one in kind[:MOST]]
+
+
+def _apart(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
+    """The likeliest first, one of each valley."""
+    found: list[Estimate] = []
+    for one in sorted(points, key=total_cost):
+        if not any(_same(one, other, names) for other in found):
+            found.append(one)
+    return found
+
+
+def _same(one: Estimate, other: Estimate, names: Iterable[str]) -> bool:
+    """Whether two points are in one valley."""
+    return all(isclose(one.values[n], other.values[n], rel_tol=SAME) for n in names)

@@ -1,0 +1,73 @@
+"""Pages: how they are filled in, and how they are written, whole or not at all."""
+
+import os
+from functools import cache
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from sim.atomic_file import write_atomically
+from sim.errors import BadRequest
+from sim.printable import printable
+
+PAGES = (".html", ".htm")
+FOLDER = Path(__file__).parent
+
+
+@cache
+def load_templates(folder: Path | None = None) -> Environment:
+    """The templates of this folder; what they are filled with is escaped.
+
+    Args:
+        folder: another one with more of them.
+    """
+    return Environment(
+        loader=FileSystemLoader([folder or FOLDER, FOLDER], encoding="utf-8"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        finalize=_shown,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+
+
+def _shown(value: object) -> object:
+    """What a template shows; our own HTML, which is marked as such, stays as it is."""
+    return printable(value) if type(value) is str else value
+
+
+def page_path(path: str | os.PathLike[str]) -> Path:
+    """Where a page goes.
+
+    Raises:
+        BadRequest: its name does not end as a page's.
+    """
+    target = Path(path)
+    if target.suffix.lower() not in PAGES:
+        raise BadRequest(
+            f"no page ends in {target.suffix or 'nothing'!r}",
+            where=str(target),
+            advice="End its name in .html.",
+        )
+    return target
+
+
+def write_whole(text: str, target: Path, *, private: bool = False) -> None:
+    """Write a file, whole or not at all.
+
+    Args:
+        text: its content.
+        target: the file.
+        private: whether only its owner may read it.
+
+    Raises:
+        BadRequest: it cannot be written.
+    """
+    try:
+        write_atomically(target, text, private=private)
+    except OSError as error:
+        raise BadRequest(
+            f"cannot be written ({error.strerror or error})",
+            where=str(target),
+            advice="Choose a folder that exists and that you may write to.",
+        ) from None

@@ -1,0 +1,1 @@
+"""What only the lessons use: prediction widgets, the runway bench, cases that R2 hides."""

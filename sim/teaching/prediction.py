@@ -1,0 +1,51 @@
+"""A question before an experiment: what the learner predicts is kept, shown again, never graded."""
+
+from html import escape
+
+from sim.errors import BadRequest
+
+
+class Prediction:
+    """A question with a few answers to choose from, as buttons in a notebook.
+
+    Without buttons, plain code does the same: ``guess.value = "kA"``.
+
+    Args:
+        question: what is asked.
+        options: the answers one can choose.
+    """
+
+    def __init__(self, question: str, *options: str) -> None:
+        import ipywidgets  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
+
+        self.question = question
+        self.options = options
+        self._buttons = ipywidgets.RadioButtons(
+            options=options, value=None, layout={"width": "max-content"}
+        )
+        self._box = ipywidgets.VBox([ipywidgets.HTML(escape(question)), self._buttons])
+
+    @property
+    def value(self) -> str | None:
+        """What was chosen; None as long as nothing was."""
+        chosen: str | None = self._buttons.value
+        return chosen
+
+    @value.setter
+    def value(self, chosen: str | None) -> None:
+        if chosen is not None and chosen not in self.options:
+            raise BadRequest(
+                f"{chosen!r} is not one of the answers",
+                advice=f"Choose one of: {', '.join(self.options)}.",
+            )
+        self._buttons.value = chosen
+
+    def __str__(self) -> str:
+        """What was chosen, to be shown again when the answer is known."""
+        return self.value or "nothing yet"
+
+    def __repr__(self) -> str:
+        return f"Guess({self.question!r}: {self})"
+
+    def _repr_mimebundle_(self, **how: object) -> object:
+        return self._box._repr_mimebundle_(**how)

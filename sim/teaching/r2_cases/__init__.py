@@ -1,0 +1,169 @@
+"""What R² hides: one drivetrain, logged soundly once and wrongly twenty times, each log fitted.
+
+    found = gains of SysId's recipe        off = found/true - 1
+
+The truth is known, so beside each R² stands by how much the gains are off: what no robot tells.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.fit import Fit, fit
+from sim.log import Log
+from sim.teaching.r2_cases import drivetrains, harm
+
+__all__ = ["GOOD", "Case", "make_cases"]
+
+GOOD = 0.9  # [1] simulated velocity R² above which WPILib's docs call a fit good
+MEDIAN = 5  # [samples] the window that repairs single spikes
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A log, what is wrong with it, and what SysId's recipe makes of it.
+
+    Args:
+        name: a few words.
+        story: what happened, one sentence with numbers.
+        log: as it was recorded.
+        truth: the gains of the mechanism in it.
+        fit: what SysId's recipe finds.
+        harmful: whether it was recorded wrongly and nothing was repaired.
+    """
+
+    name: str
+    story: str
+    log: Log
+    truth: Mapping[str, float]
+    fit: Fit
+    harmful: bool
+
+    def off(self, gain: str) -> float:
+        """By which share a gain is off: 0.1 is 10 % too large, -2 has the wrong sign."""
+        return self.fit.gains[gain] / self.truth[gain] - 1.0
+
+    @property
+    def good(self) -> bool:
+        """Whether its simulated velocity R² passes for good."""
+        return self.fit.simulated_velocity_r2 > GOOD
+
+
+@dataclass(frozen=True)
+class _Recipe:
+    """How a case is made: a mechanism and its routine, and damage to the log."""
+
+    name: str
+    story: str
+    setup: drivetrains.Setup = drivetrains.PLAIN
+    spoil: Callable[[Log, np.random.Generator], Log] = harm.leave_unchanged
+    median: int = 1
+    harmful: bool = True
+
+
+_RECIPES = (
+    _Recipe("clean", "nothing: the log is sound", harmful=False),
+    _Recipe(
+        "1 encoder spike",
+        "one velocity reading of the forward ramp is 1.6 m/s off",
+        spoil=harm.add_spikes(1),
+    ),
+    _Recipe("3 encoder spikes", "three such readings", spoil=harm.add_spikes(3)),
+    _Recipe("10 encoder spikes", "ten such readings", spoil=harm.add_spikes(10)),
+    _Recipe(
+        "10 spikes, median of 5",
+        "the same ten, and SysId's median filter on",
+        spoil=harm.add_spikes(10),
+        median=MEDIAN,
+        harmful=False,
+    ),
+    _Recipe(
+        "encoder slips 10 %",
+        "from the middle of both ramps on, the encoder loses a tenth of the motion",
+        spoil=harm.add_encoder_slip(0.1),
+    ),
+    _Recipe("encoder slips 30 %", "the same with three tenths", spoil=harm.add_encoder_slip(0.3)),
+    _Recipe(
+        "lurch",
+        "something sticks and lets go in the forward ramp: 1.2 m/s too fast for 0.2 s",
+        spoil=harm.add_position_jump,
+    ),
+    _Recipe(
+        "stop during the rise",
+        "both steps hit a stop at 60 % of the top speed, and the voltage goes on for 0.3 s",
+        spoil=harm.add_early_stop,
+    ),
+    _Recipe(
+        "asked volts, 7 V step",
+        "a 120 A limit, good battery (20 mΩ); the log holds the volts that were asked for",
+        setup=drivetrains.GOOD_BATTERY,
+        spoil=harm.log_commanded_voltage(drivetrains.GOOD_BATTERY),
+    ),
+    _Recipe(
+        "asked volts, 10 V step",
+        "the same with a weak battery (35 mΩ)",
+        setup=drivetrains.WEAK_BATTERY,
+        spoil=harm.log_commanded_voltage(drivetrains.WEAK_BATTERY),
+    ),
+    _Recipe(
+        "brownout, asked volts",
+        "the motors are off for 0.3 s of the forward ramp, and the log does not say so",
+        spoil=harm.add_brownout,
+    ),
+    _Recipe(
+        "gaps up to 100 ms",
+        "every fifth loop is late by up to 100 ms",
+        spoil=harm.drop_samples(0.1),
+    ),
+    _Recipe("gaps up to 300 ms", "the same, up to 300 ms", spoil=harm.drop_samples(0.3)),
+    _Recipe(
+        "slow velocity filter",
+        "NEO motors, velocity averaged over 0.22 s, so 112 ms late",
+        setup=drivetrains.SLOW_FILTER,
+    ),
+    _Recipe(
+        "40 A limit, asked volts",
+        "a stator limit engages; the log holds the volts that were asked for",
+        setup=drivetrains.LIMITED,
+        spoil=harm.log_commanded_voltage(drivetrains.LIMITED),
+    ),
+    *(
+        _Recipe(
+            f"wheel slip, {setup.routine.step:g} V step",
+            "the step asks the carpet for more than it holds",
+            setup=setup,
+            spoil=harm.add_wheel_slip(setup),
+        )
+        for setup in drivetrains.GRIPPING
+    ),
+    _Recipe(
+        "friction differs",
+        "friction 0.15 V forward, 0.45 V in reverse",
+        setup=drivetrains.LEANING,
+    ),
+    _Recipe(
+        "wrong gear ratio", "the encoder's distances are divided by 1.25", spoil=harm.scale_encoder
+    ),
+    _Recipe("encoder the wrong way", "plus volts, minus velocity", spoil=harm.flip_encoder),
+)
+
+
+def make_cases(*, rng: np.random.Generator) -> tuple[Case, ...]:
+    """Make the logs and fit them.
+
+    Args:
+        rng: the source of noise and of where gaps fall; the same state gives the same cases.
+
+    Returns:
+        One case for each kind of harm, the sound log first.
+    """
+    return tuple(_case(recipe, rng) for recipe in _RECIPES)
+
+
+def _case(recipe: _Recipe, rng: np.random.Generator) -> Case:
+    setup = recipe.setup
+    log = recipe.spoil(setup.log(rng=rng), rng)
+    found = fit(log, method="sysid", median=recipe.median)
+    truth = setup.mechanism.gains
+    return Case(recipe.name, recipe.story, log, truth, found, recipe.harmful)

@@ -1,0 +1,186 @@
+"""Harm to a log, as large as said: what turns a sound record into each of the other cases."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TypeAlias
+
+import numpy as np
+
+from sim.fault import Strike, replace_run, rescale_motion, select_samples
+from sim.faults import fault
+from sim.log import Array, Log, Run
+from sim.routine import LOOPS_BEFORE_DRIVE
+from sim.teaching.r2_cases.drivetrains import Setup
+
+Harm: TypeAlias = Callable[[Log, np.random.Generator], Log]
+
+FORWARD_RAMP, STEPS = 0, (2, 3)  # where the tests stand in a log
+RAMPS = (FORWARD_RAMP, 1)
+PERIOD = 0.02  # [s]
+SPIKE = 1.6  # [m/s]
+WITHIN = (0.3, 0.9)  # [share of the ramp] where spikes fall
+LURCH, LURCHES, LURCHED = 1.2, 0.2, 3.0  # [m/s, s, s] how much too fast, how long, and when
+STOP, PRESSED = 0.6, 0.3  # [share of the top speed, s]
+CUT = Strike(FORWARD_RAMP, start=1.5, severity=1.0)
+LATE = 0.2  # [share of the loops]
+SHORTEST = 0.04  # [s] of a late loop
+GRIP = 1.1 * 9.81  # [m/s²] what carpet gives a robot at most
+LIGHT = 0.1  # [share of kA] that is the wheels' and rotors' own
+FINE = 50  # steps per sample in which wheels are spun up
+RATIO = 1.25
+
+
+def leave_unchanged(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
+    """Leave it as it is."""
+    return log
+
+
+def add_spikes(count: int) -> Harm:
+    """Let single velocities of the forward ramp be far off, up and down in turn."""
+
+    def spoil(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
+        run = log.runs[FORWARD_RAMP]
+        at = (np.linspace(*WITHIN, count + 2)[1:-1] * len(run)).astype(int)
+        velocity = run.velocity.copy()
+        velocity[at] += SPIKE * (-1.0) ** np.arange(count)
+        return replace_run(log, FORWARD_RAMP, replace(run, velocity=velocity))
+
+    return spoil
+
+
+def add_encoder_slip(loss: float) -> Harm:
+    """Let the encoder lose a share of the motion from the middle of both ramps on."""
+
+    def spoil(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
+        for index in RAMPS:
+            run = log.runs[index]
+            late = run.time > 0.5 * (run.time[0] + run.time[-1])
+            log = replace_run(log, index, rescale_motion(run, np.where(late, 1.0 - loss, 1.0)))
+        return log
+
+    return spoil
+
+
+def add_position_jump(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
+    """Let it jump ahead in the forward ramp."""
+    run = log.runs[FORWARD_RAMP]
+    since = np.clip((run.time - run.time[0] - LURCHED) / LURCHES, 0.0, 1.0)
+    bump = LURCH * np.sin(np.pi * since)
+    moved = run.position + np.cumsum(bump) * PERIOD
+    return replace_run(
+        log, FORWARD_RAMP, replace(run, velocity=run.velocity + bump, position=moved)
+    )
+
+
+def add_early_stop(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
+    """Let both steps run into a stop before they have told all they know."""
+    for index in STEPS:
+        run = log.runs[index]
+        speed = np.abs(run.velocity)
+        hit = int(np.argmax(speed > STOP * speed.max()))
+        stopped = rescale_motion(run, np.where(np.arange(len(run)) < hit, 1.0, 0.0))
+        log = replace_run(log, index, select_samples(stopped, slice(hit + round(PRESSED / PERIOD))))
+    return log
+
+
+def log_commanded_voltage(setup: Setup) -> Harm:
+    """Log the voltage that the routine asked for."""
+
+    def spoil(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
+        return replace(log, runs=tuple(replace(r, voltage=_asked(r, setup)) for r in log.runs))
+
+    return spoil
+
+
+def add_brownout(log: Log, rng: np.random.Generator) -> Log:
+    """Take the motors off for a moment, with a log that goes on to tell a voltage."""
+    return fault("brownout").spoil(log, CUT, rng).log
+
+
+def drop_samples(longest: float) -> Harm:
+    """Lose the samples of late loops."""
+
+    def spoil(log: Log, rng: np.random.Generator) -> Log:
+        return replace(log, runs=tuple(_late(run, longest=longest, rng=rng) for run in log.runs))
+
+    return spoil
+
+
+def add_wheel_slip(setup: Setup) -> Harm:
+    """Let the wheels of both steps spin until the robot has caught up with them."""
+
+    def spoil(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
+        for index in STEPS:
+            log = replace_run(log, index, _spun(log.runs[index], setup))
+        return log
+
+    return spoil
+
+
+def scale_encoder(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
+    """Divide what the encoder says by a ratio that is not there."""
+    return _scaled(log, 1.0 / RATIO)
+
+
+def flip_encoder(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
+    """Turn the encoder round."""
+    return _scaled(log, -1.0)
+
+
+def _scaled(log: Log, factor: float) -> Log:
+    runs = (
+        replace(r, position=factor * r.position, velocity=factor * r.velocity) for r in log.runs
+    )
+    return replace(log, runs=tuple(runs))
+
+
+def _asked(run: Run, setup: Setup) -> Array:
+    """(n,) [V] what the routine asked for."""
+    since = run.time - run.time[0] + LOOPS_BEFORE_DRIVE * PERIOD
+    return np.array([setup.routine.voltage(run.test, t) for t in since.tolist()])
+
+
+def _late(run: Run, *, longest: float, rng: np.random.Generator) -> Run:
+    """The run without what late loops did not log."""
+    keep = np.ones(len(run), dtype=bool)
+    place = 1
+    while place < len(run) - 1:
+        lost = 0
+        if rng.random() < LATE:
+            lost = int(rng.uniform(SHORTEST, longest) / PERIOD) - 1
+            keep[place : place + lost] = False
+        place += lost + 1
+    keep[-1] = True
+    return select_samples(run, keep)
+
+
+def _spun(run: Run, setup: Setup) -> Run:
+    """The step as its wheels see it: kA_w·v' = V - kS - kV·v - F, with F [V] what carpet holds.
+
+    The noise of the encoder stays what it was.
+    """
+    gains = setup.mechanism.gains
+    plain = _speed(run, gains, holds=np.inf)
+    slipping = _speed(run, gains, holds=gains["kA"] * GRIP)
+    more = np.sign(run.voltage[0]) * (slipping - plain)
+    moved = np.concatenate(([0.0], np.cumsum(0.5 * (more[1:] + more[:-1]) * np.diff(run.time))))
+    return replace(run, velocity=run.velocity + more, position=run.position + moved)
+
+
+def _speed(run: Run, gains: "dict[str, float]", *, holds: float) -> Array:
+    """(n,) [m/s] of the wheels, on carpet that holds so many volts."""
+    ka, wheels, robot, loose = gains["kA"], 0.0, 0.0, False
+    speeds = [0.0]
+    for span, volts in zip(np.diff(run.time).tolist(), np.abs(run.voltage).tolist(), strict=False):
+        step = span / FINE
+        for _ in range(FINE):
+            push = volts - gains["kS"] - gains["kV"] * wheels
+            loose = loose or push > holds
+            if loose:
+                wheels += step * (push - holds) / (LIGHT * ka)
+                robot += step * holds / ka
+                loose, wheels = robot < wheels, max(robot, wheels)
+            else:
+                wheels = robot = wheels + step * push / ka
+        speeds.append(wheels)
+    return np.array(speeds)

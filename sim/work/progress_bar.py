@@ -1,0 +1,36 @@
+"""A bar that shows how far many jobs are."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+
+@contextmanager
+def progress_bar(
+    what: str, total: int, *, done: int = 0
+) -> Iterator[tuple[Callable[[], None], Callable[[], int]]]:
+    """A progress bar on standard error where there is a terminal, and nothing elsewhere.
+
+    Args:
+        what: is counted.
+        total: of them.
+        done: how many are there already.
+
+    Yields:
+        What moves it by one, and what says how many are done.
+    """
+    from rich.console import Console  # noqa: PLC0415 - --help must not wait for it
+    from rich.progress import (  # noqa: PLC0415 - the same
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    console = Console(stderr=True)
+    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(
+        *columns, console=console, transient=True, disable=not console.is_terminal
+    ) as progress:
+        task = progress.add_task(what, total=total, completed=done)
+        yield lambda: progress.advance(task), lambda: int(progress.tasks[0].completed)

@@ -1,0 +1,355 @@
+"""Inspection: one account of what many detectors say, of any log, for people and for programs."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import sim.detect_faults
+from sim.contaminate import contaminate
+from sim.detect_faults import Inspection, inspect
+from sim.doubt import Doubt
+from sim.fault import Damage, Fault, Spoilt, Stretch, rescale_motion
+from sim.faults import FAULTS
+from sim.formats import write
+from sim.log import FOUR_TESTS, TESTS, Log, Run
+from sim.mechanisms import MECHANISMS
+from sim.routine import Routine
+from sim.simulate import simulate
+
+
+def rng(seed=0):
+    return np.random.default_rng(seed)
+
+
+@cache
+def bench(name):
+    return simulate(MECHANISMS[name], Routine(ramp=0.5, step=3.5), rng=rng())
+
+
+@pytest.fixture(scope="module")
+def drive():
+    return bench("drivetrain")
+
+
+def sysid(*arguments, folder, columns=80):
+    """Run the command as a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-c", "from sim.cli import main; main()", *map(str, arguments)],
+        cwd=folder,
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+        timeout=120,
+        env={"COLUMNS": str(columns), "PYTHONIOENCODING": "utf-8"},
+    )
+
+
+# Which explanation is believed
+
+
+def fake(name, *, whole=False, about="motion", says=()):
+    """A fault that says what it is told to."""
+    return Fault(
+        name=name,
+        summary=name,
+        ordinary="1",
+        spoil=lambda log, _blow, _rng: Spoilt(log, ()),
+        detect=lambda _clues: [
+            Damage(name, Stretch(run, "dynamic-forward", start, end), sure, "seen", "act")
+            for run, start, end, sure in says
+        ],
+        whole=whole,
+        about=about,
+    )
+
+
+@pytest.mark.parametrize(
+    ("faults", "left"),
+    [
+        ([fake("a", says=[(0, 1, 2, 0.9)]), fake("b", says=[(0, 1, 2, 0.8)])], ["a"]),
+        ([fake("a", says=[(0, 1, 2, 0.8)]), fake("b", says=[(0, 1, 2, 0.9)])], ["b"]),
+        ([fake("a", says=[(0, 1, 2, 0.9)]), fake("b", says=[(0, 1, 9, 0.8)])], ["b"]),
+        ([fake("a", says=[(0, 1, 2, 0.9)]), fake("b", says=[(0, 3, 4, 0.8)])], ["a", "b"]),
+        ([fake("a", says=[(0, 1, 2, 0.9)]), fake("b", says=[(1, 1, 2, 0.8)])], ["a", "b"]),
+        ([fake("a", says=[(0, 1, 3, 0.9), (0, 2, 4, 0.8)])], ["a", "a"]),
+        ([fake("a", says=[(0, 1, 2, 0.9)]), fake("b", whole=True, says=[(0, 0, 9, 0.8)])], "ba"),
+        ([fake("a", says=[(0, 1, 2, 0.9)]), fake("b", about="time", says=[(0, 1, 2, 0.8)])], "ab"),
+        ([fake("a", says=[(1, 1, 2, 0.9)]), fake("b", says=[(None, 0, 0, 1.0)])], ["b", "a"]),
+    ],
+    ids=[
+        "the surer one",
+        "whichever comes first",
+        "the one that explains more",
+        "two moments, two causes",
+        "two runs, two causes",
+        "one fault does not rival itself",
+        "a whole run's fault stands beside a moment's",
+        "what is wrong with time stands beside what is wrong with motion",
+        "the whole log comes first",
+    ],
+)
+def test_of_two_explanations_of_a_moment_the_better_is_believed(monkeypatch, drive, faults, left):
+    monkeypatch.setattr(sim.detect_faults, "FAULTS", {fault.name: fault for fault in faults})
+
+    assert [damage.fault for damage in inspect(drive).damages] == list(left)
+
+
+def test_what_is_found_comes_in_the_order_of_time(drive):
+    log = drive
+    for number, (name, test) in enumerate(
+        [("hard-stop", "dynamic-reverse"), ("encoder-slip", "quasistatic-reverse"),
+         ("loop-overrun", "quasistatic-forward")]
+    ):  # fmt: skip
+        log = contaminate(log, name, test=test, rng=rng(number)).log
+
+    found = inspect(log)
+
+    assert [(damage.fault, damage.where.run) for damage in found.damages] == [
+        ("loop-overrun", 0), ("encoder-slip", 1), ("hard-stop", 3),
+    ]  # fmt: skip
+    assert not found.clean
+
+
+def test_the_doubts_of_the_log_come_along(drive):
+    doubt = Doubt("odd", "The file was odd.")
+
+    found = inspect(drive.with_doubts(doubt))
+
+    assert doubt in found.doubts
+    assert found.clean
+
+
+def test_times_are_the_logs_own(drive):
+    later = replace(drive, runs=tuple(replace(run, time=run.time + 1000.0) for run in drive.runs))
+    spoilt = contaminate(later, "brownout", rng=rng())
+
+    (damage,) = inspect(spoilt.log).damages
+
+    assert damage.where.start > 1000.0
+    assert spoilt.where[0].overlap(damage.where) > 0.5
+
+
+# Whatever log there is
+
+
+@pytest.mark.parametrize("keep", [["quasistatic-forward"], ["dynamic-forward"], FOUR_TESTS[:2]])
+@pytest.mark.parametrize("name", ["encoder-slip", "hard-stop", "loop-overrun"])
+def test_no_fault_is_made_up_where_tests_are_missing(keep, name, drive):
+    """Only that they are missing; and what can be seen in a single run is seen."""
+    part = replace(drive, runs=tuple(run for run in drive.runs if run.test in keep))
+
+    assert {damage.fault for damage in inspect(part).damages} <= {"missing-test"}
+    if name != "encoder-slip":
+        spoilt = contaminate(part, name, rng=rng()).log
+        assert name in {damage.fault for damage in inspect(spoilt).damages}
+
+
+NUMBERS = st.floats(-9e8, 9e8, allow_nan=False)
+SMALL = st.floats(-10.0, 10.0, allow_nan=False)
+
+
+@st.composite
+def logs(draw):
+    """Any log that can be: few samples or many, huge values or none, times of any scale."""
+    runs = []
+    for _ in range(draw(st.integers(0, 3))):
+        count = draw(st.sampled_from([0, 1, 2, 3, 4, 8, 40, 120]))
+        step = draw(st.sampled_from([0.005, 0.02, 0.02, 0.1, 1e-3, 1e-9, 1e3]))
+        time = np.cumsum(np.full(count, step) * draw(st.sampled_from([1.0, 2.0])))
+        numbers = draw(st.sampled_from([NUMBERS, SMALL, st.just(0.0), st.just(3.0)]))
+        seed = draw(st.integers(0, 9))
+        shape = draw(st.sampled_from(["noise", "still", "ramp", "given"]))
+        signals = []
+        for _signal in range(3):
+            size = draw(numbers)
+            signals.append(
+                {
+                    "noise": size * rng(seed).standard_normal(count) / 10.0,
+                    "still": np.full(count, size),
+                    "ramp": np.linspace(0.0, size, count),
+                    "given": np.resize(draw(st.lists(SMALL, min_size=1, max_size=5)), count),
+                }[shape]
+            )
+        bus = draw(st.sampled_from([None, np.full(count, 12.0)]))
+        runs.append(Run(draw(st.sampled_from(TESTS)), time, *signals, bus_voltage=bus))
+    return Log(tuple(runs), type=draw(st.sampled_from(["", "simple", "arm", "elevator"])))
+
+
+@settings(max_examples=150)
+@given(logs())
+def test_no_log_is_too_odd_to_be_inspected(log):
+    found = inspect(log)
+
+    for damage in found.damages:
+        assert 0.0 < damage.confidence <= 1.0
+        assert damage.evidence.endswith(".")
+        assert damage.advice.endswith(".")
+        assert damage.where.start <= damage.where.end
+    json.dumps(found.to_json(), allow_nan=False)
+
+
+HURTS = {
+    "nothing": lambda run: run,
+    "no voltage": lambda run: replace(run, voltage=0.0 * run.voltage),
+    "no motion": lambda run: replace(run, velocity=0.0 * run.velocity),
+    "huge": lambda run: replace(run, velocity=1e6 * run.velocity, position=1e4 * run.position),
+    "tiny": lambda run: replace(run, velocity=1e-12 * run.velocity),
+    "backward": lambda run: replace(run, velocity=-run.velocity[::-1], position=-run.position),
+    "noise": lambda run: replace(run, velocity=rng().standard_normal(len(run))),
+    "steps": lambda run: replace(run, velocity=np.round(run.velocity)),
+    "other test": lambda run: replace(run, test="chirp-forward"),
+    "few": lambda run: Run(run.test, *(getattr(run, s)[:7] for s in SIGNALS)),
+    "sparse": lambda run: Run(run.test, *(getattr(run, s)[::40] for s in SIGNALS)),
+    "first half": lambda run: Run(run.test, *(getattr(run, s)[: len(run) // 2] for s in SIGNALS)),
+}
+SIGNALS = ("time", "voltage", "position", "velocity")
+
+
+@settings(max_examples=100)
+@given(
+    name=st.sampled_from(list(MECHANISMS)),
+    hurts=st.lists(st.sampled_from(list(HURTS)), min_size=4, max_size=4),
+    gone=st.integers(0, 4),
+)
+def test_no_run_is_too_badly_hurt_to_be_inspected(name, hurts, gone):
+    log = bench(name)
+    runs = [HURTS[hurt](run) for hurt, run in zip(hurts, log.runs, strict=True)]
+
+    found = inspect(replace(log, runs=tuple(runs[gone:])))
+
+    json.dumps(found.to_json(), allow_nan=False)
+    for damage in found.damages:
+        assert 0.0 < damage.confidence <= 1.0
+        assert damage.where.start <= damage.where.end
+
+
+@pytest.mark.parametrize("step", [1e-9, 1e-6, 5.0, 20.0])
+def test_a_clock_no_robot_has_is_said_and_nothing_is_made_up_from_it(step, drive):
+    odd = replace(
+        drive,
+        runs=tuple(replace(run, time=np.arange(len(run)) * step) for run in drive.runs),
+    )
+
+    found = inspect(odd)
+
+    (doubt,) = found.doubts
+    assert (doubt.code, doubt.grave) == ("odd-clock", True)
+    assert doubt.message.endswith("Give times in seconds.")
+    assert not found.damages
+    assert not found.clean
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_a_coarser_unit_or_clock_changes_nothing(name):
+    """A log in other units tells the same story, as long as the pace is a robot's."""
+    log = bench(name)
+    feet = replace(
+        log,
+        runs=tuple(
+            replace(run, position=run.position * 7.0, velocity=run.velocity * 7.0)
+            for run in log.runs
+        ),
+        type="simple" if log.type == "arm" else log.type,  # an arm's angle has no other scale
+    )
+
+    assert inspect(log).clean
+    if log.type != "arm":
+        assert inspect(feet).clean
+
+
+def test_a_pace_of_one_changes_not_a_digit(drive):
+    run = drive.runs[0]
+
+    same = rescale_motion(run, np.ones(len(run)))
+
+    assert np.array_equal(same.position, run.position)
+    assert np.array_equal(same.velocity, run.velocity)
+
+
+def test_held_readings_stay_held_whatever_the_pace():
+    time = np.arange(12) * 0.005
+    position = np.repeat([0.0, 1.0, 2.0], 4)
+    velocity = np.repeat([1.0, 2.0, 3.0], 4)
+    pace = np.where(np.arange(12) >= 6, 0.5, 1.0)
+
+    slower = rescale_motion(Run("dynamic-forward", time, np.ones(12), position, velocity), pace)
+
+    assert slower.velocity.tolist() == [1.0] * 4 + [2.0] * 4 + [1.5] * 4
+    assert slower.position.tolist() == [0.0] * 4 + [1.0] * 4 + [1.5] * 4
+
+
+# The command
+
+
+def test_a_clean_log_exits_0_and_a_damaged_one_1(tmp_path, drive):
+    write(drive, tmp_path / "good.csv")
+    write(contaminate(drive, "brownout", rng=rng()).log, tmp_path / "bad.csv")
+
+    good, bad = (sysid("inspect", name, folder=tmp_path) for name in ("good.csv", "bad.csv"))
+
+    assert (good.returncode, good.stdout) == (0, "good.csv: 4 runs, no fault found.\n")
+    assert bad.returncode == 1
+    first, *said = bad.stdout.splitlines()
+    assert first == "bad.csv: 4 runs, 1 fault found."
+    assert any(line.startswith("brownout: run ") for line in said)
+    assert max(len(line) for line in said) <= 80
+    assert "\x1b" not in bad.stdout  # no colors into a pipe
+
+
+def test_json_has_the_keys_that_other_programs_rely_on(tmp_path, drive):
+    spoilt = contaminate(drive, "hard-stop", test="quasistatic-reverse", rng=rng())
+    write(spoilt.log, tmp_path / "bad.wpilog")
+
+    shown = sysid("inspect", "bad.wpilog", "--json", folder=tmp_path)
+
+    assert shown.returncode == 1
+    told = json.loads(shown.stdout)
+    assert set(told) == {"faults", "clean", "doubts"}
+    assert told["clean"] is False
+    (fault,) = told["faults"]
+    assert set(fault) == {
+        "fault", "run", "test", "start_s", "end_s", "confidence", "evidence", "advice",
+    }  # fmt: skip
+    assert (fault["fault"], fault["run"], fault["test"]) == ("hard-stop", 1, "quasistatic-reverse")
+    (true,) = spoilt.where
+    assert fault["start_s"] == pytest.approx(true.start, abs=0.05)
+    assert fault["end_s"] == pytest.approx(true.end, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [[], ["nowhere.csv"], ["good.csv", "--type", "crane"], ["."]],
+    ids=["no file", "missing file", "unknown type", "a folder"],
+)
+def test_what_cannot_be_inspected_is_one_line_and_exit_code_2(tmp_path, drive, arguments):
+    write(drive, tmp_path / "good.csv")
+
+    refused = sysid("inspect", *arguments, folder=tmp_path)
+
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert refused.stderr.count("\n") == 1
+
+
+def test_every_fault_says_what_to_do_in_an_imperative(drive):
+    """Advice begins with a verb in capitals, not with a diagnosis."""
+    verbs = {}
+    for name, fault in FAULTS.items():
+        log = drive if "simple" in fault.types else bench("arm")
+        for seed in range(4):
+            for damage in inspect(contaminate(log, name, rng=rng(seed)).log).damages:
+                verbs[damage.fault] = damage.advice.split()[0]
+
+    assert set(verbs) >= set(FAULTS)
+    assert not {"The", "This", "It", "There", "You", "A"} & set(verbs.values())
+
+
+def test_an_inspection_of_nothing_is_clean():
+    assert Inspection(()).clean
+    assert Inspection(()).to_json() == {"faults": [], "clean": True, "doubts": []}

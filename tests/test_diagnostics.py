@@ -1,0 +1,153 @@
+"""What SysId never says: each oddity is planted and seen, and a clean log is left in peace."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import sim
+from sim.diagnostics import diagnose_log
+from sim.log import Log
+from sim.log_features import LogFeatures
+from sim.mechanisms import MECHANISMS
+from sim.routine import Routine
+from sim.simulate import simulate
+
+LESSON = Routine(ramp=0.5, step=3.5)
+
+
+def drawn(name, seed=1, *, routine=LESSON, period=0.02):
+    rng = np.random.default_rng(seed)
+    return simulate(MECHANISMS[name].draw(rng), routine, rng=rng, period=period)
+
+
+def said(log):
+    return {doubt.code: doubt.message for doubt in diagnose_log(LogFeatures(log))}
+
+
+def each(log, change):
+    """The log with every run changed."""
+    return replace(log, runs=tuple(change(run) for run in log.runs))
+
+
+def late(run, *, by):
+    velocity = np.interp(run.time - by, run.time, run.velocity)
+    return replace(run, velocity=velocity)
+
+
+def scaled(run, factor, *, only_velocity=False):
+    position = run.position if only_velocity else run.position * factor
+    return replace(run, position=position, velocity=run.velocity * factor)
+
+
+def trembling(run, *, share):
+    """The run with a little noise on its standstill."""
+    noise = share * run.top_speed * np.random.default_rng(3).standard_normal(len(run))
+    return replace(run, velocity=run.velocity + noise * (run.velocity == 0.0))
+
+
+def every(run, n):
+    kept = {name: getattr(run, name)[::n] for name in ("time", "voltage", "position", "velocity")}
+    return replace(run, **kept, current=None, bus_voltage=None)
+
+
+def first(run, n):
+    kept = {name: getattr(run, name)[:n] for name in ("time", "voltage", "position", "velocity")}
+    return replace(run, **kept, current=None, bus_voltage=None)
+
+
+def only(log, test, change):
+    return each(log, lambda run: change(run) if run.test == test else run)
+
+
+def slowed(run):
+    """A dynamic test whose mechanism drags for half a second, as if held by hand."""
+    pace = np.where(np.abs(run.time - run.time[0] - 0.6) < 0.25, 0.6, 1.0)
+    return replace(run, velocity=run.velocity * pace)
+
+
+PLANTED = {
+    "velocity-lags": (
+        lambda: each(drawn("drivetrain"), lambda run: late(run, by=0.112)),
+        "REV's own encoder of a NEO",
+    ),
+    "friction-differs": (
+        lambda: each(drawn("drivetrain"), lambda run: replace(run, voltage=run.voltage + 0.15)),
+        "friction that differs",
+    ),
+    "back-emf-differs": (
+        lambda: each(
+            drawn("drivetrain"),
+            lambda run: scaled(run, 0.85 if run.direction == "forward" else 1.0),
+        ),
+        "Plot voltage over velocity",
+    ),
+    "fine-r2": (lambda: only(drawn("shooter"), "dynamic-forward", slowed), "dynamic-forward at"),
+    "repeats-differ": (
+        lambda: drawn("turret").and_also(each(drawn("turret"), lambda run: scaled(run, 0.85))),
+        "SysId reads only the first",
+    ),
+    "little-motion": (
+        lambda: only(drawn("shooter"), "dynamic-forward", lambda run: first(run, 8)),
+        "samples of dynamic-forward are in motion",
+    ),
+    "short-rise": (
+        lambda: each(drawn("drivetrain"), lambda run: every(run, 10)),
+        "90 % of its top speed within",
+    ),
+    "fast-ramp": (lambda: drawn("shooter", routine=Routine(ramp=4.0)), "halve the ramp"),
+    "standstill-counted": (
+        lambda: each(drawn("arm"), lambda run: trembling(run, share=0.012)),
+        "Set the threshold by hand",
+    ),
+    "scales-differ": (
+        lambda: each(drawn("elevator"), lambda run: scaled(run, 1.25, only_velocity=True)),
+        "1.248 times",
+    ),
+    "too-fast": (lambda: replace(drawn("shooter"), units="meters"), "hardly in meters"),
+}
+
+
+@pytest.mark.parametrize("code", PLANTED)
+def test_an_oddity_is_spoken_of(code):
+    make, words = PLANTED[code]
+
+    assert words in said(make()).get(code, "")
+
+
+@pytest.mark.parametrize("period", [0.02, 0.005])
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_a_clean_log_gives_no_reason_to_speak(name, seed, period):
+    log = drawn(name, seed, period=period)
+    too_quick = LogFeatures(log).timescale < 1.2 * period  # kA of an intake is beyond a 20 ms log
+
+    codes = set(said(log))
+
+    assert codes == ({"short-rise"} if "short-rise" in codes and too_quick else set())
+
+
+def test_a_delay_is_told_in_milliseconds():
+    message = said(each(drawn("turret"), lambda run: late(run, by=0.06)))["velocity-lags"]
+
+    assert 50 <= int(message.split(" ms")[0].rsplit(" ", 1)[1]) <= 70
+
+
+def test_a_log_without_runs_is_looked_at_all_the_same():
+    assert diagnose_log(LogFeatures(Log(()))) == ()
+
+
+@pytest.mark.shared
+@pytest.mark.parametrize(
+    ("file", "code", "words"),
+    [
+        # data/README.md: velocity lags position by about 140 ms
+        ("frc4646-2022-drivetrain", "velocity-lags", "140 ms"),
+        # the same file's table: kV 34.9 up, 32.2 down
+        ("sciborgs-2023-elevator", "back-emf-differs", "Forward takes 3"),
+    ],
+)
+def test_what_is_known_of_a_real_log_is_said(shared, file, code, words):
+    log = sim.read(shared / "data" / "real" / f"{file}.json")
+
+    assert words in said(log)[code]

@@ -1,0 +1,151 @@
+"""What was drawn for somebody who studies alone is kept for their next answer, and nothing else."""
+
+import os
+import pickle
+import runpy
+from types import SimpleNamespace
+
+import pytest
+
+from grader import draw_cache as room
+from grader.draw_cache import cached_draws
+from grader.student_files import write_student_files
+from grader.variant import class_secret
+from sim.work import cache
+
+DRAWN = """
+from grader.draw_cache import kept
+
+COUNT = []
+
+@kept
+def draw(student):
+    COUNT.append(student)
+    return {"student": student, "number": NUMBER}
+"""
+
+
+@pytest.fixture
+def shelf(tmp_path, monkeypatch):
+    """The folder of what is kept, empty."""
+    monkeypatch.setenv(cache.CACHE, str(tmp_path / "cache"))
+    room._code.cache_clear()
+    return tmp_path / "cache" / "drawn"
+
+
+def loaded(folder, number=5):
+    """The module of an exercise that draws, as another process would load it."""
+    folder.mkdir(exist_ok=True)
+    path = folder / "drawn.py"
+    path.write_text(DRAWN.replace("NUMBER", str(number)), encoding="utf-8")
+    room._code.cache_clear()
+    return SimpleNamespace(**runpy.run_path(str(path)))
+
+
+def test_what_was_drawn_is_not_drawn_again(shelf, tmp_path):
+    first, second = loaded(tmp_path / "exercise7"), loaded(tmp_path / "exercise7")
+    with cached_draws():
+        drawn = first.draw("ann")
+        assert second.draw(" ANN ") == drawn == {"student": "ann", "number": 5}
+
+    assert (first.COUNT, second.COUNT) == (["ann"], [])
+    assert [path.suffix for path in shelf.iterdir()] == [".drawn"]
+
+
+def test_another_student_and_another_exercise_draw_their_own(shelf, tmp_path):
+    one, other = loaded(tmp_path / "exercise7"), loaded(tmp_path / "exercise8")
+    with cached_draws():
+        assert one.draw("ann")["student"] == "ann"
+        assert one.draw("bob")["student"] == "bob"
+        assert other.draw("ann")["student"] == "ann"
+
+    assert (one.COUNT, other.COUNT) == (["ann", "bob"], ["ann"])
+    assert len(list(shelf.iterdir())) == 3
+
+
+def test_a_class_leaves_nothing_behind_and_takes_nothing(shelf, tmp_path):
+    module = loaded(tmp_path / "exercise7")
+    with cached_draws(), class_secret(b"of the class"):
+        module.draw("ann")
+        module.draw("ann")
+    assert not shelf.exists()
+
+    with cached_draws():
+        module.draw("ann")
+        with class_secret(b"of the class"):
+            module.draw("ann")
+    assert module.COUNT == ["ann"] * 4
+
+
+def test_nothing_is_kept_unless_asked(shelf, tmp_path):
+    loaded(tmp_path / "exercise7").draw("ann")
+
+    assert not shelf.exists()
+
+
+def test_changed_code_draws_anew(shelf, tmp_path):
+    with cached_draws():
+        assert loaded(tmp_path / "exercise7", 5).draw("ann")["number"] == 5
+        assert loaded(tmp_path / "exercise7", 6).draw("ann")["number"] == 6
+
+    assert len(list(shelf.iterdir())) == 2
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"no pickle", pickle.dumps({"student": "ann", "number": 5})[:-4], b"cgone\nGone\n."],
+    ids=["empty", "no pickle", "cut short", "a class that is gone"],
+)
+def test_a_damaged_file_is_drawn_again(shelf, tmp_path, content):
+    module = loaded(tmp_path / "exercise7")
+    with cached_draws():
+        module.draw("ann")
+        (file,) = shelf.iterdir()
+        file.write_bytes(content)
+        assert module.draw("ann") == {"student": "ann", "number": 5}
+
+    assert module.COUNT == ["ann", "ann"]
+    assert pickle.loads(file.read_bytes())["number"] == 5  # noqa: S301 - written above
+
+
+def test_where_nothing_can_be_kept_it_is_drawn(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("no folder", encoding="utf-8")
+    monkeypatch.setenv(cache.CACHE, str(tmp_path / "file"))
+
+    with cached_draws():
+        assert loaded(tmp_path / "exercise7").draw("ann")["number"] == 5
+
+
+def test_the_oldest_are_forgotten(shelf, tmp_path, monkeypatch):
+    monkeypatch.setattr(room, "MOST", 3)
+    module = loaded(tmp_path / "exercise7")
+    with cached_draws():
+        for age, student in enumerate(["ann", "bob", "cid", "dan", "eve"]):
+            module.draw(student)
+            for file in shelf.iterdir():  # all that is there is older than what comes
+                was = file.stat().st_mtime_ns
+                os.utime(file, ns=(was - 10**9, was - 10**9 + age))
+        module.COUNT.clear()
+        module.draw("eve")
+        module.draw("ann")
+
+    assert len(list(shelf.iterdir())) == 3
+    assert module.COUNT == ["ann"]
+
+
+@pytest.mark.usefixtures("shelf")
+def test_files_that_are_as_made_are_not_made_again(tmp_path):
+    made, exercise = [], tmp_path / "exercises" / "exercise7"
+    files = {"log.csv": lambda path: (made.append(path), path.write_bytes(b"rows"))}
+    told = {"exercise": exercise, "student": "ann", "what": "log", "say": lambda _: None}
+    with cached_draws():
+        write_student_files(files, **told)
+        write_student_files(files, **told)
+        assert len(made) == 1
+        (written,) = exercise.glob("data/*/log.csv")
+        for change in (lambda: written.write_bytes(b"mine"), written.unlink):
+            change()
+            write_student_files(files, **told)
+            assert written.read_bytes() == b"rows"
+
+    assert len(made) == 3

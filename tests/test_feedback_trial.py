@@ -1,0 +1,138 @@
+"""Feedback gains on trial: what SysId suggests is not handed over where it does not settle."""
+
+import re
+from dataclasses import replace
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from sim.feedback import PRESETS, Feedback, Plant, judge_step_response, step_response
+from sim.feedback_trial import OWN, SUGGESTED, OwnGains, delay_of, trial_doubts, try_feedback_gains
+from sim.fit import Fit
+
+DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.19}
+LIGHT = {"kS": 0.05, "kV": 0.12, "kA": 0.032}  # a flywheel [per rotation]: 270 ms, no load
+
+
+def found(gains=DRIVE, **changes):
+    fit = Fit(
+        type="simple",
+        method="output-error",
+        units="meters",
+        log_units="meters",
+        gains=gains,
+        errors=dict.fromkeys(gains, 0.001),
+        acceleration_r2=0.9,
+        acceleration_rmse=0.1,
+        simulated_velocity_r2=0.99,
+        simulated_velocity_rmse=0.01,
+        samples_used={},
+        position_delay=0.0,
+        velocity_delay=0.0,
+        velocity_threshold=0.0,
+        step_duration=1.0,
+    )
+    return replace(fit, **changes)
+
+
+def doubts(fit, preset="default"):
+    return trial_doubts(fit, try_feedback_gains(fit, PRESETS[preset]))
+
+
+def test_what_settles_is_handed_over_without_a_word():
+    tried = try_feedback_gains(found(), PRESETS["default"])
+
+    assert [(one.whose, one.loop) for one in tried] == [
+        (SUGGESTED, "velocity"),
+        (SUGGESTED, "position"),
+    ]
+    assert all(one.good for one in tried)
+    assert doubts(found()) == ()
+
+
+def test_a_suggestion_that_turns_the_wrong_way_comes_with_one_that_settles():
+    # 112 ms after the voltage the REV's loop has turned round: K (A - BK)^112 is negative
+    (doubt,) = doubts(found(LIGHT), "rev-brushless")
+
+    assert doubt.code == "unsettled-feedback"
+    assert "position loop (REV brushless port); simulated with 112 ms of delay" in doubt.message
+    kp, kd = map(float, re.findall(r"Start from kP (\S+), kD (\S+) instead", doubt.message)[0])
+    plant = Plant("simple", LIGHT)
+    took = step_response(
+        plant, loop="position", feedback=Feedback(kp, kd), target=plant.step("position"),
+        preset=PRESETS["rev-brushless"],
+    )  # fmt: skip
+    assert kp > 0.0
+    assert judge_step_response(took).good
+
+
+def test_where_nothing_settles_it_says_so_and_what_to_do():
+    # friction of 1.5 V holds whatever so slow a loop may ask for
+    (doubt,) = [
+        one for one in doubts(found(DRIVE | {"kS": 1.5, "kA": 0.05}), "rev-brushless")
+        if "position" in one.message
+    ]  # fmt: skip
+
+    assert "Nor does any other choice" in doubt.message
+    assert "profile" in doubt.message
+
+
+def test_a_suggestion_too_weak_for_its_mechanism_comes_with_a_stiffer_one():
+    # a slow elevator [m]: SysId allows 0.1 m of error, a third of what it moves in a second
+    (doubt,) = doubts(found({"kS": 0.11, "kV": 34.3, "kA": 0.67}))
+
+    kp = re.findall(r"kP (\S+),", doubt.message)
+    assert "is slow" in doubt.message
+    assert float(kp[1]) > float(kp[0])
+
+
+def test_the_learners_own_gains_are_tried_and_told_but_not_doubted():
+    tried = try_feedback_gains(
+        found(), PRESETS["default"], own=OwnGains("position", Feedback(600.0, 0.0))
+    )
+
+    (own,) = [one for one in tried if one.whose == OWN]
+    (suggested,) = [one for one in tried if one.whose == SUGGESTED and one.loop == "position"]
+    assert own.response.target == suggested.response.target
+    assert own.verdict.kind == "oscillates"
+    assert trial_doubts(found(), tried) == ()
+
+
+def test_the_logs_delay_is_the_default_presets_and_no_others():
+    late = found(velocity_delay=0.14, position_delay=0.02)
+
+    assert delay_of(late, PRESETS["default"], loop="velocity") == 0.14
+    assert delay_of(late, PRESETS["default"], loop="position") == 0.02
+    assert delay_of(late, PRESETS["venom"], loop="velocity") == 5e-3
+
+
+@pytest.mark.parametrize(
+    "gains", [{"kV": -2.5, "kA": -0.19}, {"kA": -0.1}, {"kS": 13.0}], ids=["both", "kA", "kS"]
+)
+def test_gains_that_nothing_can_be_suggested_for_are_not_tried(gains):
+    assert try_feedback_gains(found(DRIVE | gains), PRESETS["default"]) == ()
+
+
+def test_a_friction_below_zero_pushes_nothing():
+    tried = try_feedback_gains(found(DRIVE | {"kS": -0.02}), PRESETS["default"])
+
+    assert all(one.good for one in tried)
+
+
+@settings(max_examples=30)  # each tries up to ten loops
+@given(
+    kv=st.floats(0.02, 20.0),
+    timescale=st.floats(0.01, 1.0),
+    preset=st.sampled_from(list(PRESETS)),
+)
+def test_a_negative_gain_is_never_handed_over_in_silence(kv, timescale, preset):
+    fit = found({"kS": 0.1, "kV": kv, "kA": timescale * kv})
+    tried = try_feedback_gains(fit, PRESETS[preset])
+    assume(tried)
+
+    said = " ".join(doubt.message for doubt in trial_doubts(fit, tried))
+
+    for one in tried:
+        if min(one.gains.kp, one.gains.kd) < 0.0 or not one.verdict.good:
+            assert f"the {one.loop} loop" in said

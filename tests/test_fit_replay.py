@@ -1,0 +1,111 @@
+"""Measured against simulated: what is left is the sensor's noise, and a wrong gain shows."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from sim.errors import BadRequest
+from sim.fit import fit
+from sim.fit_replay import replay_fit
+from sim.mechanisms import MECHANISMS
+from sim.routine import Routine
+from sim.simulate import simulate
+
+GENTLE = Routine(ramp=0.5, step=3.5, timeout=6.0)
+KINDS = ("drivetrain", "arm", "elevator")
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def bench(request):
+    """A log of the bench, and its fit."""
+    log = simulate(MECHANISMS[request.param], GENTLE, rng=np.random.default_rng(3))
+    return log, fit(log)
+
+
+def rms(one):
+    return float(np.sqrt(np.mean(one.velocity_error[one.moving] ** 2)))
+
+
+def test_what_is_left_is_the_sensors_noise(bench):
+    log, found = bench
+
+    runs = replay_fit(found, log)
+
+    assert [one.run.test for one in runs] == [run.test for run in log.runs]
+    for one in runs:
+        assert 0.7 < rms(one) / one.velocity_noise < 1.3
+        inside = np.abs(one.velocity_error) < 1.96 * one.velocity_noise
+        assert inside.mean() > 0.9
+
+
+def test_together_the_runs_miss_by_what_the_fit_says(bench):
+    log, found = bench
+
+    runs = replay_fit(found, log)
+
+    missed = np.concatenate([one.velocity_error[one.moving] for one in runs])
+    assert np.sqrt(np.mean(missed**2)) == pytest.approx(found.simulated_velocity_rmse, rel=0.05)
+
+
+def test_a_wrong_gain_is_seen(bench):
+    log, found = bench
+    wrong = replace(found, gains={**found.gains, "kV": 1.1 * found.gains["kV"]})
+
+    slow = next(one for one in replay_fit(wrong, log) if one.run.kind == "quasistatic")
+
+    assert rms(slow) > 1.6 * slow.velocity_noise
+
+
+def test_the_unit_of_the_fit_makes_no_difference(bench):
+    log, found = bench
+    other = "degrees" if found.units == "radians" else "feet"
+
+    here, there = replay_fit(found, log), replay_fit(found.in_units(other), log)
+
+    assert here[0].velocity == pytest.approx(there[0].velocity, abs=1e-9)
+
+
+def test_the_lag_that_was_found_is_simulated_along():
+    mechanism = MECHANISMS["drivetrain"]
+    slow = replace(mechanism, sensor=replace(mechanism.sensor, filter=0.12))
+    log = simulate(slow, GENTLE, rng=np.random.default_rng(5))
+    found = fit(log)
+    step = [run.test for run in log.runs].index("dynamic-forward")
+
+    with_it = replay_fit(found, log)[step]
+    without = replay_fit(replace(found, velocity_delay=0.0, position_delay=0.0), log)[step]
+
+    assert found.velocity_delay == pytest.approx(0.06, abs=0.01)
+    assert rms(with_it) < 1.3 * with_it.velocity_noise
+    assert rms(without) > 3.0 * rms(with_it)
+
+
+def test_a_log_whose_plus_is_minus_is_simulated_as_it_was():
+    log = simulate(MECHANISMS["drivetrain"], GENTLE, rng=np.random.default_rng(3))
+    runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
+    turned = replace(log, runs=runs)
+
+    one = replay_fit(fit(turned), turned)[0]
+
+    assert rms(one) < 1.3 * one.velocity_noise
+
+
+@pytest.mark.parametrize("gain", ["kV", "kA"])
+def test_gains_that_move_nothing_are_refused(bench, gain):
+    log, found = bench
+
+    with pytest.raises(BadRequest, match="below zero"):
+        replay_fit(replace(found, gains={**found.gains, gain: -0.1}), log)
+
+
+def test_runs_too_short_to_compare_are_left_out(bench):
+    log, found = bench
+    stub = log.runs[0]
+    stub = replace(
+        stub, **{name: getattr(stub, name)[:3] for name in ("time", "voltage", "position")},
+        velocity=stub.velocity[:3], current=None, bus_voltage=None,
+    )  # fmt: skip
+
+    assert replay_fit(found, replace(log, runs=(stub,))) == ()
+    assert len(replay_fit(found, replace(log, runs=(stub, *log.runs)))) == len(log.runs)

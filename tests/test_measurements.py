@@ -1,0 +1,57 @@
+"""The noise of a log, measured without a model."""
+
+import numpy as np
+import pytest
+
+from sim.fit.measurements import THIRD, estimate_noise, measure_runs, third_differences
+from sim.log import Log, Run
+
+NOISE = 1e-3  # [m]
+
+
+def even(count=400, period=0.02):
+    return np.arange(count) * period
+
+
+def uneven(count=400, period=0.02, *, seed=1):
+    rng = np.random.default_rng(seed)
+    return even(count, period) + rng.uniform(-0.2, 0.2, count) * period
+
+
+def moving(time, *, seed=2):
+    """A log of something that speeds up, its positions a little noisy."""
+    rng = np.random.default_rng(seed)
+    position = 0.3 * time**2 + NOISE * rng.standard_normal(time.size)
+    velocity = 0.6 * time + 0.01 * rng.standard_normal(time.size)
+    run = Run("dynamic-forward", time, np.full(time.size, 4.0), position, velocity)
+    return Log((run,), units="meters", type="simple")
+
+
+def test_with_even_times_they_are_the_ordinary_third_differences():
+    values = np.random.default_rng(0).standard_normal(50)
+
+    assert third_differences(even(50), values) == pytest.approx(np.diff(values, 3))
+
+
+def test_nothing_is_left_of_a_parabola_however_uneven_its_times():
+    time = uneven()
+
+    left = third_differences(time, 3.0 - 2.0 * time + 5.0 * time**2)
+
+    assert np.abs(left).max() < 1e-10
+
+
+def test_of_independent_noise_as_much_is_left_with_uneven_times():
+    values = np.random.default_rng(3).standard_normal(20_000)
+
+    left = third_differences(uneven(20_000), values)
+
+    assert np.mean(left**2) == pytest.approx(THIRD, rel=0.05)
+
+
+@pytest.mark.parametrize("time", [even(), uneven()], ids=["even", "uneven"])
+def test_a_sample_that_comes_late_is_no_noise(time):
+    found = estimate_noise(measure_runs(moving(time), friction=None))
+
+    assert found.position == pytest.approx(NOISE, rel=0.15)
+    assert found.velocity == pytest.approx(0.01, rel=0.15)

@@ -1,0 +1,58 @@
+"""Many fits in one picture: badges, and the truth beside them or hidden."""
+
+import pytest
+
+from sim.errors import BadRequest
+from sim.plot import r2_vs_gain_error
+
+SCORES = {"clean": 0.99, "a lurch": 0.92, "spikes": 0.81}
+OFF = {
+    "kV": {"clean": 0.0, "a lurch": 0.01, "spikes": 0.05},
+    "kA": {"clean": 0.02, "a lurch": 1.49, "spikes": -6.48},
+}
+
+
+def drawn(**changes):
+    return r2_vs_gain_error(SCORES, **({"good": 0.9, "score": "sim R²", "off": OFF} | changes))
+
+
+def test_a_badge_says_by_sign_and_number_whether_it_passes():
+    texts = [text.get_text() for text in drawn().figure.axes[0].texts]
+
+    assert texts == ["✓ 0.99", "✓ 0.92", "✗ 0.81"]
+
+
+def test_rows_keep_the_order_they_are_given_in():
+    turned = dict(reversed(SCORES.items()))
+
+    assert [row[0] for row in r2_vs_gain_error(turned, good=0.9, score="R²").table.rows] == list(
+        turned
+    )
+
+
+def test_hidden_errors_are_neither_drawn_nor_told():
+    picture = drawn(off=None)
+
+    assert "hidden" in picture.alt
+    assert "648" not in picture.html
+    assert not picture.figure.axes[1].lines
+
+
+def test_words_and_table_tell_the_errors():
+    picture = drawn()
+
+    assert "2 have a sim R² above 0.9, not so spikes" in picture.alt
+    assert "kA: half of them by more than 149 %, spikes by −648 %" in picture.alt
+    assert picture.table.rows[1] == ("a lurch", 0.92, "yes", "+1 %", "+149 %")
+
+
+def test_a_score_at_the_threshold_does_not_pass():
+    assert r2_vs_gain_error({"edge": 0.9}, good=0.9, score="R²").table.rows[0][2] == "no"
+
+
+@pytest.mark.parametrize(
+    ("scores", "off"), [({}, None), (SCORES, {"kA": {"clean": 0.0}})], ids=["none", "one lacks"]
+)
+def test_what_cannot_be_drawn_is_refused(scores, off):
+    with pytest.raises(BadRequest, match="Give one or more"):
+        r2_vs_gain_error(scores, good=0.9, score="R²", off=off)

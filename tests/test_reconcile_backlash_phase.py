@@ -1,0 +1,159 @@
+"""Where in its free play a run began: no log says so, and how it went on does."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reconcile_made import recorded
+
+from sim.engine import State
+from sim.log import Log
+from sim.model import Model, Part
+from sim.reconcile import reconcile
+from sim.reconcile.backlash_phase import (
+    ASIDE,
+    BETWEEN,
+    backlash_phase_prior,
+    estimate_backlash_phase,
+)
+from sim.reconcile.candidates import FURTHER, descend_candidate, score_estimate
+from sim.reconcile.cross_validation import Gap
+from sim.reconcile.findings import list_remarks
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.optimize import levenberg_marquardt, minimize_fully
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import run_records
+from sim.reconcile.selection_round import SelectionRound
+from sim.reconcile.story import Finding
+
+GAINS = {"kS": 0.2, "kV": 2.4, "kA": 0.3}
+SLACK, SHARE = 0.05, 0.2
+PLAY = Part("backlash", {"slack": SLACK, "share": SHARE})
+NOISE = (1e-4, 2e-3)  # [m] and [m/s]
+BEGAN = {
+    "quasistatic-forward": (-1.0, -1.0),
+    "quasistatic-reverse": (1.0, 0.0),
+    "dynamic-forward": (-1.0, 1.0),
+    "dynamic-reverse": (0.5, -0.5),
+}
+"""Test -> where in the play its run began, in the log and in its validation."""
+PLAYS = ModelStructure("simple") + "backlash"
+VALUES = {**GAINS, "backlash.slack": SLACK, "backlash.share": SHARE}
+
+
+def named(effect):
+    return Finding(
+        effect=effect, kind="effect", size="major", ambiguous_with=(), parameters={},
+        gap_before=2.0, gap_after=1.0, score=100.0, sentence="", inspect="", separating_test="",
+    )  # fmt: skip
+
+
+def session(which, *, step, seed):
+    """Four tests whose runs begin where ``BEGAN`` says."""
+    return begun_at([places[which] for places in BEGAN.values()], step=step, seed=seed)
+
+
+def begun_at(places, *, step, seed):
+    """Four tests whose runs begin at places of their play."""
+    rng = np.random.default_rng(seed)
+    model = Model("simple", GAINS, (PLAY,))
+    runs, clock = [], 0.0
+    for test, place in zip(BEGAN, places, strict=True):
+        load = -0.5 * SLACK * place
+        begun = {"state": State(np.array([0.0, 0.0, load, 0.0, 0.0])), "began": clock, "still": 3}
+        runs.append(recorded(test, model, step=step, noise=NOISE, rng=rng, **begun))
+        clock = float(runs[-1].time[-1]) + 2.0
+    return Log(tuple(runs), units="meters", type="simple")
+
+
+@pytest.fixture(scope="module")
+def problem():
+    return PredictionErrorProblem.of(run_records(session(0, step=4.0, seed=1)))
+
+
+def at(problem, hypothesis=PLAYS, outset=None):
+    begun = outset or RunNuisance.seen(len(problem.lanes))
+    values = {name: VALUES[name] for name in hypothesis.names}
+    return problem.at(hypothesis, values, begun, problem.noise.velocity**2)
+
+
+def test_each_run_is_begun_where_it_went_on_from(problem):
+    blind = at(problem)
+
+    seen = estimate_backlash_phase(problem, blind)
+
+    assert seen.cost + backlash_phase_prior(seen) < blind.cost - 100.0
+    assert seen.outset.meshed == pytest.approx([one for one, _ in BEGAN.values()], abs=0.2)
+
+
+def test_a_second_look_is_nearer():
+    off = PredictionErrorProblem.of(run_records(session(1, step=3.0, seed=2)))  # -1, 0, 1 and -0.5
+    began = RunNuisance.seen(4).meshing(np.array([-0.8, 0.2, 0.8, -0.7]))
+
+    seen = estimate_backlash_phase(off, at(off, outset=began))
+
+    assert seen.outset.meshed == pytest.approx([one for _, one in BEGAN.values()], abs=0.05)
+
+
+def test_a_start_that_was_told_amiss_is_gone_untold_too():
+    problem = PredictionErrorProblem.of(run_records(begun_at([0.0] * len(BEGAN), step=6.0, seed=3)))
+    stiff = at(problem, ModelStructure("simple"))
+    base = minimize_fully(problem, stiff)
+    told = RunNuisance.seen(len(BEGAN)).meshing(np.array([1.0, -1.0, 1.0, -1.0]))
+    values = {**base.values, "backlash.slack": SLACK, "backlash.share": SHARE}
+    start = problem.at(PLAYS, values, told, base.q)
+    assert levenberg_marquardt(problem, start, steps=FURTHER).cost > base.cost  # it leads nowhere
+
+    found = descend_candidate(problem, base, start)
+
+    assert found.cost < base.cost - 5000.0
+    assert not found.outset.is_meshed
+
+
+def test_what_is_told_has_its_price(problem):
+    seen = estimate_backlash_phase(problem, at(problem))
+    aside = np.count_nonzero(np.abs(seen.outset.meshed) == 1.0)
+    between = np.count_nonzero(np.abs(seen.outset.meshed) < 1.0)
+
+    assert aside > between > 0
+    assert backlash_phase_prior(seen) == pytest.approx(aside * ASIDE + between * BETWEEN)
+    assert score_estimate(problem, seen).score > seen.cost + backlash_phase_prior(
+        seen
+    )  # and the values' own beside it
+
+
+def test_without_play_nothing_is_told_and_nothing_is_kept(problem):
+    stiff = at(problem, ModelStructure("simple"))
+    assert estimate_backlash_phase(problem, stiff) is stiff
+
+    told = estimate_backlash_phase(problem, at(problem)).outset
+    assert np.isnan(at(problem, ModelStructure("simple"), told).outset.meshed).all()
+
+
+def test_play_is_named_wherever_its_runs_began_and_the_gap_closes():
+    story = reconcile(
+        session(0, step=4.0, seed=1),
+        validation=session(1, step=3.0, seed=2),
+        held_out=session(1, step=3.5, seed=3),
+        type="simple",
+    )
+
+    (found,) = (one for one in story.findings if one.size == "major")
+    assert found.effect == "backlash"
+    assert found.parameters["slack"].value == pytest.approx(SLACK, rel=0.1)
+    assert story.gap_after < 1.3 * story.noise_floor
+
+
+def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
+    point = at(problem)
+    one = SelectionRound(score_estimate(problem, point, "backlash"), Gap(0.0, 0.0), Gap(0.0, 0.0))
+
+    (said,) = list_remarks(problem, [one], [named("backlash")], ResidualSummary())
+    assert "no run that was fitted turns" in said
+
+    turned = session(0, step=4.0, seed=1)
+    back = replace(turned.runs[0], velocity=turned.runs[0].velocity * np.sign(np.arange(600) - 300))
+    there = PredictionErrorProblem.of(run_records(replace(turned, runs=(back, *turned.runs[1:]))))
+    assert list_remarks(there, [one], [named("backlash")], ResidualSummary()) == ()

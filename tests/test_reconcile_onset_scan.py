@@ -1,0 +1,312 @@
+"""What happens once: at its moment on one clock, and over by the next log, or there for good."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reconcile_made import bench, recorded, session, told
+
+from sim.effects import EFFECTS
+from sim.engine import State
+from sim.log import Log, Run
+from sim.model import Model, Part
+from sim.reconcile import model_selection
+from sim.reconcile.candidates import score_estimate
+from sim.reconcile.cross_validation import Gap, make_folds
+from sim.reconcile.findings import is_contradicted
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.onset_scan import flip_duration, refine_onset, scan_onsets
+from sim.reconcile.optimize import joint_jacobian, minimize, predicted_improvement
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.residual_tests.whiteness import WorstWindow
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import join_records, run_records, session_length
+from sim.reconcile.selection_round import SelectionRound
+from sim.voltage_residual import compute_voltage_residual, run_start_times
+
+PERIOD, LATER = 0.02, 1e6  # [s]
+JOINS = 0.6  # [1] of kA
+
+
+def log_of(starts, *, lasts=1.0):
+    time = np.arange(0.0, lasts + 0.5 * PERIOD, PERIOD)
+    runs = (
+        Run("dynamic-forward", start + time, np.full(time.size, 3.0), time**2, 2.0 * time)
+        for start in starts
+    )
+    return Log(tuple(runs), units="meters", type="simple")
+
+
+@pytest.mark.parametrize(
+    ("first", "later"),
+    [
+        ([5.0, 9.0, 12.0], [1.0, 4.0, 7.5]),  # each log with a clock of its own
+        ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0]),  # each run begins at zero
+    ],
+    ids=["a clock", "no clock"],
+)
+def test_two_logs_in_a_row_have_the_clock_of_their_lanes(first, later):
+    one, other = log_of(first), log_of(later)
+
+    row = join_records(one, other)
+
+    begun = [lane.clock for lane in run_records(one)]
+    begun += [lane.clock for lane in run_records(other, session=1, since=session_length(one))]
+    assert run_start_times(row) == pytest.approx(begun, abs=1e-5)
+    assert begun[3] == pytest.approx(begun[2] + 1.0)  # no pause between the logs
+
+
+def drives(*, onset, until):
+    """Something joins at a moment of the log; what ends with its run is not in the others."""
+    plain = bench("drivetrain")
+    extra = JOINS * plain.gains["kA"]
+    part = Part("inertia-change", {"extra": extra, "onset": onset, "until": until, "shared": 1.0})
+    after = replace(part, parameters={**part.parameters, "onset": 0.0})
+    once = replace(plain, hidden=(part,))
+    others = plain if until < LATER else replace(plain, hidden=(after,))
+    return extra, {
+        "log": session(once, "log"),
+        "validation": session(others, "validation"),
+        "held_out": session(others, "held_out"),
+    }
+
+
+@pytest.fixture(scope="module")
+def third():
+    """Beginning of the third run of a plain log, on the log's clock."""
+    return float(run_start_times(session(bench("drivetrain"), "log"))[2])
+
+
+@pytest.mark.parametrize("until", [2.9, LATER], ids=["with its run", "for good"])
+def test_what_joins_in_a_run_is_found_to_the_sample(third, until):
+    onset = third + 0.513
+    extra, sessions = drives(onset=onset, until=third + until if until < LATER else LATER)
+
+    story = told(sessions)
+
+    found = story.findings[0]
+    assert found.effect == "inertia-change"
+    assert found.parameters["onset"].value == pytest.approx(onset, abs=PERIOD)
+    assert found.parameters["extra"].value == pytest.approx(extra, rel=0.15)
+    assert story.gap_after < 1.2 * story.noise_floor
+
+
+def test_a_drop_between_two_samples_is_where_the_search_begins(third):
+    extra, sessions = drives(onset=third + 0.513, until=LATER)
+    log = sessions["log"]
+    evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
+
+    first, second, *_ = EFFECTS["inertia-change"].starts(evidence)
+
+    assert first["onset"] == second["onset"] == pytest.approx(third + 0.513, abs=PERIOD)
+    assert first["extra"] == pytest.approx(extra, rel=0.35)
+    assert {first["shared"], second["shared"]} == {1.0}
+    assert first["until"] < second["until"] == LATER
+
+
+def test_a_run_without_a_drop_gives_no_such_start():
+    log = session(bench("drivetrain"), "log")
+    evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
+
+    first = next(iter(EFFECTS["inertia-change"].starts(evidence)))
+
+    assert first["shared"] == 0.0
+
+
+# Moments that no velocity tells
+
+GAINS = {"kS": 0.4, "kV": 0.6, "kA": 0.04}
+NOISE = (1e-4, 2e-2)  # [m] and [m/s]: the position knows
+TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
+
+
+def log_with(parts):
+    """Four tests of a model in which something may happen once."""
+    rng = np.random.default_rng(1)
+    runs, clock = [], 0.0
+    for test in TESTS:
+        begun = {"state": replace(State.at(0.0), clock=clock), "began": clock}
+        model = Model("simple", GAINS, parts)
+        runs.append(recorded(test, model, step=5.0, noise=NOISE, rng=rng, **begun))
+        clock = float(runs[-1].time[-1]) + 2.0
+    return Log(tuple(runs), units="meters", type="simple")
+
+
+@pytest.fixture(scope="module")
+def dynamic():
+    """[s] of the log's clock at which its third run began."""
+    return float(run_start_times(log_with(()))[2])
+
+
+@pytest.mark.parametrize(
+    ("shared", "after", "lasts", "off"),
+    [
+        (0.0, 0.25, 2.0, 0.02),
+        (0.0, 0.02, 2.0, 0.02),
+        (0.0, 0.02, LATER, 0.02),
+        (1.0, 0.62, 2.0, 0.005),
+        (1.0, 0.62, LATER, 0.005),
+    ],
+    ids=["late in a step", "early", "early, for good", "at rest", "at rest, for good"],
+)
+def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, lasts, off):
+    until = dynamic + lasts if lasts < LATER else LATER
+    values = {"extra": 0.02, "onset": dynamic + after, "until": until, "shared": shared}
+    log = log_with((Part("inertia-change", values),))
+    problem = PredictionErrorProblem.of(run_records(log))
+    begun = RunNuisance.seen(len(problem.lanes))
+    point = minimize(
+        problem, problem.at(ModelStructure("simple"), GAINS, begun, problem.noise.velocity**2)
+    )
+
+    kept = joint_jacobian(problem, point)
+    tried = list(scan_onsets(problem, point, EFFECTS["inertia-change"], kept=kept))
+
+    likeliest = max(
+        predicted_improvement(
+            problem, point, point.hypothesis + "inertia-change", tried, kept=kept
+        ),
+        key=lambda one: one[0],
+    )[1].values
+    found = {name: likeliest[f"inertia-change.{name}"] for name in values}
+    assert found["onset"] == pytest.approx(values["onset"], abs=off)
+    assert found["shared"] == shared
+    assert (found["until"] == LATER) == (lasts == LATER)
+    assert found["extra"] == pytest.approx(0.02, rel=0.5)
+
+
+def test_what_would_leave_the_whole_log_is_no_moment():
+    problem = PredictionErrorProblem.of(run_records(log_with(())))
+    point = problem.at(
+        ModelStructure("simple"), GAINS, RunNuisance.seen(4), problem.noise.velocity**2
+    )
+
+    tried = list(
+        scan_onsets(problem, point, EFFECTS["inertia-change"], kept=joint_jacobian(problem, point))
+    )
+
+    assert tried
+    for one in tried:
+        assert one["inertia-change.extra"] >= -0.8 * GAINS["kA"]
+        assert not (one["inertia-change.onset"] == 0.0 and one["inertia-change.until"] == LATER)
+
+
+@pytest.mark.parametrize(
+    ("effect", "score", "admitted"),
+    [("inertia-change", 120.0, False), ("inertia-change", 140.0, True), ("drag", 120.0, True)],
+)
+def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, score, admitted):
+    log = log_with(())
+    problem = PredictionErrorProblem.of(run_records(log))
+    base = score_estimate(
+        problem,
+        problem.at(ModelStructure("simple"), GAINS, RunNuisance.seen(4), problem.noise.velocity**2),
+    )
+    other = replace(base, effect=effect, score=base.score - score)
+    gap = Gap(1.0, 1.0)
+    monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: [other])
+    monkeypatch.setattr(model_selection, "validation_gap", lambda *_: Gap(0.9, 0.9))
+
+    (one,) = model_selection.weigh_candidates(
+        problem, SelectionRound(base, gap, gap), log, make_folds([0, 0, 0, 0])
+    )
+
+    assert one.tried.admitted is admitted
+
+
+def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypatch):
+    log = log_with(())
+    problem = PredictionErrorProblem.of(run_records(log))
+    base = score_estimate(
+        problem,
+        problem.at(ModelStructure("simple"), GAINS, RunNuisance.seen(4), problem.noise.velocity**2),
+    )
+    gap = Gap(1.0, 1.0)
+    names = ("inertia-change", "drag")
+    tried = [replace(base, effect=name, score=base.score - 500.0) for name in names]
+    monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: tried)
+    monkeypatch.setattr(model_selection, "validation_gap", lambda *_: gap)
+
+    inertia, drag = model_selection.weigh_candidates(
+        problem, SelectionRound(base, gap, gap), log, make_folds([0, 0, 0, 0])
+    )
+
+    assert inertia.tried.admitted
+    assert drag.tried.why == model_selection.HARDLY
+
+
+@pytest.fixture(scope="module")
+def joined(dynamic):
+    """A log in which inertia joins for good, and the point of it that has it over with its run."""
+    part = Part("inertia-change", {"extra": 0.02, "onset": dynamic, "until": LATER, "shared": 0.0})
+    problem = PredictionErrorProblem.of(run_records(log_with((part,))))
+    ends = dynamic + float(np.ptp(problem.lanes[2].seen.time)) + 1e-6
+    over = {**part.parameters, "onset": dynamic + 1e-3, "until": ends}
+    values = {**GAINS, **{f"inertia-change.{name}": value for name, value in over.items()}}
+    hypothesis = ModelStructure("simple") + "inertia-change"
+    return problem, problem.at(hypothesis, values, RunNuisance.seen(4), problem.noise.velocity**2)
+
+
+def test_what_was_over_with_its_run_is_tried_for_good(joined):
+    problem, point = joined
+
+    others = [minimize(problem, one) for one in flip_duration(problem, point)]
+
+    assert len(others) == 3  # two ends of it, each with and without a share of the momentum
+    best = min(others, key=lambda one: one.cost)
+    assert best.values["inertia-change.until"] == LATER
+    assert best.values["inertia-change.extra"] == pytest.approx(0.02, rel=0.05)
+    assert best.cost < minimize(problem, point).cost - 100.0
+    plain = problem.at(ModelStructure("simple"), GAINS, RunNuisance.seen(4), point.q)
+    assert not list(flip_duration(problem, plain))
+
+
+@pytest.mark.parametrize("shared", [0.0, 1.0])
+@pytest.mark.parametrize("off", [-0.011, 0.007])
+def test_a_moment_is_found_between_two_samples(dynamic, shared, off):
+    onset = dynamic + 0.0934
+    given = {"extra": 0.03, "onset": onset, "until": LATER, "shared": shared}
+    problem = PredictionErrorProblem.of(run_records(log_with((Part("inertia-change", given),))))
+    begun = {
+        **GAINS,
+        **{f"inertia-change.{n}": v for n, v in {**given, "onset": onset + off}.items()},
+    }
+    hypothesis = ModelStructure("simple") + "inertia-change"
+    point = problem.at(hypothesis, begun, RunNuisance.seen(4), problem.noise.velocity**2)
+
+    found = refine_onset(problem, point)
+
+    assert found.values["inertia-change.onset"] == pytest.approx(onset, abs=problem.period / 8.0)
+    assert found.cost < point.cost
+    assert refine_onset(problem, found) is found
+
+
+def test_a_moment_stays_on_the_clock():
+    problem = PredictionErrorProblem.of(run_records(log_with(())))
+    given = {"extra": 0.01, "onset": 0.0, "until": LATER, "shared": 0.0}
+    values = {**GAINS, **{f"inertia-change.{n}": v for n, v in given.items()}}
+    hypothesis = ModelStructure("simple") + "inertia-change"
+
+    found = refine_onset(problem, problem.at(hypothesis, values, RunNuisance.seen(4), 1e-4))
+
+    assert found.values["inertia-change.onset"] >= 0.0
+
+
+@pytest.mark.parametrize(
+    ("size", "lane", "after", "is_belied"),
+    [
+        (12.0, 2, 0.2, True),
+        (12.0, 2, 0.005, False),  # the knock itself
+        (12.0, 2, 0.9, False),  # long after
+        (12.0, 3, 0.2, False),  # in another run
+        (5.0, 2, 0.2, False),  # ordinary
+    ],
+)
+def test_what_is_had_back_at_another_pace_was_no_inertia(joined, size, lane, after, is_belied):
+    problem, point = joined
+    start = float(problem.lanes[lane].seen.time[0]) + after
+    left = ResidualSummary(moment=WorstWindow(size, lane, start, start + 0.1))
+
+    assert is_contradicted("inertia-change", problem, point, left) is is_belied
+    assert not is_contradicted("drag", problem, point, left)

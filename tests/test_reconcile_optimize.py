@@ -1,0 +1,262 @@
+"""Where a search begins, and what it leads to: what is small is found as well."""
+
+import math
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reconcile_made import NOWHERE, SESSIONS, bench, session, told
+
+from sim.effects import EFFECTS
+from sim.engine import Track
+from sim.model import Part
+from sim.reconcile.candidates import rank_candidates
+from sim.reconcile.cross_validation import Gap, open_loop_errors, rms_gap
+from sim.reconcile.forward_selection import select_effects
+from sim.reconcile.likelihood import FARTHEST, PredictionErrorProblem
+from sim.reconcile.model_selection import WIDENS, rejection_reason
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.optimize import joint_jacobian, predicted_improvement
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import ExcludedInterval, run_records
+from sim.reconcile.selection_round import WeighedCandidate
+from sim.reconcile.story import Tried
+from sim.reconcile.thresholds import MAJOR
+from sim.voltage_residual import compute_voltage_residual
+
+BAND = 0.25  # [V] of an elevator whose ramps begin at 1.5 V upward, and at once downward
+RIPPLE, RIPPLES = 0.04, 12.0  # [V] less than what is everyday, and how often along the way
+SUBTLE, FAR = 0.3, 8.0  # [1] of an ordinary size, and how much too large a start may be
+
+
+def sessions(mechanism, effect, **values):
+    built = replace(bench(mechanism), hidden=(Part(effect, values),))
+    return {name: session(built, name) for name in SESSIONS}
+
+
+@pytest.mark.parametrize("band", [BAND, 1.6 * BAND])
+def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
+    story = told(sessions("elevator", "deadband", band=band), type="elevator")
+
+    first = story.findings[0]
+    assert first.effect == "deadband"
+    assert first.parameters["band"].value == pytest.approx(band, rel=0.1)
+
+
+def test_a_start_that_is_far_too_large_is_halved():
+    built = bench("drivetrain", "compliance", size=SUBTLE)
+    truth = built.hidden[0].parameters["softness"]
+    problem = PredictionErrorProblem.of(run_records(session(built, "log")))
+    base = ModelStructure("simple")
+    values = {name: built.gains[name] for name in base.names}
+    point = problem.at(
+        base, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
+    )
+    far = {"compliance.softness": FAR * truth, "compliance.share": 0.25}
+
+    begun = predicted_improvement(
+        problem, point, base + "compliance", [far], kept=joint_jacobian(problem, point)
+    )
+
+    gained, at_once = begun[0]
+    most, best = max(begun, key=lambda one: one[0])
+    assert at_once.values["compliance.softness"] == FAR * truth
+    assert gained < 0.0  # so far off that nothing else would ever have been tried
+    assert most > 0.0
+    assert best.values["compliance.softness"] == pytest.approx(truth, rel=1.0)
+
+
+@pytest.mark.parametrize("far", [1e200, math.inf, -math.inf, math.nan])
+def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
+    problem = PredictionErrorProblem.of(run_records(session(bench("drivetrain"), "log")))
+    table = np.zeros_like(problem.measured)
+    table[3] = far
+
+    white = problem.white(NOWHERE, table)
+
+    assert np.isfinite(np.sum(np.square(white)))
+    assert np.max(np.abs(white)) >= FARTHEST
+
+
+@pytest.mark.parametrize("part", [-0.2, -2.0, 8.0])
+def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
+    built = bench("drivetrain", "asymmetric-back-emf")
+    truth = built.hidden[0].parameters["lean"]
+    problem = PredictionErrorProblem.of(run_records(session(built, "log")))
+    base, name = ModelStructure("simple"), "asymmetric-back-emf"
+    values = {name: built.gains[name] for name in base.names}
+    point = problem.at(
+        base, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
+    )
+
+    begun = predicted_improvement(
+        problem,
+        point,
+        base + name,
+        [{f"{name}.lean": part * truth}],
+        kept=joint_jacobian(problem, point),
+    )
+
+    _, best = max(begun, key=lambda one: one[0])
+    assert best.values[f"{name}.lean"] == pytest.approx(truth, rel=0.5)
+
+
+def test_what_cannot_be_negative_is_not_turned():
+    built = bench("drivetrain", "drag")
+    problem = PredictionErrorProblem.of(run_records(session(built, "log")))
+    base = ModelStructure("simple")
+    values = {name: built.gains[name] for name in base.names}
+    point = problem.at(
+        base, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
+    )
+    more = [{"drag.drag": size * built.hidden[0].parameters["drag"]} for size in (0.05, 4.0)]
+
+    begun = predicted_improvement(
+        problem, point, base + "drag", more, kept=joint_jacobian(problem, point)
+    )
+
+    assert all(one.values["drag.drag"] >= 0.0 for _, one in begun)
+
+
+def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
+    built = bench("drivetrain")
+    log = session(built, "log")
+    runs = [
+        one.without(ExcludedInterval(number, 0.0, math.inf)) if "dynamic" in one.test else one
+        for number, one in enumerate(run_records(log))
+    ]
+    problem = PredictionErrorProblem.of(runs)
+    base = ModelStructure("simple")
+    values = {name: built.gains[name] for name in base.names}
+    point = problem.at(base, values, RunNuisance.seen(len(runs)), problem.noise.velocity**2)
+    evidence = compute_voltage_residual(log, dict(base.model(values).gains), type="simple")
+
+    found = rank_candidates(problem, point, evidence, only=["backlash"])
+
+    assert all(math.isfinite(one.score) for one in found)
+
+
+@pytest.mark.parametrize(
+    ("inertia", "gaps", "asked"),
+    [
+        (0.05, [0.3, 0.29], 2),  # it follows the log: every suspect is tried, and again
+        (5000.0, [0.9], 0),  # voltage drives nothing in it
+        (5000.0, [0.3, 0.29], 2),  # and yet it follows
+        (0.05, [0.9, 0.85, 0.8], 1),  # the first effect took little away
+        (0.05, [0.9, 0.45, 0.44], 2),  # the first did, the second did not
+    ],
+)
+def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, asked):
+    log = session(bench("drivetrain"), "log")
+    problem = PredictionErrorProblem.of(run_records(log))
+    moves = np.sqrt(np.nanmean(problem.measured[problem.moving, 1] ** 2))
+    sizes = [Gap(share * float(moves), 1.0) for share in gaps]
+    values = {"kS": 0.1, "kV": 2.0, "kA": 2.0 * inertia, "drag.drag": 0.1}
+    begun = RunNuisance.seen(len(problem.lanes))
+    base = problem.at(ModelStructure("simple"), values, begun, problem.noise.velocity**2)
+    calls = []
+
+    def weighed(_, now, *__):
+        calls.append(now)
+        if len(calls) == len(sizes):
+            return []
+        other = replace(now.suspect, effect="drag", score=now.suspect.score - 500.0)
+        return [
+            WeighedCandidate(
+                other, sizes[len(calls)], Tried("drag", 500.0, 0.9, admitted=True, why="")
+            )
+        ]
+
+    room = sys.modules["sim.reconcile.forward_selection"]
+    monkeypatch.setattr(room, "weigh", weighed)
+    monkeypatch.setattr(room, "outside", lambda *_: sizes[0])
+    monkeypatch.setattr(room, "ended", lambda _, point: point)
+    monkeypatch.setattr(room, "_seeds", lambda _: {})
+    for name in ("reconsidered", "simplified", "missed_by", "best_path", "paired"):
+        monkeypatch.setattr(room, name, lambda _, done, *__: done)
+
+    done = select_effects(problem, base, log, [], lambda *_: None)
+
+    assert len(calls) == asked
+    assert len(done) == 1 + min(asked, len(sizes) - 1)
+
+
+@pytest.mark.parametrize("gap", [math.nan, math.inf])
+@pytest.mark.parametrize("before", [1.0, math.inf])
+def test_a_model_that_runs_away_on_the_validation_widens_the_gap(gap, before):
+    assert rejection_reason(Gap(gap, 1.0), Gap(before, 1.0), 1000.0) == WIDENS
+
+
+def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
+    problem = PredictionErrorProblem.of(run_records(session(bench("drivetrain"), "log")))
+    out = np.tile(problem.measured, 4)
+    out[-1] = np.nan
+    monkeypatch.setattr(PredictionErrorProblem, "track", lambda *_, **__: Track.of(out))
+    point = replace(NOWHERE, values={"kS": 0.1, "kV": 1.0, "kA": 0.1})
+
+    assert (
+        rms_gap(open_loop_errors(problem, point, RunNuisance.seen(4), eased=True)).velocity
+        == math.inf
+    )
+
+
+# -- what is no alarm -----------------------------------------------------------------------------
+
+
+def bumped(where, *, wide):
+    """A drivetrain on a floor with a bump: half a volt, there and nowhere else."""
+    log = session(bench("drivetrain"), "log")
+    runs = [
+        replace(run, voltage=run.voltage + 0.5 * np.exp(-(((run.position - where) / wide) ** 2)))
+        for run in log.runs
+    ]
+    return replace(log, runs=tuple(runs))
+
+
+@pytest.mark.parametrize("wide", [0.2, 0.6])
+def test_what_does_not_come_back_is_not_begun_as_a_wave(wide):
+    log = bumped(0.4, wide=wide)
+    evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
+    way = float(np.ptp(evidence.position))
+
+    waves = [
+        start["turns"] * way / (2.0 * math.pi) for start in EFFECTS["cogging"].starts(evidence)
+    ]
+
+    assert waves
+    assert min(waves) >= 4.0
+
+
+def test_a_ripple_that_any_robot_has_is_no_finding_however_much_of_the_gap_it_takes():
+    turns = 2.0 * math.pi * RIPPLES / bench("elevator").scale.reach
+
+    story = told(
+        sessions("elevator", "cogging", cosine=RIPPLE, sine=0.0, turns=turns), type="elevator"
+    )
+
+    assert story.findings == ()
+    assert any("a little cogging" in note for note in story.notes)
+    assert story.gap_after < MAJOR * story.gap_before  # but for its size it would be major
+    assert story.verdict == "nothing-missing"
+
+
+@pytest.mark.parametrize("effect", ["heating", "drag"])
+def test_a_start_moves_its_own_run_and_heats_as_the_runs_before_it_did(effect):
+    built = bench("drivetrain", effect)
+    problem = PredictionErrorProblem.of(run_records(session(built, "log")))
+    base = ModelStructure("simple") + effect
+    values = {name: built.gains[name] for name in base.names if name in built.gains}
+    values |= {f"{effect}.{name}": one for name, one in built.hidden[0].parameters.items()}
+    outset, count = RunNuisance.seen(len(problem.lanes)), len(problem.lanes)
+    point = problem.at(base, values, outset, problem.noise.velocity**2)
+
+    starts = problem.columns(point)[:, -2 * count : -count]
+
+    for number in range(count):
+        by = np.zeros(count)
+        by[number] = problem.noise.position
+        moved = problem.at(base, values, outset.moved(by), point.q)
+        change = problem.white(point, moved.ahead - point.ahead) / problem.noise.position
+        size = np.abs(change).max()
+        assert starts[:, number] == pytest.approx(change, abs=0.02 * size)

@@ -1,0 +1,126 @@
+"""What runs miss alike: nothing by chance, much where something is the same in every run."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from reconcile_made import based, recorded
+
+from sim.engine import State
+from sim.log import Log
+from sim.model import Model, Part
+from sim.reconcile.candidates import score_estimate
+from sim.reconcile.cross_validation import Gap
+from sim.reconcile.optimize import minimize
+from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_repeated_residual
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.selection_round import SelectionRound
+from sim.reconcile.thresholds import ALIKE
+from sim.reconcile.verdict import verdict_of
+from sim.units import unit
+
+GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
+NOISE = (1e-3, 1e-2)  # [m] and [m/s]
+TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
+SHAKES = 0.06  # [V] in every sample, which no log shows
+
+
+def session(*parts, seed, tests=TESTS):
+    """Two rounds of tests from zero, each run with a friction and shakes of its own."""
+    rng = np.random.default_rng(seed)
+    runs, clock = [], 0.0
+    for test in (*tests, *tests):
+        friction = GAINS["kS"] * (1.0 + 0.05 * rng.standard_normal())
+        model = Model("simple", {**GAINS, "kS": friction}, parts)
+        begun = {"state": State.at(0.0), "began": clock}
+        run = recorded(test, model, step=4.0, noise=NOISE, rng=rng, **begun)
+        runs.append(replace(run, voltage=run.voltage + SHAKES * rng.standard_normal(len(run))))
+        clock = float(run.time[-1]) + 2.0
+    return Log(tuple(runs), units="meters", type="simple")
+
+
+def found(log):
+    """What runs miss alike of a model without effects, as it follows best."""
+    problem, point = based(log, GAINS)
+    return problem, find_repeated_residual(problem, minimize(problem, point))
+
+
+@settings(max_examples=12, deadline=None)
+@given(seed=st.integers(0, 10**6))
+def test_a_friction_and_shakes_of_each_runs_own_are_no_habit(seed):
+    _, alike = found(session(seed=seed))
+
+    assert alike.size < ALIKE
+
+
+def test_a_wave_along_the_way_is_a_habit_of_places():
+    wave = Part("cogging", {"cosine": 0.25, "sine": 0.0, "turns": 3.0})
+
+    _, alike = found(session(wave, seed=2))
+
+    assert alike.size > ALIKE
+    assert alike.what == "position"
+
+
+def test_a_bump_is_found_where_it_is():
+    log = session(seed=3)
+    bumpy = [
+        replace(run, velocity=run.velocity + 0.5 * np.exp(-(((run.position - 2.0) / 0.3) ** 2)))
+        for run in log.runs
+    ]
+
+    problem, alike = found(replace(log, runs=tuple(bumpy)))
+
+    assert alike.size > ALIKE
+    assert (alike.what, alike.way) == ("position", 1)
+    assert alike.high > 1.6
+    assert alike.low < 2.4
+    assert alike.high - alike.low < 0.1 * np.ptp(problem.measured[:, 0])
+
+
+def test_friction_that_fades_with_speed_is_a_habit_of_speeds():
+    _, alike = found(session(Part("stribeck", {"extra": 0.6, "slow": 0.6}), seed=4))
+
+    assert alike.size > ALIKE
+    assert alike.what == "speed"
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_run_alone_has_no_habit(count):
+    log = session(seed=5)
+    one = replace(log, runs=log.runs[:count])  # one of them forward, one in reverse
+
+    _, alike = found(one)
+
+    assert alike == RepeatedResidual(what=alike.what)
+
+
+@pytest.mark.parametrize(
+    ("alike", "units", "said"),
+    [
+        (
+            RepeatedResidual(12.4, "position", 1, 0.5, 0.53),
+            "meters",
+            "forward, between 0.5 and 0.53 m.",
+        ),
+        (
+            RepeatedResidual(7.0, "speed", -1, -3.2, -3.0),
+            "feet",
+            "in reverse, between −10.5 and −9.84 ft/s.",
+        ),
+    ],
+)
+def test_it_is_told_where_and_by_how_much(alike, units, said):
+    problem, point = based(session(seed=6), GAINS)
+    gap = Gap(problem.noise.velocity, problem.noise.position)
+    done = [SelectionRound(score_estimate(problem, point), gap, gap)]
+
+    verdict, remainder, remains = verdict_of(
+        [], done, problem, left=ResidualSummary(alike=alike), per=unit(units)
+    )
+
+    assert (verdict, remainder) == ("unexplained", True)
+    assert said in remains
+    assert f"({alike.size:.0f} times what chance would)" in remains

@@ -1,0 +1,115 @@
+"""A push that goes to and fro in time is told from noise, and from a habit of places."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from reconcile_made import based, recorded
+
+from sim.engine import State
+from sim.log import Log, Run
+from sim.model import Model, Part
+from sim.reconcile.candidates import score_estimate
+from sim.reconcile.cross_validation import Gap
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.optimize import minimize_fully
+from sim.reconcile.residual_tests.spectrum import FASTEST, TURNS, SpectralPeak, find_spectral_peak
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import run_records
+from sim.reconcile.selection_round import SelectionRound
+from sim.reconcile.thresholds import RHYTHM
+from sim.reconcile.verdict import verdict_of
+from sim.units import unit
+
+GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
+NOISE = (1e-3, 1e-2)  # [m] and [m/s]
+TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
+SHAKES = 0.06  # [V] in every sample, which no log shows
+SWING = 0.3  # [V]
+
+
+def session(*parts, seed, swings=0.0, size=SWING):
+    """Two rounds of tests, each run shaken; and pushed to and fro so many times a second."""
+    rng = np.random.default_rng(seed)
+    runs, clock = [], 0.0
+    for test in (*TESTS, *TESTS):
+        model = Model("simple", GAINS, parts)
+        run = recorded(test, model, step=4.0, noise=NOISE, rng=rng, state=State.at(0.0))
+        run = replace(run, time=clock + run.time)
+        hidden = SHAKES * rng.standard_normal(len(run))
+        hidden += size * np.sin(2.0 * np.pi * swings * run.time)
+        runs.append(replace(run, voltage=run.voltage + hidden))  # the motor did not get it
+        clock = float(run.time[-1]) + 2.0
+    return Log(tuple(runs), units="meters", type="simple")
+
+
+def found(log):
+    """The clearest rhythm in what the best model without effects leaves."""
+    problem, point = based(log, GAINS)
+    point = minimize_fully(problem, point)
+    return problem, point, find_spectral_peak(problem, point)
+
+
+@settings(max_examples=12, deadline=None)
+@given(seed=st.integers(0, 10**6))
+def test_shakes_have_no_rhythm(seed):
+    _, _, rhythm = found(session(seed=seed))
+
+    assert rhythm.size < 0.2 * RHYTHM
+
+
+@settings(max_examples=12, deadline=None)
+@given(seed=st.integers(0, 10**6), swings=st.floats(0.6, 4.5))
+def test_a_swing_is_found_at_its_rate_though_it_passes_for_pushes_at_random(seed, swings):
+    problem, point, rhythm = found(session(seed=seed, swings=swings))
+
+    assert rhythm.size > RHYTHM
+    assert rhythm.rate == pytest.approx(swings, abs=0.15)
+    assert point.q > problem.noise.velocity**2
+    assert ResidualSummary.by(problem, point).swings
+
+
+def test_a_wave_along_the_way_is_told_as_a_habit_of_places():
+    wave = Part("cogging", {"cosine": 0.25, "sine": 0.0, "turns": 3.0})
+
+    left = ResidualSummary.by(*found(session(wave, seed=2))[:2])
+
+    assert left.repeats
+    assert "At the same places" in remains_of(left)[2]
+
+
+def test_runs_that_are_too_short_have_none():
+    log = session(seed=4)
+    last = round(0.9 * TURNS / FASTEST / 0.02)
+    short = [
+        Run(r.test, r.time[:last], r.voltage[:last], r.position[:last], r.velocity[:last])
+        for r in log.runs
+    ]
+    problem = PredictionErrorProblem.of(run_records(log))
+    brief = PredictionErrorProblem(
+        tuple(run_records(replace(log, runs=tuple(short)))), problem.noise
+    )
+    seen = RunNuisance.seen(len(brief.lanes))
+
+    point = brief.at(ModelStructure("simple"), GAINS, seen, problem.noise.velocity**2)
+
+    assert find_spectral_peak(brief, point) == SpectralPeak()
+
+
+def remains_of(left):
+    """The verdict on a model that leaves that, and follows else."""
+    problem, point = based(session(seed=6), GAINS)
+    gap = Gap(problem.noise.velocity, problem.noise.position)
+    done = [SelectionRound(score_estimate(problem, point), gap, gap)]
+    return verdict_of([], done, problem, left=left, per=unit("meters"))
+
+
+def test_it_is_told_how_often():
+    verdict, remainder, remains = remains_of(ResidualSummary(rhythm=SpectralPeak(320.0, 1.6)))
+
+    assert (verdict, remainder) == ("unexplained", True)
+    assert "to and fro every 0.62 s" in remains

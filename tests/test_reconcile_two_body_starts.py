@@ -1,0 +1,98 @@
+"""Two bodies have many valleys: a light motor and a heavy one are found by the lively runs."""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+from reconcile_made import SESSIONS, bench, session, told
+
+from sim.effects import EFFECTS
+from sim.model import Part
+from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.model_structure import ModelStructure
+from sim.reconcile.optimize import levenberg_marquardt
+from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.run_records import run_records
+from sim.reconcile.two_body_starts import MOST, SAME, VALLEYS, TwoBodyStarts, _best_of_each
+from sim.voltage_residual import compute_voltage_residual
+
+BASE = ModelStructure("simple")
+SLACK = 0.02  # [rad]
+STEPS = 3  # downhill
+SOFT = BASE + "compliance"
+
+
+def built(effect="", **values):
+    hidden = (Part(effect, values),) if effect else ()
+    return replace(bench("turret"), hidden=hidden)
+
+
+def looked(mechanism):
+    """The lively runs of a log, the best model of one body, and what the log shows."""
+    log = session(mechanism, "log")
+    problem = PredictionErrorProblem.of(run_records(log))
+    values = {name: mechanism.gains[name] for name in BASE.names}
+    begun = problem.at(
+        BASE, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
+    )
+    point = levenberg_marquardt(problem, begun, steps=STEPS)
+    evidence = compute_voltage_residual(log, dict(BASE.model(point.values).gains), type="simple")
+    return TwoBodyStarts(problem, point), evidence
+
+
+def starts(effect, evidence):
+    return [
+        {f"{effect}.{name}": value for name, value in start.items()}
+        for start in EFFECTS[effect].starts(evidence)
+    ]
+
+
+@pytest.mark.parametrize("share", [0.2, 0.46])
+def test_free_play_is_found_whatever_its_motor_weighs(share):
+    mechanism = built("backlash", slack=SLACK, share=share)
+
+    story = told({name: session(mechanism, name) for name in SESSIONS}, type="simple")
+
+    first = story.findings[0]
+    assert first.effect == "backlash"
+    # if no run crosses all of it, the least is told that does the same
+    assert 0.4 < first.parameters["slack"].value / math.degrees(SLACK) < 1.1
+    assert first.parameters["share"].value == pytest.approx(share, rel=0.2)
+
+
+def test_valleys_explain_the_lively_runs_and_are_not_one():
+    lively, evidence = looked(built("compliance", softness=0.02, share=0.3))
+
+    found = lively.valleys(SOFT, starts("compliance", evidence), heavy=False)
+
+    assert 0 < len(found) <= VALLEYS
+    for one in found:
+        there = lively.problem.at(
+            SOFT, {**lively.point.values, **one}, lively.point.outset, lively.point.q
+        )
+        assert levenberg_marquardt(lively.problem, there, steps=STEPS).cost < lively.point.cost
+    for one, other in pairwise(found):
+        assert not all(math.isclose(one[name], other[name], rel_tol=SAME) for name in one)
+
+
+def test_the_start_nearest_to_what_is_there_need_not_promise_most():
+    lively, _ = looked(built("compliance", softness=0.02, share=0.3))
+    values = {**lively.point.values, "compliance.softness": 0.02}
+    outset, q = lively.point.outset, lively.point.q
+    heavy, light = (
+        lively.problem.at(SOFT, {**values, "compliance.share": share}, outset, q)
+        for share in (0.5, 0.15)
+    )
+
+    kept = _best_of_each([*((90.0, heavy) for _ in range(9)), (-5.0, light)], "compliance")
+
+    assert light in kept
+    assert kept.count(heavy) == MOST
+
+
+def test_what_makes_the_lively_runs_less_likely_is_not_tried_on_all():
+    lively, _ = looked(built())
+    far = {"compliance.softness": 50.0, "compliance.share": 0.01}  # all of the load hangs loose
+
+    assert lively.valleys(SOFT, [far], heavy=False) == []

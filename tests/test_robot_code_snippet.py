@@ -1,0 +1,310 @@
+"""The snippet for robot code: it runs, it parses, and it holds the numbers that were fitted."""
+
+import ast
+import math
+import re
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+import tree_sitter_java
+from hypothesis import given
+from hypothesis import strategies as st
+from tree_sitter import Language, Parser
+
+from sim.doubt import Doubt
+from sim.errors import BadRequest
+from sim.fit import Fit
+from sim.robot_code_snippet import (
+    CLASSES,
+    LANGUAGES,
+    ORDER,
+    SEASONS,
+    SPELLINGS,
+    robot_code_snippet,
+    round_to_error,
+)
+from sim.units import UNITS
+
+TYPES = tuple(ORDER)
+UNIT = {"simple": "meters", "elevator": "meters", "arm": "radians"}
+GAINS = {"kS": 0.16134, "kV": 2.523321, "kA": 0.190848}
+ERRORS = {"kS": 0.0044, "kV": 0.0027, "kA": 0.0011}
+GRAVITY = {"kG": 1.50177}
+DT = 0.020  # [s] WPILib's default period
+
+# WPILib's own order of arguments; a kG at another place is a robot that falls.
+RIGHT_ORDER = {
+    "simple": ["kS", "kV", "kA"],
+    "elevator": ["kS", "kG", "kV", "kA"],
+    "arm": ["kS", "kG", "kV", "kA"],
+}
+
+
+def found(type_, **changes):
+    gains, errors = GAINS, ERRORS
+    if type_ != "simple":
+        gains, errors = gains | GRAVITY, errors | {"kG": 0.0076}
+    if type_ == "arm":
+        gains, errors = gains | {"offset_rad": -0.3728}, errors | {"offset_rad": 0.0066}
+    fit = Fit(
+        type=type_,
+        method="output-error",
+        units=UNIT[type_],
+        log_units=UNIT[type_],
+        gains=gains,
+        errors=errors,
+        acceleration_r2=0.9,
+        acceleration_rmse=0.1,
+        simulated_velocity_r2=0.9,
+        simulated_velocity_rmse=0.1,
+        samples_used={},
+        position_delay=0.0,
+        velocity_delay=0.0,
+        velocity_threshold=0.0,
+        step_duration=1.0,
+    )
+    return replace(fit, **changes)
+
+
+def constants(text):
+    """Every constant of a snippet, whichever language it is in."""
+    return {
+        name: float(value) for name, value in re.findall(r"(k\w+) = (-?\d+\.\d+)(?=[; ])", text)
+    }
+
+
+def java_nodes(text, kind):
+    tree = Parser(Language(tree_sitter_java.language())).parse(text.encode())
+    assert not tree.root_node.has_error, text
+    waiting, nodes = [tree.root_node], []
+    while waiting:
+        node = waiting.pop()
+        waiting.extend(node.children)
+        if node.type == kind:
+            nodes.append(node)
+    return nodes
+
+
+def run(text, wpimath=None):
+    """The class that a Python snippet makes, with WPILib's classes or recording stand-ins."""
+    if wpimath is not None:
+        text = re.sub(r"^from \S+ import (\w+)$", "", text, flags=re.MULTILINE)
+    space = dict(vars(wpimath)) if wpimath else {}
+    exec(compile(text, "pasted.py", "exec"), space)  # noqa: S102 - the snippet under test
+    return next(value for name, value in space.items() if name.endswith("Gains"))
+
+
+def stand_ins():
+    names = [*CLASSES.values(), LANGUAGES["python"].linear, LANGUAGES["python"].angular]
+    return SimpleNamespace(**{name: lambda *gains: gains for name in names})
+
+
+@pytest.mark.parametrize("season", SEASONS)
+@pytest.mark.parametrize("type_", TYPES)
+def test_a_java_snippet_parses_and_hands_the_gains_over_in_wpilibs_order(type_, season):
+    text = robot_code_snippet(found(type_), language="java", season=season, name="left drive")
+
+    (made,) = java_nodes(text, "object_creation_expression")
+    arguments = [
+        node.text.decode() for node in made.child_by_field_name("arguments").named_children
+    ]
+    (imported,) = java_nodes(text, "import_declaration")
+    (class_,) = java_nodes(text, "class_declaration")
+    cls = made.child_by_field_name("type").text.decode()
+    assert arguments == RIGHT_ORDER[type_]
+    assert cls == CLASSES.get(type_, "SimpleMotorFeedforward")
+    home = {2026: "edu.wpi.first", 2027: "org.wpilib"}[season]
+    assert imported.text.decode() == f"import {home}.math.controller.{cls};"
+    assert class_.child_by_field_name("name").text.decode() == "LeftDriveGains"
+
+
+@pytest.mark.parametrize("season", SEASONS)
+@pytest.mark.parametrize("type_", TYPES)
+def test_a_python_snippet_runs_and_hands_the_gains_over_in_wpilibs_order(type_, season):
+    text = robot_code_snippet(found(type_), language="python", season=season)
+
+    made = run(text, stand_ins())
+
+    assert tuple(getattr(made, gain) for gain in RIGHT_ORDER[type_]) == made.FEEDFORWARD
+    imported = next(node for node in ast.parse(text).body if isinstance(node, ast.ImportFrom))
+    assert imported.module == {2026: "wpimath.controller", 2027: "wpimath"}[season]
+
+
+@pytest.mark.parametrize(("language", "season"), SPELLINGS)
+@pytest.mark.parametrize("type_", TYPES)
+def test_the_numbers_come_back_within_a_tenth_of_their_errors(type_, language, season):
+    fit = found(type_)
+
+    read = constants(robot_code_snippet(fit, language=language, season=season))
+    for gain in RIGHT_ORDER[type_]:
+        assert read[gain] == pytest.approx(fit.gains[gain], abs=0.1 * fit.errors[gain]), gain
+    for loop, gains in fit.feedback().items():
+        assert read[f"k{loop.capitalize()}P"] == pytest.approx(gains.kp, rel=5e-3)
+        assert read[f"k{loop.capitalize()}D"] == pytest.approx(gains.kd, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("language", "season", "call"),
+    [
+        ("java", 2026, "FEEDFORWARD.calculateWithVelocities({}velocity, nextVelocity)"),
+        ("java", 2027, "FEEDFORWARD.calculate({}velocity, nextVelocity)"),
+        ("python", 2026, "FEEDFORWARD.calculate({}velocity, nextVelocity)"),
+        ("python", 2027, "FEEDFORWARD.calculate({}velocity, nextVelocity)"),
+    ],
+)
+def test_the_call_is_the_seasons_and_an_arms_takes_the_angle_first(language, season, call):
+    assert call.format("") in robot_code_snippet(found("simple"), language=language, season=season)
+    assert call.format("angle, ") in robot_code_snippet(
+        found("arm"), language=language, season=season
+    )
+
+
+@pytest.mark.parametrize(("language", "season"), SPELLINGS)
+def test_only_a_season_that_is_out_has_nothing_uncertain(language, season):
+    said = "not released" in robot_code_snippet(found("simple"), language=language, season=season)
+    assert said == (season == 2027)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("units", ["rotations", "degrees"])
+def test_an_arm_counted_in_turns_is_pasted_per_radian_and_says_so(units, language):
+    fit = found("arm")
+    turned = fit.in_units(units)
+
+    text = robot_code_snippet(turned, language=language)
+    read, radians = constants(text), constants(robot_code_snippet(fit, language=language))
+
+    for name in (*RIGHT_ORDER["arm"], "kAngleOffset"):
+        assert read[name] == pytest.approx(radians[name], rel=1e-12), name
+    assert f"Gains per {UNITS[units].symbol} in the fit, per radian here." in text
+    assert "angle from horizontal [rad] = measured * kRadiansPerUnit + kAngleOffset" in text
+    assert read["kRadiansPerUnit"] == UNITS[units].si
+    # The same volts for the same error: what the table of the fit says per turn, per radian.
+    volts = turned.feedback()["position"].kp / UNITS[units].si
+    assert read["kPositionP"] == pytest.approx(volts, rel=5e-3)
+
+
+def test_an_arm_in_radians_needs_no_conversion():
+    text = robot_code_snippet(found("arm"), language="java")
+
+    assert "= measured + kAngleOffset" in text
+    assert "kRadiansPerUnit" not in text
+
+
+@pytest.mark.parametrize("units", ["rotations", "radians", "degrees"])
+def test_an_angular_simple_mechanism_keeps_its_unit(units):
+    fit = found("simple", units="radians", log_units=units).in_log_units()
+
+    text = robot_code_snippet(fit, language="python")
+
+    assert "SimpleMotorFeedforwardRadians(kS, kV, kA)" in text
+    assert f"[V·s/{UNITS[units].symbol}]" in text
+    assert f"velocities in {UNITS[units].symbol}/s" in text
+    assert constants(text)["kV"] == pytest.approx(GAINS["kV"] * UNITS[units].si, rel=5e-3)
+
+
+def discrete(type_, gains, *, now, then, angle=0.0):
+    """Volts that bring v' = (V - kS·sgn v - gravity - kV·v)/kA from one velocity to the next."""
+    decay = math.exp(-gains["kV"] / gains["kA"] * DT)
+    gravity = {"simple": 0.0, "elevator": gains.get("kG", 0.0)}.get(
+        type_, gains.get("kG", 0.0) * math.cos(angle)
+    )
+    moving = gains["kV"] * (then - decay * now) / (1.0 - decay)
+    return gains["kS"] * math.copysign(1.0, now) + gravity + moving
+
+
+@pytest.mark.robot
+@pytest.mark.parametrize("type_", TYPES)
+def test_the_object_that_robotpy_makes_calculates_our_formula(type_):
+    pytest.importorskip("wpimath.controller", reason="RobotPy is not installed (extra `robot`)")
+    fit = found(type_)
+    text = robot_code_snippet(fit, language="python", season=2026)
+    made, gains = run(text), constants(text)
+    place, angle = -0.4, -0.4 + gains.get("kAngleOffset", 0.0)
+    first = (place + made.kAngleOffset,) if type_ == "arm" else ()
+    steady = made.FEEDFORWARD.calculate(*first, 0.7)
+    rising = made.FEEDFORWARD.calculate(*first, 0.7, 0.75)
+
+    weight = {"simple": 0.0, "elevator": GRAVITY["kG"], "arm": GRAVITY["kG"] * math.cos(angle)}
+    expected = gains["kS"] + gains["kV"] * 0.7 + weight[type_]
+    assert steady == pytest.approx(expected, abs=1e-4)
+    # An arm's gravity turns by 0.7·0.02 rad within the period, which only WPILib's solver follows.
+    slack = GRAVITY["kG"] * 0.75 * DT if type_ == "arm" else 1e-9
+    assert rising == pytest.approx(
+        discrete(type_, gains, now=0.7, then=0.75, angle=angle), abs=slack
+    )
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (0.161339, 0.0043663, "0.1613"),
+        (2.523321, 0.0026523, "2.5233"),
+        (0.000123456, 0.0000071, "0.0001235"),
+        (1234.567, 40.0, "1235.0"),
+        (123456.7, 4000.0, "123500.0"),
+        (0.00123456, 5.0, "0.00123"),  # an error above the value leaves three digits, never a zero
+        (2.5233214987, 1e-12, "2.52332"),  # and one of nothing leaves six
+        (-0.372849, 0.0066, "-0.3728"),
+        (0.0, 0.1, "0.0"),
+        (1e-9, math.inf, "0.000000001"),
+    ],
+)
+def test_a_number_has_the_digits_its_error_deserves(value, error, text):
+    assert round_to_error(value, error) == text
+
+
+@given(
+    value=st.floats(-1e6, 1e6).filter(lambda value: abs(value) > 1e-12),
+    error=st.floats(0.0, 1e6),
+)
+def test_a_rounded_number_is_code_in_both_languages_and_near_the_value(value, error):
+    text = round_to_error(value, error)
+
+    assert re.fullmatch(r"-?\d+\.\d+", text)
+    assert float(text) == pytest.approx(value, abs=0.05 * error + 6e-6 * abs(value))
+
+
+GRAVE = Doubt("negative-gain", "kG = -1 is negative: is forward up in this log?", grave=True)
+MILD = Doubt("late", "The velocity lags by 40 ms.")
+
+
+@pytest.mark.parametrize(
+    ("changes", "asked", "said"),
+    [
+        ({}, {"language": "c++"}, "unknown language 'c++'. Choose one of: java, python."),
+        ({}, {"season": 2025}, "unknown season 2025. Choose one of: 2026, 2027."),
+        ({}, {"name": "2 arms"}, "no class can be called after '2 arms'. Begin the name"),
+        ({"doubts": (GRAVE,)}, {}, "cannot be right: kG = -1 is negative"),
+        ({"gains": GAINS | {"kV": -2.5}}, {}, "no code for kV = -2.5"),
+        ({"gains": GAINS | {"kA": -0.1}}, {}, "no code for kA = -0.1"),
+        ({"gains": GAINS | {"kS": math.nan}}, {}, "no code for kS = nan"),
+    ],
+)
+def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked, said):
+    with pytest.raises(BadRequest) as refused:
+        robot_code_snippet(found("simple", **changes), **({"language": "java"} | asked))
+
+    assert said in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_mild_doubt_is_mentioned_and_none_is_not():
+    said = "Warnings of the fit, to be read first: 1."
+    assert said in robot_code_snippet(found("simple", doubts=(MILD,)), language="python")
+    assert "Warnings" not in robot_code_snippet(found("simple"), language="python")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_loop_without_gains_says_so_and_has_no_constant(language):
+    # A light intake's gains: with a period of delay the regulator's kP comes out negative.
+    light = {"kS": 0.46, "kV": 0.0498, "kA": 0.001525}
+    slow = found("simple", units="radians", gains=light, position_delay=DT)
+    late = robot_code_snippet(slow, language=language)
+    none = robot_code_snippet(found("simple", gains=GAINS | {"kA": 0.0}), language=language)
+
+    assert "No gains for the position loop" in late
+    assert "kPositionP" not in late
+    assert "kVelocityP" in late
+    assert "The fit suggests no feedback gains." in none

@@ -1,0 +1,285 @@
+"""RobotPy code is run shut in: tricks from inside a submission reach nothing and stop nothing."""
+
+import os
+import socket
+import sys
+import threading
+import time
+
+import pytest
+from robot_mistakes import ROOT, changed, needs_robot
+
+from grader.exercise import Exercise
+from grader.isolation import isolation_level
+from grader.isolation import sandbox_parent as isolation
+from grader.robotcode import bench
+from grader.robotcode.bench import Outcome
+from grader.robotcode.bench.log_facts import read_facts
+from grader.robotcode.bench.sandbox_files import MOST, copy_program
+from grader.robotcode.bench.sandboxed_run import LARGEST, run_confined
+
+EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
+LEVEL = isolation_level()
+NO_ISOLATION = "" if LEVEL.startswith("isolated") else f"this system is {LEVEL}"
+isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolated")
+posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such call")
+KEY = "the key is 42"
+SEND = "self.left.setVoltage(voltage)"
+
+
+@pytest.fixture(params=[None, 4], ids=["all there is", "Landlock as on Linux 6.7"])
+def each_kernel(request, monkeypatch):
+    """With all the confinement this system has, and with an older kernel's."""
+    monkeypatch.setattr(isolation, "LANDLOCK_ABI", request.param)
+
+
+@pytest.fixture
+def tried(tmp_path):
+    """Runs the right answer with a trick before it sends its first voltage."""
+
+    def run(trick, *, seconds=bench.SECONDS, start=run_confined):
+        folder = tmp_path / "theirs"
+        folder.mkdir(exist_ok=True)
+        path = folder / "mine.py"
+        path.write_text(changed((SEND, f"import trick; {SEND}")), "utf-8")
+        (folder / "trick.py").write_text(trick, "utf-8")
+        return bench.run(path, "ExampleSubsystem", start=start, seconds=seconds)
+
+    return run
+
+
+def quietly(statement):
+    """A trick that goes on as if nothing had been, if it is refused."""
+    return (
+        f"try:\n    {statement}\nexcept OSError:\n    pass\nelse:\n    raise KeyError('REACHED')\n"
+    )
+
+
+@needs_robot
+@isolated
+@pytest.mark.usefixtures("each_kernel")
+@pytest.mark.parametrize(
+    "statement",
+    [
+        pytest.param("open({key!r}).read()", id="reading a key"),
+        pytest.param("open({root!r} + '/exercises/exercise10/key.py')", id="reading the course"),
+        pytest.param(
+            "open({root!r} + '/grader/isolation/sandbox_parent.py')", id="reading the examiner"
+        ),
+        pytest.param("open({folder!r} + '/planted', 'w')", id="writing outside"),
+        pytest.param("import os; os.symlink({key!r}, 'seen.json')", id="a link to a key"),
+        pytest.param("import os; os.fork()", id="a fork"),
+        pytest.param("import subprocess; subprocess.run(['true'])", id="a program"),
+        pytest.param("import socket; socket.create_connection(('127.0.0.1', {port}))", id="TCP"),
+        pytest.param("import socket; socket.socket(type=socket.SOCK_DGRAM)", id="UDP"),
+        pytest.param("import os; os.kill({pid}, 9)", id="a signal to the examiner"),
+        pytest.param(
+            "import fcntl, os; fcntl.fcntl(os.pipe()[0], fcntl.F_SETOWN, {pid})",
+            id="a signal to the examiner, by a file",
+        ),
+    ],
+)
+def test_a_trick_is_refused_and_the_run_is_what_it_was(tried, tmp_path, statement):
+    (tmp_path / "key.txt").write_text(KEY, "utf-8")
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        names = {
+            "key": str(tmp_path / "key.txt"),
+            "folder": str(tmp_path),
+            "root": str(ROOT),
+            "port": server.getsockname()[1],
+            "pid": os.getpid(),
+        }
+        run = tried(quietly(statement.format(**names)))
+
+    assert run.outcome is Outcome.RAN, run.said
+    assert (round(run.ramp, 4), run.step, run.timeout) == (0.5, 3.5, 10.0)
+    assert not (tmp_path / "planted").exists()
+
+
+@needs_robot
+def test_the_same_tricks_succeed_where_nothing_is_shut_in(tried, tmp_path, monkeypatch):
+    (tmp_path / "key.txt").write_text(KEY, "utf-8")
+    monkeypatch.setattr(isolation, "CONFINED", False)
+    run = tried(quietly(f"open({str(tmp_path / 'key.txt')!r}).read()"))
+
+    assert run.outcome is Outcome.CRASHED
+    assert "REACHED" in run.said
+
+
+@needs_robot
+@isolated
+def test_vendor_code_that_needs_the_network_cannot_be_run_and_is_not_blamed(tried):
+    run = tried("import socket; socket.socket()")
+
+    assert run.outcome is Outcome.CANNOT
+    assert run.said.startswith("it asks for what it cannot have here: PermissionError")
+
+
+@needs_robot
+@posix
+@pytest.mark.parametrize(
+    ("trick", "outcome"),
+    [
+        pytest.param("import os; os._exit(0)", Outcome.CRASHED, id="a sudden end"),
+        pytest.param("import os; os.abort()", Outcome.CRASHED, id="a crash of Python's"),
+        pytest.param("while True: pass", Outcome.ENDLESS, id="an endless loop"),
+        pytest.param(
+            "import faulthandler\nfaulthandler.cancel_dump_traceback_later()\nwhile True: pass",
+            Outcome.ENDLESS,
+            id="an endless loop that hides",
+        ),
+        pytest.param("x = bytearray(8 * 1024**3)", Outcome.CRASHED, id="memory"),
+        pytest.param("print('flood ' * 5_000_000)", Outcome.RAN, id="an output flood"),
+        pytest.param(
+            "with open('flood', 'wb') as f:\n    for _ in range(99): f.write(bytes(10**6))",
+            Outcome.CRASHED,
+            id="a file flood",
+        ),
+        pytest.param(
+            "import os\nfor _ in range(1500):\n    os.mkdir('d'); os.chdir('d')",
+            Outcome.RAN,
+            id="a deep folder",
+        ),
+    ],
+)
+def test_what_takes_too_much_is_ended_and_stops_nobody(tried, trick, outcome):
+    begin = time.monotonic()
+    run = tried(trick, seconds=2.0 if outcome is Outcome.ENDLESS else bench.SECONDS)
+
+    assert run.outcome is outcome, run.said
+    assert time.monotonic() - begin < bench.SECONDS + 5.0
+    assert "\n" not in run.said
+
+
+@needs_robot
+@posix
+def test_what_a_program_started_ends_with_it(tried, tmp_path, monkeypatch):
+    monkeypatch.setattr(isolation, "CONFINED", False)  # else it can start nothing
+    beat = tmp_path / "beat"
+    begin = (
+        f"import subprocess, sys; subprocess.Popen([sys.executable, {str(tmp_path / 'b.py')!r}])"
+    )
+    (tmp_path / "b.py").write_text(
+        "import time, pathlib\nwhile True:\n"
+        f"    pathlib.Path({str(beat)!r}).write_text(str(time.time()))\n    time.sleep(0.02)\n",
+        "utf-8",
+    )
+    tried(f"{begin}\nimport time; time.sleep(0.5)")
+    if not beat.exists():
+        pytest.skip("here even limits let no process start")
+    last = beat.read_text("utf-8")
+    time.sleep(0.2)
+
+    assert beat.read_text("utf-8") == last
+
+
+@needs_robot
+@isolated
+def test_environment_and_arguments_hold_no_secret(tried, monkeypatch):
+    monkeypatch.setenv("SYSID_SECRET", "of the class")
+    run = tried("import os, sys; raise KeyError(str(dict(os.environ)) + str(sys.argv)[:60])")
+
+    assert run.outcome is Outcome.CRASHED
+    assert "HOME" in run.said
+    assert "SYSID_SECRET" not in run.said
+    assert "of the class" not in run.said
+
+
+@needs_robot
+@isolated
+def test_reading_decides_where_a_trick_ends_the_run(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text(changed((SEND, f"open('/etc/hostname').read(); {SEND}")), "utf-8")
+    result = EXERCISE.grade(path, student="ann")
+
+    assert (result.status, result.score) == ("passed", 15)
+    assert "Only read, not run" in result.checks[0].hint
+
+
+@posix
+@pytest.mark.parametrize("name", ["seen.json", "endless.txt", "robot.wpilog"])
+def test_a_pipe_in_place_of_a_result_holds_nobody_up(tmp_path, name):
+    os.mkfifo(tmp_path / name)
+    done = threading.Event()
+
+    def judge():
+        read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1)
+        done.set()
+
+    threading.Thread(target=judge, daemon=True).start()
+    assert done.wait(5)
+
+
+@pytest.mark.parametrize(
+    "left",
+    [
+        "[" * 100_000,
+        '{"cannot": "' + "x" * LARGEST + '"}',
+        '{"rows": [["a", 1e999, 1, [1], [1]]], "lasted": {"quasistatic-forward": 1}}',
+        '{"rows": [["a", ' + "9" * 400 + ', 1, [1], [1]]], "lasted": {"quasistatic-forward": 1}}',
+    ],
+    ids=["deep", "large", "no number", "a number too large"],
+)
+def test_results_made_to_hurt_are_only_results_that_cannot_be_read(tmp_path, left):
+    (tmp_path / "seen.json").write_text(left, "utf-8")
+    found = read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1)
+
+    assert (found.outcome, found.said) == (
+        Outcome.CANNOT, "the run left nothing that can be read",
+    )  # fmt: skip
+
+
+def test_what_is_told_on_is_one_line_that_can_be_printed(tmp_path):
+    (tmp_path / "seen.json").write_text('{"cannot": "a\\u001b[2J\\nb' + "x" * 999 + '"}', "utf-8")
+    said = read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1).said
+
+    assert said.startswith("a [2J bxxx")
+    assert len(said) <= 201
+
+
+def test_a_program_is_handed_over_with_what_belongs_to_it_and_nothing_else(tmp_path):
+    robot, given = tmp_path / "home" / "robot", tmp_path / "given"
+    for name in (
+        "robot.py", "constants.py", "secret.txt", "subsystems/drive.py", "subsystems/arm/joint.py",
+        "lib/limits.json", "../elsewhere.py",
+    ):  # fmt: skip
+        (robot / name).parent.mkdir(parents=True, exist_ok=True)
+        (robot / name).write_text(name, "utf-8")
+    copy = copy_program(robot / "subsystems" / "drive.py", given)
+
+    assert copy == given / "robot" / "subsystems" / "drive.py"
+    assert {one.relative_to(given / "robot").as_posix() for one in given.rglob("*.*")} == {
+        "robot.py", "constants.py", "subsystems/drive.py", "subsystems/arm/joint.py",
+        "lib/limits.json",
+    }  # fmt: skip
+
+
+def test_a_folder_that_is_no_robots_is_not_searched_beyond_the_file(tmp_path):
+    for name in ("mine/drive.py", "others/key.py", "note.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(name, "utf-8")
+    copy_program(tmp_path / "mine" / "drive.py", tmp_path / "given")
+
+    assert {one.name for one in (tmp_path / "given").rglob("*.py")} == {"drive.py", "note.py"}
+
+
+@posix
+def test_a_link_is_not_followed_when_a_program_is_handed_over(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "key").write_text(KEY, "utf-8")
+    (tmp_path / "mine" / "a.py").symlink_to(tmp_path / "key")
+    (tmp_path / "mine" / "drive.py").write_text("", "utf-8")
+    copy_program(tmp_path / "mine" / "drive.py", tmp_path / "given")
+
+    assert [one.name for one in (tmp_path / "given").rglob("*.py")] == ["drive.py"]
+
+
+def test_a_folder_full_of_files_is_handed_over_in_part_and_with_the_one_that_counts(tmp_path):
+    (tmp_path / "mine").mkdir()
+    for number in range(MOST + 20):
+        (tmp_path / "mine" / f"a{number}.py").write_text("", "utf-8")
+    (tmp_path / "mine" / "z.py").write_text("z = 1", "utf-8")
+    copy = copy_program(tmp_path / "mine" / "z.py", tmp_path / "given")
+
+    assert copy.read_text("utf-8") == "z = 1"
+    assert len([*copy.parent.iterdir()]) == MOST + 1

@@ -1,0 +1,102 @@
+"""What a learner is given, words for answers, changers of answers, and a class's own secret."""
+
+import pytest
+
+from grader.check import Wrong
+from grader.choice_answer import check_choice, read_choice
+from grader.mistake import exchanged, number, put, scaled
+from grader.student_files import write_student_files
+from grader.variant import class_secret, folder_name, student_seed
+from sim.errors import BadRequest
+
+TYPES = ("Simple", "Arm", "Elevator")
+
+
+def test_files_are_written_once_and_again_when_they_were_changed(tmp_path):
+    exercise, said = tmp_path / "exercises" / "exercise5", []
+    files = {"given.toml": "kS = 1\n", "log.csv": lambda path: path.write_bytes(b"rows")}
+    told = {"exercise": exercise, "student": "Zoë", "what": "numbers", "say": said.append}
+    write_student_files(files, **told)
+    write_student_files(files, **told)
+    made = exercise / "data" / folder_name("Zoë")
+    (made / "log.csv").write_bytes(b"other")
+    write_student_files(files, **told)
+
+    assert (made / "given.toml").read_bytes() == b"kS = 1\n"
+    assert (made / "log.csv").read_bytes() == b"rows"
+    assert len(list(made.iterdir())) == 2
+    assert [line.partition(": ")[0] for line in said] == [
+        "Your own numbers for exercise 5",
+        "Your numbers were no longer as made; written anew",
+    ]
+
+
+def test_a_place_that_cannot_be_written_is_said(tmp_path):
+    (tmp_path / "exercise5").write_text("in the way", encoding="utf-8")
+
+    with pytest.raises(BadRequest, match="your log cannot be written"):
+        write_student_files(
+            {"log.csv": ""}, exercise=tmp_path / "exercise5", student="ann", what="log", say=print
+        )
+
+
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [
+        ("arm", "Arm"),
+        (" ARM ", "Arm"),
+        ("new Arm(kS)", "Arm"),
+        ("a.b.Arm", "Arm"),
+        ("lift", "Elevator"),
+    ],
+)
+def test_a_word_may_be_written_in_many_ways(given, meant):
+    assert read_choice(given, TYPES, also={"lift": "Elevator"}) == meant
+
+
+@pytest.mark.parametrize("given", [None, "", 3, True, ["Arm"], "Arms", "…"])
+def test_no_word_or_another_one_gets_the_list(given):
+    with pytest.raises(Wrong) as wrong:
+        read_choice(given, TYPES)
+
+    assert wrong.value.hint == "Choose one of: Simple, Arm, Elevator."
+
+
+def test_a_wrong_word_is_told_why():
+    check_choice("arm", "Arm", TYPES, why=lambda _: ("no", ""))
+    with pytest.raises(Wrong, match="no gravity") as wrong:
+        check_choice("simple", "Arm", TYPES, why=lambda one: (f"{one} has no gravity", "M-R2"))
+
+    assert wrong.value.misconception == "M-R2"
+
+
+@pytest.mark.parametrize(
+    ("change", "made"),
+    [
+        (scaled(2, "kV"), "kS = 0.1\nkV = 4\n"),
+        (exchanged("kS", "kV"), "kS = 2\nkV = 0.1\n"),
+        (number("kS", lambda all_: all_["kS"] + all_["kV"]), "kS = 2.1\nkV = 2\n"),
+        (put("kV", '"2 V"'), 'kS = 0.1\nkV = "2 V"\n'),
+    ],
+)
+def test_answers_are_changed(change, made):
+    assert change("kS = 0.1\nkV = 2.0\n") == made
+
+
+def test_a_change_that_changes_nothing_is_refused():
+    with pytest.raises(ValueError, match="none of the numbers"):
+        scaled(1, "kV")("kV = 2\n")
+    with pytest.raises(ValueError, match="no kA"):
+        put("kA", "1")("kV = 2\n")
+
+
+def test_a_class_draws_numbers_of_its_own():
+    alone = student_seed("ann", "exercise9")
+    with class_secret(b"east"):
+        east = student_seed("Ann", "exercise9")
+        with class_secret(b"west"):
+            west = student_seed("ann", "exercise9")
+        assert student_seed("ann", "exercise9") == east
+    assert len({alone, east, west}) == 3
+    assert student_seed("ann", "exercise9") == alone
+    assert student_seed("ann", "exercise9", secret=b"east") == east

@@ -1,0 +1,202 @@
+"""Two bodies: exact where nothing happens, and closed in where a body turns or teeth meet."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.linalg import expm
+
+from sim.engine import NO_TRUST, RunBatch, State, follow, move
+from sim.engine.two_body_modes import MOVES, ROW, STANDS, WAYS, becomes, doubled, prepared, tabled
+from sim.model import Model, Part
+
+FINE = 2e-5  # [s] steps of what the others are compared with
+TIME = np.arange(0.0, 3.0, 0.02)
+VOLTAGES = {
+    "a ramp": 0.8 * TIME,
+    "a step and its end": np.where(TIME < 1.5, 6.0, 0.0),
+    "there and back": np.where(TIME % 1.0 < 0.5, 4.0, -4.0),
+    "a slow wave": 3.0 * np.sin(2.0 * TIME),
+}
+BODIES = {
+    "heavy": {"kS": 0.2, "kV": 2.0, "kA": 0.3},
+    "light": {"kS": 0.1, "kV": 0.12, "kA": 0.01},
+}
+SHARES = (0.05, 0.3, 0.8)
+
+
+def sprung(gains, *, swing, share):
+    reduced = share * (1.0 - share) * gains["kA"]
+    soft = 1.0 / (reduced * (2.0 * math.pi * swing) ** 2)
+    return Model("simple", gains) + Part("compliance", {"softness": soft, "share": share})
+
+
+def loose(gains, *, moment, share):
+    slack = moment * 4.0 / gains["kV"]
+    return Model("simple", gains) + Part("backlash", {"slack": slack, "share": share})
+
+
+def searched(model, volts):
+    still = np.zeros(1)
+    course = RunBatch(
+        edges=np.array([0.0, TIME.size]), time=TIME, voltage=volts,
+        measured=np.full((TIME.size, 2), np.nan), position=still, velocity=still,
+        low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
+    )  # fmt: skip
+    return follow(model, course, trust=NO_TRUST, beside=still, meshed=still, rubs=still)
+
+
+@given(
+    dt=st.floats(1e-5, 0.02),
+    kv=st.floats(0.0, 20.0),
+    bodies=st.tuples(st.floats(1e-4, 2.0), st.floats(1e-4, 2.0)),
+    swing=st.floats(0.5, 60.0),
+    damping=st.floats(0.0, 1.0),
+)
+def test_the_tables_are_the_matrix_exponential(dt, kv, bodies, swing, damping):
+    own, other = bodies
+    reduced = own * other / (own + other)
+    stiff = reduced * (2.0 * math.pi * swing) ** 2
+    damp = 2.0 * damping * math.sqrt(stiff * reduced)
+    ways = np.zeros(WAYS)
+
+    prepared(ways, MOVES, kv, own, other, stiff, damp)
+
+    flow = np.zeros((6, 6))  # of d, v, w, y, b, r
+    flow[0, 1:3] = 1.0, -1.0
+    flow[1, [0, 1, 2, 4]] = -stiff / own, -(damp + kv) / own, damp / own, 1.0 / own
+    flow[2, [0, 1, 2, 5]] = stiff / other, damp / other, -damp / other, 1.0 / other
+    flow[3, 2] = 1.0
+    for level in range(4):
+        right = expm(flow * dt / 2**level)[:4][:, [0, 1, 2, 4, 5]]
+        for make in (doubled, tabled):
+            made = numbers(ways, make(ways, MOVES, dt, level))
+            assert made == pytest.approx(right, rel=1e-6, abs=1e-8 * np.abs(right).max())
+
+
+def numbers(ways, at):
+    return ways[at : at + 4 * ROW].reshape(4, ROW)
+
+
+def test_a_table_is_kept_for_the_next_step_and_made_anew_for_another():
+    ways = np.zeros(WAYS)
+    prepared(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
+    first = numbers(ways, doubled(ways, MOVES, 0.01, 0)).copy()
+    half = numbers(ways, doubled(ways, MOVES, 0.01, 1)).copy()
+    kept = ways.copy()
+
+    doubled(ways, MOVES, 0.01, 0)
+    tabled(ways, MOVES, 0.01, 1)
+    assert (ways == kept).all()
+
+    assert numbers(ways, doubled(ways, MOVES, 0.005, 0)) == pytest.approx(half)
+
+    prepared(ways, MOVES, 2.0, 0.1, 0.3, 50.0, 0.1)
+    assert numbers(ways, doubled(ways, MOVES, 0.01, 0)) != pytest.approx(first)
+
+
+def test_a_load_that_stands_has_tables_of_its_own():
+    ways = np.zeros(WAYS)
+    prepared(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
+    first = numbers(ways, doubled(ways, MOVES, 0.01, 0)).copy()
+
+    prepared(ways, STANDS, 2.0, 0.1, 1e9, 50.0, 0.1)
+    stands = numbers(ways, doubled(ways, STANDS, 0.01, 0))
+
+    assert stands[2].tolist() == pytest.approx([0.0, 0.0, 1.0, 0.0, 0.0], abs=1e-6)
+    assert (numbers(ways, doubled(ways, MOVES, 0.01, 0)) == first).all()
+
+
+def test_a_row_is_what_a_motion_and_its_pushes_become():
+    ways = np.zeros(WAYS)
+    prepared(ways, MOVES, 0.0, 0.1, 0.2, 50.0, 0.0)
+    at = doubled(ways, MOVES, 0.01, 0)
+
+    fallen = becomes(ways, at + 2 * ROW, 0.0, 0.0, 0.0, 0.0, -0.3)
+
+    assert fallen == pytest.approx(-0.01 * 0.3 / 0.2, rel=0.01)
+
+
+@pytest.mark.parametrize("share", SHARES)
+@pytest.mark.parametrize("swing", [2.0, 8.0, 30.0])
+@pytest.mark.parametrize("volts", VOLTAGES)
+@pytest.mark.parametrize("body", BODIES)
+def test_a_spring_moves_as_in_steps_a_thousand_times_as_fine(body, volts, swing, share):
+    model, asked = sprung(BODIES[body], swing=swing, share=share), VOLTAGES[volts]
+
+    right = move(model, time=TIME, voltage=asked, state=State(), step=FINE)
+
+    made = move(model, time=TIME, voltage=asked, state=State())
+    quick = searched(model, asked)
+    top, way = np.abs(right.velocity).max(), np.ptp(right.position)
+    assert made.velocity == pytest.approx(right.velocity, abs=5e-4 * top)
+    assert quick[:, 1] == pytest.approx(right.velocity, abs=3e-3 * top)
+    assert quick[:, 0] == pytest.approx(right.position, abs=5e-4 * way)
+
+
+@pytest.mark.parametrize("share", SHARES)
+@pytest.mark.parametrize("moment", [0.0005, 0.002, 0.01, 0.04])
+@pytest.mark.parametrize("volts", VOLTAGES)
+@pytest.mark.parametrize("body", BODIES)
+def test_teeth_meet_and_part_when_they_do_in_steps_a_thousand_times_as_fine(
+    body, volts, moment, share
+):
+    model, asked = loose(BODIES[body], moment=moment, share=share), VOLTAGES[volts]
+
+    right = move(model, time=TIME, voltage=asked, state=State(), step=FINE)
+
+    quick = searched(model, asked)
+    top, way = np.abs(right.velocity).max(), np.ptp(right.position)
+    assert quick[:, 1] == pytest.approx(right.velocity, abs=3e-3 * top)
+    assert quick[:, 0] == pytest.approx(right.position, abs=2e-4 * way)
+
+
+def test_play_on_a_spring_moves_as_in_fine_steps():
+    model = loose(BODIES["heavy"], moment=0.004, share=0.3)
+    model += sprung(BODIES["heavy"], swing=6.0, share=0.3).parts[0]
+    asked = VOLTAGES["there and back"]
+
+    right = move(model, time=TIME, voltage=asked, state=State(), step=FINE)
+
+    quick = searched(model, asked)
+    top = np.abs(right.velocity).max()
+    assert quick[:, 1] == pytest.approx(right.velocity, abs=5e-3 * top)
+
+
+def test_a_spring_between_two_bodies_that_rest_stays_as_it_is():
+    model = sprung(BODIES["heavy"], swing=4.0, share=0.4)
+    state = State(np.array([0.001, 0.0, 0.0, 0.0, 0.0]))
+
+    track = move(model, time=TIME, voltage=np.zeros(TIME.size), state=state)
+
+    assert not track.velocity.any()
+    assert state.body.tolist() == [0.001, 0.0, 0.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize("part", ["compliance", "backlash"])
+def test_what_lies_on_its_stop_is_lifted_when_it_is_in_fine_steps(part):
+    gains = {**BODIES["heavy"], "kG": 0.9}
+    other = sprung if part == "compliance" else loose
+    size = {"swing": 6.0} if part == "compliance" else {"moment": 0.004}
+    model = Model("elevator", gains, other(gains, share=0.3, **size).parts, travel=(0.0, 9.0))
+    asked = VOLTAGES["a ramp"]
+
+    right = move(model, time=TIME, voltage=asked, state=State(), step=FINE)
+
+    quick = searched(model, asked)
+    top = np.abs(right.velocity).max()
+    assert right.load_position[asked < 0.9].max() == 0.0 < right.load_position[-1]
+    assert quick[:, 1] == pytest.approx(right.velocity, abs=3e-3 * top)
+
+
+@pytest.mark.parametrize("extra", [-0.5, -0.3])
+def test_inertia_that_a_search_makes_negative_ends_all_the_same(extra):
+    model = sprung(BODIES["heavy"], swing=8.0, share=0.5)
+    change = {"extra": extra, "onset": 0.5, "until": 99.0, "shared": 0.0}
+    model += Part("inertia-change", change)
+
+    track = move(model, time=TIME, voltage=VOLTAGES["a ramp"], state=State())
+
+    assert track.position.shape == TIME.shape
