@@ -7,7 +7,7 @@ import sys
 import pytest
 from dataset_made import DAMAGED, PLAIN, files, key, make, process, spec, sysid
 
-from sim.dataset.making import make_log as make_log
+from sim.dataset.making import make_log
 from sim.dataset.plan import plan_jobs
 from sim.dataset.secret import find_secret
 from sim.dataset.spec import read_spec

@@ -28,7 +28,10 @@ def test_it_runs_where_it_is_told_with_what_it_is_told(tmp_path):
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without telling it")
 def test_ending_us_ends_it(root):
     child = "import os, time; print(os.getpid(), flush=True); time.sleep(60)"
-    outer = "import sys; from grader.exec_process import run; sys.exit(run([sys.executable, '-c', {!r}]))"
+    outer = (
+        "import sys; from grader.exec_process import run; "
+        "sys.exit(run([sys.executable, '-c', {!r}]))"
+    )
     ours = subprocess.Popen(
         [sys.executable, "-c", outer.format(child)],
         cwd=root,

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.plot import Table
-from sim.plot.table import format_cell
+from sim.plot.table import to_text
 
 
 @pytest.mark.parametrize(
@@ -26,12 +26,12 @@ from sim.plot.table import format_cell
     ],
 )
 def test_a_cell_has_three_digits(cell, text):
-    assert format_cell(cell) == text
+    assert to_text(cell) == text
 
 
 @given(st.floats(min_value=1e-6, max_value=9e4))
 def test_a_shown_number_is_within_half_a_percent(value):
-    assert float(format_cell(value)) == pytest.approx(value, rel=0.005)
+    assert float(to_text(value)) == pytest.approx(value, rel=0.005)
 
 
 def test_a_table_names_its_rows_and_columns_for_a_screen_reader():
@@ -65,7 +65,7 @@ def test_words_stand_on_the_left_and_numbers_on_the_right(column, left):
     assert lines[1].rstrip() == (
         f"a      {column[0]}".rstrip()
         if left
-        else f"a      {format_cell(column[0]).rjust(10)}".rstrip()
+        else f"a      {to_text(column[0]).rjust(10)}".rstrip()
     )
 
 

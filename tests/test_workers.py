@@ -96,8 +96,8 @@ def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         grade_all(
-            work, plan_grading(work, store, travel=False, again=False), store, processes=1, cluster=None,
-            say=lambda: None, stop_if_asked=stop_if_asked,
+            work, plan_grading(work, store, travel=False, again=False), store, processes=1,
+            cluster=None, say=lambda: None, stop_if_asked=stop_if_asked,
         )  # fmt: skip
     assert multiprocessing.active_children() == []
 

@@ -211,8 +211,8 @@ def _run(
 
         try:  # one more than there are cores, for while one waits for a learner's code
             return grade_all(
-                work, left, store, processes=processes or available_cores() + 1, cluster=cluster, say=say,
-                stop_if_asked=stop_if_noted,
+                work, left, store, processes=processes or available_cores() + 1, cluster=cluster,
+                say=say, stop_if_asked=stop_if_noted,
             )  # fmt: skip
         except KeyboardInterrupt:
             count = done()

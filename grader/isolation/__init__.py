@@ -2,14 +2,15 @@
 
     outcome = run(Path("fit.py"), calls=[Call("fit", {"time": time, "voltage": voltage})])
 
-The child (``sandbox_child.py``) confines itself before it reads the learner's file: no files but Python's
-own, the data and an empty folder (``landlock.py``), no network, no processes, nobody else's process
-(``seccomp.py``), so much time, memory and disk (``limits.py``). What it says is judged outside
-(``received.py``), where nothing it made is ever imported or unpickled. Where a system has no such
-confinement there are limits only, and ``level`` says so.
+The child (``sandbox_child.py``) confines itself before it reads the learner's file: no files but
+Python's own, the data and an empty folder (``landlock.py``), no network, no processes,
+nobody else's process (``seccomp.py``), so much time, memory and disk (``limits.py``). What it
+says is judged outside (``result_parsing.py``), where nothing it made is ever imported or unpickled.
+Where a system has no such confinement there are limits only, and ``isolation_level`` says so.
 
 What has to run as a whole program, as a robot does, is confined in the same way by ``run_program``
-(``sandbox_program.py`` outside, ``sandbox_program_child.py`` in the child); it leaves files for others to judge.
+(``sandbox_program.py`` outside, ``sandbox_program_child.py`` in the child); it leaves files for
+others to judge.
 """
 
 from grader.isolation.result_parsing import Answer, one_line

@@ -166,9 +166,9 @@ def move(
     kernel = _plain() if plain else _compiled()
     kernel.move(
         np.array([0.0, time.size]), _doubles(time), _doubles(voltage), state.body[None],
-        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), model_constants(model),
-        wires, on, parameters, state.memory, np.zeros(WAYS), np.array([state.clock]), longest,
-        simple, _doubles(measured), _doubles(trust), out,
+        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1),
+        model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
+        np.array([state.clock]), longest, simple, _doubles(measured), _doubles(trust), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track.of(out)

@@ -1,8 +1,8 @@
 """Two bodies along one step: a motor with its share of the inertia, and the load it pushes.
 
 It pushes through what joins them, free play first. A spring that joins them is part of the exact
-solution (``sim/engine/two_body_modes.py``), so a step in which nothing happens is gone in one; a body that
-turns, and teeth that meet or part, are closed in by halving.
+solution (``sim/engine/two_body_modes.py``), so a step in which nothing happens is gone in one; a
+body that turns, and teeth that meet or part, are closed in by halving.
 
 Plain functions of numbers: ``sim/engine/compose.py`` compiles them together with the effects'.
 """

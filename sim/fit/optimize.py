@@ -142,8 +142,8 @@ def estimate_covariance(
 
 
 def levenberg_marquardt(
-    problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float, goal: float = math.inf,
-    starts: bool = True,
+    problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float,
+    goal: float = math.inf, starts: bool = True,
 ) -> Estimate:  # fmt: skip
     """The point after some steps of the values, fewer when one gains hardly anything.
 

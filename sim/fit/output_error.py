@@ -235,8 +235,9 @@ def _gains(
 
 
 def _fit(
-    log: Log, problem: PredictionErrorProblem, point: Estimate, *, way: float, gains: Mapping[str, float],
-    errors: Mapping[str, float], followed: OpenLoopReplay, said: tuple[Doubt, ...],
+    log: Log, problem: PredictionErrorProblem, point: Estimate, *, way: float,
+    gains: Mapping[str, float], errors: Mapping[str, float], followed: OpenLoopReplay,
+    said: tuple[Doubt, ...],
 ) -> Fit:  # fmt: skip
     """The result: gains, how well they follow, and what to doubt."""
     change = followed.acceleration

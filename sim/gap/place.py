@@ -34,8 +34,8 @@ class Place:
         ahead, behind = FASTER[self.signal]
         way = ahead if self.error > 0.0 else behind
         return (
-            f"{self.where}: the robot is {way} the model says, by {format_noises(abs(self.error))} times "
-            f"the noise of its {self.signal}"
+            f"{self.where}: the robot is {way} the model says, "
+            f"by {format_noises(abs(self.error))} times the noise of its {self.signal}"
         )
 
 

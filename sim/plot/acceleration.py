@@ -11,7 +11,7 @@ from sim.errors import BadRequest
 from sim.log import FOUR_TESTS, Array, Log
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 from sim.sysid_rows import Rows, prepare_rows
 from sim.units import Unit, unit
 
@@ -144,15 +144,19 @@ def _words(table: Table, gains: Mapping[str, float] | None, per: Unit) -> str:
         said += "as recorded and filtered."
     else:
         said += "less what voltage, friction and gravity account for. A black line through the "
-        said += f"origin, −kV/kA · v, has the slope {format_cell(-gains['kV'] / gains['kA'])} per second."
+        said += (
+            f"origin, −kV/kA · v, has the slope {to_text(-gains['kV'] / gains['kA'])} per second."
+        )
     for test, samples, slowest, fastest, first, second in table.rows:
-        said += f" {test}: {samples} samples from {format_cell(slowest)} to {format_cell(fastest)} "
+        said += f" {test}: {samples} samples from {to_text(slowest)} to {to_text(fastest)} "
         said += f"{per.symbol}/s"
         if gains is not None:
-            said += f" miss the line by {format_cell(second)} {square}, their mean by {format_cell(first)}."
+            said += f" miss the line by {to_text(second)} {square}, their mean by {to_text(first)}."
         elif isinstance(second, str):
             said += ", too few for a line."
         else:
-            said += f" lie about a line from {format_cell(first)} {square} at standstill with the slope "
-            said += f"{format_cell(second)} per second."
+            said += (
+                f" lie about a line from {to_text(first)} {square} at standstill with the slope "
+            )
+            said += f"{to_text(second)} per second."
     return said

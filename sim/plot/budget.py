@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from sim.errors import BadRequest
 from sim.log import Array
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 
 HATCHES = ("", "//", "..", "xx")  # a texture beside each color
 TABLE_ROWS = 6  # moments that the table shows
@@ -82,14 +82,14 @@ def _table(time: Array, terms: Mapping[str, Array], applied: Array, moment: floa
 def _words(time: Array, terms: Mapping[str, Array], applied: Array, moment: float | None) -> str:
     said = f"Areas on top of each other from {time[0]:.2f} to {time[-1]:.2f} s: "
     said += ", ".join(
-        f"{name} between {format_cell(float(volts.min()))} and {format_cell(float(volts.max()))} V"
+        f"{name} between {to_text(float(volts.min()))} and {to_text(float(volts.max()))} V"
         for name, volts in terms.items()
     )
-    said += f". A black line shows the applied voltage, at most {format_cell(_most(applied))} V."
+    said += f". A black line shows the applied voltage, at most {to_text(_most(applied))} V."
     if moment is not None:
         place = _at(time, moment)
-        said += f" At {time[place]:.2f} s, of {format_cell(float(applied[place]))} V: "
-        parts = (f"{name} {format_cell(float(volts[place]))} V" for name, volts in terms.items())
+        said += f" At {time[place]:.2f} s, of {to_text(float(applied[place]))} V: "
+        parts = (f"{name} {to_text(float(volts[place]))} V" for name, volts in terms.items())
         said += ", ".join(parts) + "."
     return said
 

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from sim.errors import BadRequest
 from sim.log import Array
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture, panels
-from sim.plot.table import Cell, Table, format_cell
+from sim.plot.table import Cell, Table, to_text
 
 WINDOW = 0.25  # [share of the truth] always shown around it, so that a small error looks small
 TABLE_ROWS = 8  # of a curve: a table is read, not scanned
@@ -52,7 +52,7 @@ def choices(
             capsize=4,
         )
         axes.annotate(
-            format_cell(value),
+            to_text(value),
             (value, place),
             xytext=(0, 7),
             textcoords="offset points",
@@ -63,7 +63,7 @@ def choices(
         )
         rows.append((way, value, _percent(value, truth)))
     label = f"{name} [{unit}]" if unit else name
-    axes.set_xlabel(f"{label} (dashed line: the truth, {format_cell(truth)})", color=INK)
+    axes.set_xlabel(f"{label} (dashed line: the truth, {to_text(truth)})", color=INK)
     axes.set_yticks(range(len(values)), list(values))
     axes.set_ylim(len(values) - 0.4, -0.8)
     axes.margins(x=0.1)
@@ -72,8 +72,8 @@ def choices(
     axes.autoscale_view(scaley=False)
     alt = (
         f"Dots show {name}, {len(values)} of them; a dashed line marks the truth, "
-        f"{format_cell(truth)}{' ' + unit if unit else ''}. "
-        + " ".join(f"“{way}”: {format_cell(value)}, off by {off}." for way, value, off in rows)
+        f"{to_text(truth)}{' ' + unit if unit else ''}. "
+        + " ".join(f"“{way}”: {to_text(value)}, off by {off}." for way, value, off in rows)
     )
     return Picture(figure, alt, Table(("which", label, "off by"), tuple(rows)))
 
@@ -126,16 +126,15 @@ def curves(
     axes.legend(fontsize=8)
     said = [f"{ylabel} over {xlabel}."]
     said += [
-        f"“{name}” goes from {format_cell(float(y[0]))} at {x[0]:g} to {format_cell(float(y[-1]))} at "
+        f"“{name}” goes from {to_text(float(y[0]))} at {x[0]:g} to {to_text(float(y[-1]))} at "
         f"{x[-1]:g}."
         for name, y in lines.items()
     ]
     said += [
-        f"A dashed line marks “{name}”, {format_cell(level)}."
-        for name, level in (levels or {}).items()
+        f"A dashed line marks “{name}”, {to_text(level)}." for name, level in (levels or {}).items()
     ]
     if marked is not None:
-        said.append(f"A star marks {format_cell(marked[1])} at {marked[0]:g}.")
+        said.append(f"A star marks {to_text(marked[1])} at {marked[0]:g}.")
     rows = tuple(
         _row(f"{x[i]:g}", [float(y[i]) for y in lines.values()]) for i in range(0, len(x), few)
     )
@@ -171,15 +170,15 @@ def misses(
     axes.set_xlabel(xlabel, color=INK)
     axes.set_ylabel(ylabel, color=INK)
     axes.legend(fontsize=8)
-    total = f"{format_cell(float(np.sum((up - said) ** 2)))}{_squared(ylabel)}"
+    total = f"{to_text(float(np.sum((up - said) ** 2)))}{_squared(ylabel)}"
     _corner(axes, f"sum of squared misses: {total}")
     alt = (
-        f"{across.size} samples of {ylabel} over {xlabel}, and the line {format_cell(intercept)} + "
-        f"{format_cell(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show the misses; the sum of "
+        f"{across.size} samples of {ylabel} over {xlabel}, and the line {to_text(intercept)} + "
+        f"{to_text(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show the misses; the sum of "
         f"their squares is {total}."
     )
     rows = tuple(
-        (format_cell(float(a)), float(b), float(c), float(b - c))
+        (to_text(float(a)), float(b), float(c), float(b - c))
         for a, b, c in zip(across, up, said, strict=True)
     )
     unit = f" {bracket}" if (bracket := _bracket(ylabel)) else ""
@@ -211,7 +210,7 @@ def _corner(axes: Axes, text: str) -> None:
 def _percent(value: float, truth: float) -> str:
     """By how much a value is off, as a signed percentage; the difference where truth is zero."""
     if not truth:
-        return format_cell(value - truth)
+        return to_text(value - truth)
     off = 100.0 * (value / truth - 1.0)
     digits = 0 if abs(off) >= 1.0 else 1
     return f"{off:+.{digits}f} %".replace("-", "−")

@@ -14,7 +14,7 @@ from sim.errors import BadRequest
 from sim.log import Array
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 from sim.sysid_rows import Rows
 
 LEVEL = 5.991  # of chi square with two degrees of freedom: 95 of 100 fits fall inside
@@ -34,7 +34,8 @@ def ellipses(
     """Where 95 of 100 fits of two gains fall, for several sets of rows.
 
     Args:
-        told: set of rows -> (2, 2) what it tells of both gains [1/unit²], see ``sim.fit.information_matrix``.
+        told: set of rows -> (2, 2) what it tells of both gains [1/unit²], see
+            ``sim.fit.information_matrix``.
         names: of the two gains, with their units: ``kS [V]``.
         truth: about which the ellipses are drawn.
         reach: how far from the truth the panel goes, each way.
@@ -103,7 +104,7 @@ def information_map(
 
 
 def _span(values: Array) -> str:
-    return f"{format_cell(float(values.min()))} to {format_cell(float(values.max()))}"
+    return f"{to_text(float(values.min()))} to {to_text(float(values.max()))}"
 
 
 def _axes(information: Array) -> tuple[Array, Array]:
@@ -169,16 +170,16 @@ def _words(information: Array, names: tuple[str, str]) -> str:
     if math.isinf(half[0]):
         along = directions[:, 0] / directions[0, 0] if directions[0, 0] else directions[:, 0]
         return (
-            f"a straight strip without end; {names[1]} changes by {format_cell(float(along[1]))} where "
+            f"a straight strip without end; {names[1]} changes by {to_text(float(along[1]))} where "
             f"{names[0]} changes by 1, and nobody can say where on it the truth is."
         )
     first, second = _errors(information)
-    return f"an ellipse; one standard error is {format_cell(first)} and {format_cell(second)}."
+    return f"an ellipse; one standard error is {to_text(first)} and {to_text(second)}."
 
 
 def _table(told: Mapping[str, Array], names: tuple[str, str]) -> Table:
     def cell(error: float) -> str:
-        return format_cell(error) if math.isfinite(error) else "anything"
+        return to_text(error) if math.isfinite(error) else "anything"
 
     return Table(
         ("rows of", *(f"± {name}" for name in names)),

@@ -6,7 +6,7 @@ import numpy as np
 
 from sim.errors import BadRequest
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 
 HATCHES = ("", "///", "..")  # a log each: color never speaks alone
 THICK = 0.8  # [rows] that the bars of one model take together
@@ -38,7 +38,7 @@ def gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
         )  # fmt: skip
         for place, value in zip(places, values, strict=True):
             axes.annotate(
-                format_cell(float(value)), (value, place), xytext=(4, 0), textcoords="offset points",
+                to_text(float(value)), (value, place), xytext=(4, 0), textcoords="offset points",
                 va="center", fontsize=8, color=INK,
                 bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},  # over the noise's line
             )  # fmt: skip
@@ -54,7 +54,7 @@ def gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
         (model, *(one[log] for log in logs)) for model, one in gaps.items()
     ]
     told = "; ".join(
-        f"{model}: " + ", ".join(f"{log} {format_cell(one[log])}" for log in logs)
+        f"{model}: " + ", ".join(f"{log} {to_text(one[log])}" for log in logs)
         for model, one in gaps.items()
     )
     return Picture(

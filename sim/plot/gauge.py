@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from sim.errors import BadRequest
 from sim.plot.picture import COLORS, INK, MARKERS, PAPER, Picture, legend, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 
 GOOD = COLORS[2]
 REST = ((COLORS[4], "//"), (COLORS[3], ".."))  # a texture beside each color
@@ -83,7 +83,7 @@ def _draw(
     for index, ((name, value), place) in enumerate(zip(values.items(), heights, strict=True)):
         axes.plot(value, place, MARKERS[index % len(MARKERS)], color=INK, markersize=9,
                   clip_on=False, label=name, zorder=5)  # fmt: skip
-        axes.annotate(format_cell(value), (value, place), xytext=(0, 9), ha="center",
+        axes.annotate(to_text(value), (value, place), xytext=(0, 9), ha="center",
                       textcoords="offset points", fontsize=9, color=INK, zorder=6,
                       bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8})  # fmt: skip
 
@@ -100,10 +100,10 @@ def _words(
     said = f"A scale of {label} with bands: "
     names, start, parts = list(bands), low, []
     for name in names[:-1]:
-        parts.append(f"{name} from {format_cell(start)} to {format_cell(bands[name])}")
+        parts.append(f"{name} from {to_text(start)} to {to_text(bands[name])}")
         start = bands[name]
-    parts.append(f"{names[-1]} above {format_cell(start)}")
+    parts.append(f"{names[-1]} above {to_text(start)}")
     said += ", ".join(parts) + "."
     for name, value, band in rows:
-        said += f" {name} is {format_cell(value)}: {band}."
+        said += f" {name} is {to_text(value)}: {band}."
     return said

@@ -8,7 +8,7 @@ import numpy as np
 from sim.errors import BadRequest
 from sim.log import Array
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 
 BAND = COLORS[4]
 QUARTER_TURN = 90.0  # [deg]
@@ -56,16 +56,12 @@ def hold_window(
     axes.set_ylabel(f"speed, up is positive [{symbol}/s]", color=INK)
     axes.legend(fontsize=8)
     alt = (
-        f"Speed over voltage. It sinks below {format_cell(low)} V, stays between {format_cell(low)} and "
-        f"{format_cell(high)} V, which is shaded, and rises above."
-        + "".join(
-            f" A mark, “{name}”, is at {format_cell(value)} V." for name, value in marks.items()
-        )
+        f"Speed over voltage. It sinks below {to_text(low)} V, stays between {to_text(low)} and "
+        f"{to_text(high)} V, which is shaded, and rises above."
+        + "".join(f" A mark, “{name}”, is at {to_text(value)} V." for name, value in marks.items())
     )
     if here is not None:
-        alt += (
-            f" A star marks {format_cell(here[0])} V, where the speed is {_speed(here[1], symbol)}."
-        )
+        alt += f" A star marks {to_text(here[0])} V, where the speed is {_speed(here[1], symbol)}."
     every = {**marks, "here": here[0]} if here is not None else marks
     rows = tuple((name, value, _where(value, low, high)) for name, value in every.items())
     return Picture(figure, alt, Table(("mark", "voltage [V]", "in the window"), rows))
@@ -105,7 +101,7 @@ def _askew(offset: float) -> _Words:
         "reading [deg]",
         "what the encoder reads [deg]",
         "kG·cos(reading + offset)",
-        f"level, if the offset is {format_cell(offset)}°",
+        f"level, if the offset is {to_text(offset)}°",
     )
 
 
@@ -155,13 +151,13 @@ def hold_angles(
     axes.set_ylabel("voltage [V]", color=INK)
     legend(figure, (axes,))
     alt = (
-        f"The voltages that hold an arm, over its angle: a band of constant width, {format_cell(2 * ks)} "
-        f"V, about a cosine of {format_cell(kg)} V that is largest at {format_cell(level)} degrees: "
-        f"{words.level}. {len(holds)} measured angles have two marks each, the lowest and the "
+        "The voltages that hold an arm, over its angle: a band of constant width, "
+        f"{to_text(2 * ks)} V, about a cosine of {to_text(kg)} V that is largest at "
+        f"{to_text(level)} degrees: {words.level}. {len(holds)} measured angles have two marks each, the lowest and the "
         f"highest voltage that hold it there."
     )
     if here is not None:
-        alt += f" A star marks {format_cell(at)} V at {format_cell(here)} degrees."
+        alt += f" A star marks {to_text(at)} V at {to_text(here)} degrees."
     header = (words.angle, "just does not fall [V]", "just begins to rise [V]", "middle [V]",
               "half the width [V]")  # fmt: skip
     rows = tuple(

@@ -14,7 +14,7 @@ from sim.fit_replay import RunReplay
 from sim.log import Array
 from sim.plot.decimate import decimate_curve
 from sim.plot.picture import COLORS, INK, PAPER, Picture
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 from sim.units import Unit
 
 MOST = 500  # samples of a curve that are drawn: a panel has fewer pixels across
@@ -70,10 +70,10 @@ def describe_run(one: RunReplay, *, per: Unit) -> str:
         f"{run.test}: measured and simulated velocity and position over {_lasts(one):.2f} s, and "
         "beneath them their difference with the band of noise. The voltage goes from "
         f"{run.voltage[0]:.2f} to {run.voltage[-1]:.2f} V; the velocity reaches "
-        f"{format_cell(_farthest(run.velocity) / per.si)} {symbol}/s. While it moves, the simulation "
-        f"misses the velocity by {format_cell(velocity / per.si)} {symbol}/s RMS, "
-        f"{format_cell(velocity / max(one.velocity_noise, 1e-12))} times its noise, and the position by "
-        f"{format_cell(position / per.si)} {symbol} RMS."
+        f"{to_text(_farthest(run.velocity) / per.si)} {symbol}/s. While it moves, the simulation "
+        f"misses the velocity by {to_text(velocity / per.si)} {symbol}/s RMS, "
+        f"{to_text(velocity / max(one.velocity_noise, 1e-12))} times its noise, and the "
+        f"position by {to_text(position / per.si)} {symbol} RMS."
     )
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from sim.errors import BadRequest
 from sim.plot.picture import COLORS, INK, MARKERS, PAPER, REFERENCE, Picture, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 
 SAME = 0.005  # [share] by which a number may differ and still be called the same
 WIDTH = 3.0  # [times] the scale shows at least, so that a small change looks small
@@ -31,7 +31,7 @@ def relative_change(times: Mapping[str, float]) -> Picture:
         axes.plot([1.0, value], [place, place], color=color, linewidth=3.0, alpha=0.6)
         axes.plot(value, place, marker, color=color, markersize=8)
         axes.annotate(
-            f"× {format_cell(value)}", (value, place), xytext=(0, 7), textcoords="offset points",
+            f"× {to_text(value)}", (value, place), xytext=(0, 7), textcoords="offset points",
             ha="center", fontsize=8, color=INK,
             bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},
         )  # fmt: skip
@@ -41,7 +41,7 @@ def relative_change(times: Mapping[str, float]) -> Picture:
     axes.set_xlim(0.0, max(WIDTH, 1.05 * max(times.values())))
     axes.set_xlabel("now ÷ before (dashed line: the same)", color=INK)
     alt = "Dots show numbers after a change, divided by what they were before. " + " ".join(
-        f"{name}: {format_cell(value)} times, {word}." for name, value, word in rows
+        f"{name}: {to_text(value)} times, {word}." for name, value, word in rows
     )
     return Picture(figure, alt, Table(("which", "now ÷ before", "that is"), tuple(rows)))
 

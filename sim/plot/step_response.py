@@ -10,7 +10,7 @@ from sim.feedback_trial import FeedbackTrial, format_gain_pair
 from sim.plot.decimate import decimate_curve
 from sim.plot.measured_vs_simulated import plain_axes, shared_legend
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 from sim.units import Unit
 
 WIDTH, HEIGHT = 7.6, 4.2  # [in]
@@ -89,9 +89,9 @@ def _worth(trial: FeedbackTrial) -> float:
 def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
     """What the picture of some trials shows, a sentence for each."""
     return " ".join(
-        f"{trial.whose.capitalize()} gains of the {trial.loop} loop, {format_gain_pair(trial.gains)}: when the "
-        f"target jumps by {format_cell(trial.response.target)} {_unit(trial.loop, per)}, the loop "
-        f"{trial.verdict.words}."
+        f"{trial.whose.capitalize()} gains of the {trial.loop} loop, "
+        f"{format_gain_pair(trial.gains)}: when the target jumps by {to_text(trial.response.target)} {_unit(trial.loop, per)}, "
+        f"the loop {trial.verdict.words}."
         for trial in tried
     )
 
@@ -100,7 +100,7 @@ def _numbers(tried: Sequence[FeedbackTrial], per: Unit) -> Table:
     rows = tuple(
         (
             f"{trial.loop}, {trial.whose}",
-            f"{format_cell(trial.response.target)} {_unit(trial.loop, per)}",
+            f"{to_text(trial.response.target)} {_unit(trial.loop, per)}",
             _seconds(trial.verdict.reached),
             f"{trial.verdict.overshoot:.0%}",
             _seconds(trial.verdict.settled),

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from sim.errors import BadRequest
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 from sim.reconcile.story import Story, Tried
 from sim.units import unit
 
@@ -147,7 +147,7 @@ def _lengths(axes: Axes, gaps: Sequence[float]) -> None:
 
 
 def _known(value: float) -> str:
-    return format_cell(value) if np.isfinite(value) else "ran away"
+    return to_text(value) if np.isfinite(value) else "ran away"
 
 
 def _beside(axes: Axes, x: float, y: float, text: str) -> None:

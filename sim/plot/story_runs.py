@@ -14,7 +14,7 @@ from sim.log import Array, Run
 from sim.plot.decimate import decimate_curve
 from sim.plot.measured_vs_simulated import BAND, plain_axes, shared_legend
 from sim.plot.picture import COLORS, INK, PAPER, Picture
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 from sim.reconcile.story import Story
 from sim.units import Unit, unit
 
@@ -174,4 +174,4 @@ def _numbers(runs: Sequence[RunOverlay], said: Sequence[str], story: Story) -> T
 
 def _floors(gap: float, noise: float) -> str:
     known = math.isfinite(gap) and noise > 0.0
-    return format_cell(gap / noise) if known else "ran away"
+    return to_text(gap / noise) if known else "ran away"

@@ -37,9 +37,9 @@ class Table:
         )
         body = "".join(
             "<tr>"
-            + _cell("th", format_cell(row[0]), left=True, scope="row")
+            + _cell("th", to_text(row[0]), left=True, scope="row")
             + "".join(
-                _cell("td", format_cell(cell), left=way)
+                _cell("td", to_text(cell), left=way)
                 for cell, way in zip(row[1:], left[1:], strict=True)
             )
             + "</tr>"
@@ -52,7 +52,7 @@ class Table:
 
     def __str__(self) -> str:
         """The table in plain text, columns aligned."""
-        lines = [self.header, *([format_cell(cell) for cell in row] for row in self.rows)]
+        lines = [self.header, *([to_text(cell) for cell in row] for row in self.rows)]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         text = [
             "  ".join(
@@ -90,7 +90,7 @@ def _cell(tag: str, text: str, *, left: bool, scope: str = "col") -> str:
     return f'<th scope="{scope}" style="{style};font-weight:{weight}">{escape(text)}</th>'
 
 
-def format_cell(cell: Cell) -> str:
+def to_text(cell: Cell) -> str:
     """A cell as text: a number with three significant digits, and a true minus sign."""
     if isinstance(cell, str):
         return cell

@@ -18,7 +18,7 @@ from sim.log import DIRECTIONS, KINDS, Array, Log, Run
 from sim.log_features import LogFeatures
 from sim.plot.decimate import decimate_cloud, decimate_curve
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 
 GAP = 1.5  # [median steps] a longer step is a gap: 20 ms loops do end after 21 ms now and then
 HIGHEST = 15.0  # [median steps] the panels are at most this high; what is longer sits at their edge
@@ -110,7 +110,7 @@ def _steps(run: Run, *, median: float) -> _Steps:
 def _draw(axes: Axes, these: Sequence[_Steps], *, median: float, top: float) -> None:
     """Draw the steps of one test."""
     axes.set_ylim(0.0, top)
-    axes.axhline(median, color=REFERENCE, linewidth=1.0, label=f"median, {format_cell(median)} ms")
+    axes.axhline(median, color=REFERENCE, linewidth=1.0, label=f"median, {to_text(median)} ms")
     axes.axhline(
         GAP * median,
         color=REFERENCE,
@@ -166,12 +166,12 @@ def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
     total = sum(one.length.size for one in all_steps)
     gaps = sum(int(one.gaps.sum()) for one in all_steps)
     said = "One panel for each test shows the time from one sample to the next over the time since "
-    said += f"the test began. The median step is {format_cell(median)} ms, a solid line. "
+    said += f"the test began. The median step is {to_text(median)} ms, a solid line. "
     if not gaps:
         longest = max(float(one.length.max()) for one in all_steps)
         return said + (
             f"None of the {total} steps is longer than {GAP:g} times that, a dotted line; the "
-            f"longest is {format_cell(longest)} ms."
+            f"longest is {to_text(longest)} ms."
         )
     said += (
         f"Of {total} steps {gaps}, {_share(gaps, total)}, {'is' if gaps == 1 else 'are'} longer "
@@ -182,7 +182,7 @@ def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
         if not where.size:
             continue
         worst = np.sort(where[np.argsort(one.length[where])[::-1][:TOLD]])
-        told = ", ".join(f"{format_cell(one.length[i])} ms at {one.after[i]:.2f} s" for i in worst)
+        told = ", ".join(f"{to_text(one.length[i])} ms at {one.after[i]:.2f} s" for i in worst)
         only = "" if where.size <= TOLD else f", the {TOLD} longest"
         said += f" {one.run.test} has {where.size}{only}: {told}."
     beyond = sum(int((one.length > top).sum()) for one in all_steps)
@@ -196,7 +196,7 @@ def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
 
 def _share(part: int, total: int) -> str:
     """A share as a percentage, never rounded to nothing."""
-    return f"{format_cell(100.0 * part / total)} %"
+    return f"{to_text(100.0 * part / total)} %"
 
 
 def _table(all_steps: Sequence[_Steps]) -> Table:

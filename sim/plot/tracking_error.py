@@ -8,7 +8,7 @@ import numpy as np
 from sim.errors import BadRequest
 from sim.log import Array
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 
 APART = 0.12  # [share of a panel] between markers
 
@@ -80,11 +80,11 @@ def tracking_error(
     legend(figure, (upper,))
     found = {name: measure_tracking_error(target, velocity) for name, velocity in followers.items()}
     alt = (
-        f"A target velocity over time, between {format_cell(float(np.min(target)))} and "
-        f"{format_cell(float(np.max(target)))} {unit}, and what followed it; below, what each misses. "
+        f"A target velocity over time, between {to_text(float(np.min(target)))} and "
+        f"{to_text(float(np.max(target)))} {unit}, and what followed it; below, what each misses. "
         + " ".join(
-            f"“{name}” misses by {format_cell(one.typical)} {unit} typically and by "
-            f"{format_cell(one.largest)} {unit} at most."
+            f"“{name}” misses by {to_text(one.typical)} {unit} typically and by "
+            f"{to_text(one.largest)} {unit} at most."
             for name, one in found.items()
         )
     )

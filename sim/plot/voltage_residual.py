@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from sim.errors import BadRequest
 from sim.log import Array, Log, Run
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
-from sim.plot.table import Table, format_cell
+from sim.plot.table import Table, to_text
 from sim.units import unit
 
 JUMP = 0.5  # [V] from one sample to the next; a ramp never rises so fast
@@ -155,7 +155,7 @@ def plot_voltage_residual(
     typical = float(np.sqrt(np.mean(lacking**2)))
     told = ", ".join(f"{name} {_percent(view.explains)}" for name, view in found.items())
     alt = (
-        f"{NUMBERS[len(found)]} views of the volts that the simulation lacks, {format_cell(typical)} V "
+        f"{NUMBERS[len(found)]} views of the volts that the simulation lacks, {to_text(typical)} V "
         f"typically: each sample as a pale dot, and the mean of each cell with its error. Of the "
         f"squared volts, the means explain: {told}."
     )

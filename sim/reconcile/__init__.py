@@ -139,7 +139,10 @@ def _once(*several: Sequence[DamagedInterval]) -> tuple[DamagedInterval, ...]:
 
 
 def _fit_base_model(
-    problem: PredictionErrorProblem, log: Log, *, type: str
+    problem: PredictionErrorProblem,
+    log: Log,
+    *,
+    type: str,  # noqa: A002 - the field's own word
 ) -> tuple[PredictionErrorProblem, Estimate]:
     """The best point without effects, and the problem in which it was found.
 

@@ -189,8 +189,8 @@ def _each_once(points: Iterable[Estimate]) -> list[Estimate]:
 
 
 def _begun(
-    problem: PredictionErrorProblem, point: Estimate, effects: Iterable[Effect], evidence: VoltageResidual, seeds: Seeds,
-    *, heavy: bool = False,
+    problem: PredictionErrorProblem, point: Estimate, effects: Iterable[Effect],
+    evidence: VoltageResidual, seeds: Seeds, *, heavy: bool = False,
 ) -> list[list[Begun]]:  # fmt: skip
     """The best start of each effect, with what it promises; the most promising effect first.
 

@@ -41,8 +41,9 @@ BELIED = (
 
 
 def make_findings(
-    problem: PredictionErrorProblem, done: Sequence[SelectionRound], damages: Sequence[DamagedInterval],
-    chapters: Sequence[Chapter], *, left: ResidualSummary, per: Unit,
+    problem: PredictionErrorProblem, done: Sequence[SelectionRound],
+    damages: Sequence[DamagedInterval], chapters: Sequence[Chapter], *,
+    left: ResidualSummary, per: Unit,
 ) -> tuple[Finding, ...]:  # fmt: skip
     """What was missing or wrong: faults first, then effects, the major ones first.
 
@@ -185,8 +186,8 @@ def _fault(one: DamagedInterval, gap: float) -> Finding:
 
 
 def _effect(  # noqa: PLR0917 - two rounds, and what to call them
-    before: SelectionRound, now: SelectionRound, end: SelectionRound, errors: Mapping[str, float], gap_before: float,
-    gap_after: float, *, per: Unit, least: float,
+    before: SelectionRound, now: SelectionRound, end: SelectionRound, errors: Mapping[str, float],
+    gap_before: float, gap_after: float, *, per: Unit, least: float,
 ) -> Finding:  # fmt: skip
     name = now.suspect.effect
     effect = EFFECTS[name]

@@ -72,7 +72,10 @@ class HeldOutLog:
         log = replace(log, units=first.units)  # numbers of one story have one unit
         again = _again(logs)
         return cls(
-            log, PredictionErrorProblem.of(run_records(log, since=_since(logs, name), aside=aside.of(name))),
+            log,
+            PredictionErrorProblem.of(
+                run_records(log, since=_since(logs, name), aside=aside.of(name))
+            ),
             again.get(name, HOW[name]),
             (*(text for other, text in again.items() if other != name), *_said(given)),
             name == "held_out" and name not in again,

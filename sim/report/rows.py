@@ -9,7 +9,7 @@ from sim.feedback import PRESETS, Preset
 from sim.feedback_trial import SUGGESTED, FeedbackTrial, delay_of, try_feedback_gains
 from sim.fit import Fit
 from sim.fit_terminal import format_error
-from sim.plot.table import format_cell
+from sim.plot.table import to_text
 from sim.robot_code_snippet import LANGUAGES, SEASONS, robot_code_snippet, round_to_error
 from sim.units import unit
 
@@ -172,4 +172,4 @@ def _minus(text: str) -> str:
 
 
 def _number(value: float) -> str:
-    return format_cell(value) if math.isfinite(value) else "not known: the simulation ran away"
+    return to_text(value) if math.isfinite(value) else "not known: the simulation ran away"
