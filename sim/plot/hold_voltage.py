@@ -153,8 +153,8 @@ def hold_angles(
     alt = (
         "The voltages that hold an arm, over its angle: a band of constant width, "
         f"{to_text(2 * ks)} V, about a cosine of {to_text(kg)} V that is largest at "
-        f"{to_text(level)} degrees: {words.level}. {len(holds)} measured angles have two marks each, the lowest and the "
-        f"highest voltage that hold it there."
+        f"{to_text(level)} degrees: {words.level}. {len(holds)} measured angles have two "
+        "marks each, the lowest and the highest voltage that hold it there."
     )
     if here is not None:
         alt += f" A star marks {to_text(at)} V at {to_text(here)} degrees."

@@ -6,8 +6,8 @@ Aims: help within 0.2 s, answers that are only read within 0.4 s, exercise 9 wit
 function that fits five logs in a process of its own. The logs of exercises 7, 8 and 12 are drawn by
 the first process and kept (`grader.draw_cache`); only exercise 12 simulates. ``solved`` is an
 answer that earns everything, where that makes the examiner work harder than the file as it comes.
-Processor time is the median, and tells what of the waiting is the machine being busy with other things
-(Windows does not tell it).
+Processor time is the median, and tells what of the waiting is the machine being busy with other
+things (Windows does not tell it).
 """
 
 import os
