@@ -91,7 +91,8 @@ def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
     return " ".join(
         f"{trial.whose.capitalize()} gains of the {trial.loop} loop, "
         f"{format_gain_pair(trial.gains)}: when the target jumps by "
-        f"{to_text(trial.response.target)} {_unit(trial.loop, per)}, the loop {trial.verdict.words}."
+        f"{to_text(trial.response.target)} {_unit(trial.loop, per)}, "
+        f"the loop {trial.verdict.words}."
         for trial in tried
     )
 
