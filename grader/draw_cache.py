@@ -26,7 +26,7 @@ _KEEPING = ContextVar("keeping", default=False)
 
 
 @contextmanager
-def cached_draws() -> Iterator[None]:
+def draw_cache_enabled() -> Iterator[None]:
     """Keep what is drawn, as long as the block lasts."""
     token = _KEEPING.set(True)
     try:
@@ -35,7 +35,7 @@ def cached_draws() -> Iterator[None]:
         _KEEPING.reset(token)
 
 
-def read_draw(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
+def cached_draw(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
     """Look for what was drawn before it is drawn again.
 
     Args:

@@ -8,7 +8,7 @@ import sysconfig
 from pathlib import Path
 
 from grader.course import Progress
-from grader.draw_cache import cached_draws
+from grader.draw_cache import draw_cache_enabled
 from grader.exec_process import INTERRUPTED, run
 from grader.exercise import exercises
 from grader.report import overview
@@ -48,7 +48,7 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     if not engine_is_cached():
         _say("Compiling the simulation, once; this takes about ten seconds…")
         load_engine()
-    with cached_draws():  # what is drawn now, the first answer need not wait for
+    with draw_cache_enabled():  # what is drawn now, the first answer need not wait for
         for one in found:
             one.prepare(student, say=_say)
     command = "grade"

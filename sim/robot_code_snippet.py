@@ -1,7 +1,7 @@
 """What a team pastes into its robot code after a fit: constants, and WPILib's feedforward object.
 
-    from sim.robot_code_snippet import snippet
-    print(snippet(found.in_log_units(), language="java", season=2026, name="left drive"))
+    from sim.robot_code_snippet import robot_code_snippet
+    print(robot_code_snippet(found.in_log_units(), language="java", season=2026, name="left drive"))
 
 What differs between languages and seasons is data below; the text is put together in one way.
 An arm's numbers are always per radian, because WPILib takes the cosine of the angle it is given.

@@ -220,8 +220,8 @@ def test_words_wait_for_no_drawing_library_and_take_little_time(course):
     right = key("exercise3", "me")
     write(course["exercise3"], **(right | {"elevator_kG": 0.0}))
     code = (
-        "import sys, time; from pathlib import Path; from grader.exercise import find\n"
-        "one = find('3', Path.cwd()); grade = one.grade(None, student='me')\n"
+        "import sys, time; from pathlib import Path; from grader.exercise import find_exercise\n"
+        "one = find_exercise('3', Path.cwd()); grade = one.grade(None, student='me')\n"
         "start = time.perf_counter(); found = one.consequence(grade)\n"
         "print(time.perf_counter() - start, 'matplotlib' in sys.modules, 'sinks' in found.words)"
     )

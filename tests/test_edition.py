@@ -17,8 +17,8 @@ CELLS = (
     MARKDOWN("## 1 Why: it is short\n\n```python\n# ## no heading\n```\n\n**V = kS**"),
     CODE("from sim.plot import Table\nprint('1 < 2')\nTable(('gain',), ((0.25,),))"),
     CODE(
-        "import ipywidgets\nfrom sim.teaching.prediction import Guess\n"
-        "display(Guess('Which way?', 'up & left', 'down'))\n"
+        "import ipywidgets\nfrom sim.teaching.prediction import Prediction\n"
+        "display(Prediction('Which way?', 'up & left', 'down'))\n"
         "ipywidgets.VBox([ipywidgets.IntSlider(3, description='ramp'), "
         "ipywidgets.HTML('<b>as drawn</b>')])"
     ),

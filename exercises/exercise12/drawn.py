@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.draw_cache import read_draw
+from grader.draw_cache import cached_draw
 from grader.variant import cache_draws, student_rng
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ class Variant:
 
 
 @cache_draws
-@read_draw
+@cached_draw
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one."""
     from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.draw_cache import read_draw
+from grader.draw_cache import cached_draw
 from grader.variant import cache_draws, student_rng
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Case:
 
 
 @cache_draws
-@read_draw
+@cached_draw
 def draw(student: str) -> tuple[Case, ...]:
     """A learner's logs, always the same ones."""
     rng = student_rng(student, "exercise7")

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from grader.answer import Asked, gains_asked
-from grader.draw_cache import read_draw
+from grader.draw_cache import cached_draw
 from grader.variant import cache_draws, student_rng
 
 from .left import left
@@ -64,7 +64,7 @@ class Variant:
 
 
 @cache_draws
-@read_draw
+@cached_draw
 def draw(student: str) -> Variant:
     """A learner's log, always the same one."""
     rng = student_rng(student, "exercise8")

@@ -169,14 +169,14 @@ def grade_file(
     """Grade an answer, note the score, and show the result; the exit code."""
     from grader.class_package import explain_no_grading, read_class_package  # noqa: PLC0415 - the same
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.draw_cache import cached_draws  # noqa: PLC0415 - the same
+    from grader.draw_cache import draw_cache_enabled  # noqa: PLC0415 - the same
     from grader.report import to_json, to_lines, to_receipt  # noqa: PLC0415 - the same
 
     of_class = read_class_package(folder)
     if of_class and one.personal and of_class.is_for(who):
         show(to_receipt(one, file))
         raise explain_no_grading(one.name, of_class)
-    with cached_draws():
+    with draw_cache_enabled():
         one.prepare(who, say=complain)
         result = one.grade(file, student=who)
     gradable = result.status != "ungradable"

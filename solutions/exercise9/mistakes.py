@@ -213,7 +213,7 @@ ks = kv = ka = Right(0)
     Mistake(
         "the examiner asked for the answer",
         FUNCTION,
-        fitting("from grader.variant import generator"),
+        fitting("from grader.variant import student_rng"),
         "function",
         "No module named 'grader'",
     ),

@@ -22,7 +22,7 @@ Scores = Mapping[str, tuple[float, ...]]  # student -> points for each number
 
 CHECKS = '''"""Three numbers of a fixed log."""
 
-from grader.answer import Asked, Band, number
+from grader.answer import Asked, Band, read_answer_number
 from grader.check import Check, Wrong, check
 from grader.submission import read_answers
 
@@ -38,7 +38,7 @@ def read(path, *, student):
 def _of(name):
     def look(answers):
         asked = Asked(name, KEY[name], "", Band({band}, {band}))
-        if not asked.right(number(answers.get(name), asked)):
+        if not asked.right(read_answer_number(answers.get(name), asked)):
             raise Wrong("outside", hint="Fit once more.")
 
     look.__name__, look.__doc__ = name, f"{{name}} of the log."
