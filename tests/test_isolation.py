@@ -658,7 +658,8 @@ def test_a_child_ends_with_the_process_that_keeps_its_time(tmp_path):
     source = tmp_path / "fit.py"
     source.write_text("import time\ndef fit():\n    time.sleep(3600)\n", encoding="utf-8")
     program = (
-        "import sys; from pathlib import Path; from grader.isolation import Call, Limits, run_functions; "
+        "import sys; from pathlib import Path; "
+        "from grader.isolation import Call, Limits, run_functions; "
         "run_functions(Path(sys.argv[1]), calls=[Call('fit')], limits=Limits(seconds=600))"
     )
     parent = psutil.Popen([sys.executable, "-c", program, str(source)], cwd=ROOT)
