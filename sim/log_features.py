@@ -114,29 +114,29 @@ class LogFeatures:
         return STANDING * top + 3.0 * self.noise
 
     @cached_property
-    def balance(self) -> BaselineModel | None:
+    def baseline(self) -> BaselineModel | None:
         """Which voltage its motion needs, by most of the log; None if the log cannot tell."""
         return fit_baseline(self.log.runs, still=self.still, period=self.period)
 
     @cached_property
     def expected(self) -> tuple[Array, ...]:
         """Per run, (n,) [m/s or rad/s]: the velocity its voltage should bring; () if untold."""
-        if self.balance is None:
+        if self.baseline is None:
             return ()
         return tuple(
-            predict_velocity(run, self.balance, still=self.still) if len(run) else np.zeros(0)
+            predict_velocity(run, self.baseline, still=self.still) if len(run) else np.zeros(0)
             for run in self.log.runs
         )
 
     @cached_property
-    def surprises(self) -> tuple[Anomaly, ...]:
+    def anomalies(self) -> tuple[Anomaly, ...]:
         """Where runs do not go the way their voltage says, in the order of time."""
-        if self.balance is None:
+        if self.baseline is None:
             return ()
         return find_anomalies(
             self.log.runs,
             self.expected,
-            self.balance,
+            self.baseline,
             still=self.still,
             noise=self.noise,
             period=self.period,

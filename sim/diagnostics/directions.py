@@ -63,9 +63,9 @@ def check_directions(clues: LogFeatures) -> list[Doubt]:
 def _line(clues: LogFeatures, way: str) -> _Line | None:
     """The line through a direction's first ramp, gravity and acceleration taken off."""
     runs = [i for i, run in enumerate(clues.log.runs) if run.test == f"quasistatic-{way}"]
-    if not runs or clues.balance is None:
+    if not runs or clues.baseline is None:
         return None
-    run, balance = clues.log.runs[runs[0]], clues.balance
+    run, balance = clues.log.runs[runs[0]], clues.baseline
     if len(run) < FEWEST:
         return None
     sign = 1.0 if way == "forward" else -1.0

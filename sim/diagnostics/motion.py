@@ -135,17 +135,17 @@ def _rising(run: Run) -> int:
 def check_ramp_rate(clues: LogFeatures) -> list[Doubt]:
     """Ramps so fast that the line through their voltages misses kS."""
     ramps = [run for run in clues.log.runs if run.kind == "quasistatic" and len(run) > FEWEST]
-    if clues.balance is None or not ramps:
+    if clues.baseline is None or not ramps:
         return []
     rate = float(np.median([_rate(run) for run in ramps]))
-    shift = clues.balance.timescale * rate
+    shift = clues.baseline.timescale * rate
     if shift < INTERCEPT:
         return []
     return [
         Doubt(
             "fast-ramp",
             f"The ramp rises by {rate:.2g} V/s on a mechanism with a timescale of "
-            f"{clues.balance.timescale:.2g} s: a line drawn through voltage over velocity meets "
+            f"{clues.baseline.timescale:.2g} s: a line drawn through voltage over velocity meets "
             f"the axis {shift:.2f} V above kS. SysId is not fooled, a ruler is; halve the ramp.",
         )
     ]

@@ -85,12 +85,12 @@ def check_velocity_scale(clues: LogFeatures) -> list[Doubt]:
 def check_plausible_speed(clues: LogFeatures) -> list[Doubt]:
     """A length that nothing on a robot covers in a second."""
     per = unit(clues.log.units)
-    if clues.balance is None or per.angular or FULL / clues.balance.kv <= FASTEST:
+    if clues.baseline is None or per.angular or FULL / clues.baseline.kv <= FASTEST:
         return []
     return [
         Doubt(
             "too-fast",
-            f"At {FULL:g} V it would go {FULL / clues.balance.kv:.3g} m/s: its position is hardly "
+            f"At {FULL:g} V it would go {FULL / clues.baseline.kv:.3g} m/s: its position is hardly "
             f"in {per.name}. Say --units radians, rotations or degrees, whichever it is.",
         )
     ]

@@ -42,12 +42,12 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     lasts = CUT * blow.severity * rng.uniform(0.9, 1.1)
     end = start + min(lasts, (float(run.time[-1]) - start) / 2.0)
     cut = (run.time >= start) & (run.time < end)
-    if clues.balance is None or not cut.any():
+    if clues.baseline is None or not cut.any():
         return Spoilt(log, ())
     first = int(np.argmax(cut))
     velocity = clues.expected[blow.run][first]
     as_it_was, without = (
-        clues.balance.replay(run, voltage=volts, first=first, last=len(run), velocity=velocity)
+        clues.baseline.replay(run, voltage=volts, first=first, last=len(run), velocity=velocity)
         for volts in (run.voltage, np.where(cut, 0.0, run.voltage))
     )
     moves = np.abs(as_it_was) > clues.still
@@ -64,7 +64,7 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
 
 def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find surprises that a cut of the whole voltage explains."""
-    for surprise in clues.surprises:
+    for surprise in clues.anomalies:
         if surprise.again:
             continue
         share, first, last = _best(clues, surprise)
@@ -120,7 +120,7 @@ def _best(clues: LogFeatures, surprise: Anomaly) -> tuple[float, int, int]:
 
 def _share(clues: LogFeatures, surprise: Anomaly, first: int, last: int) -> float:
     """How much a cut of these samples of the run explains."""
-    run, balance = clues.log.runs[surprise.run], clues.balance
+    run, balance = clues.log.runs[surprise.run], clues.baseline
     if balance is None:
         return 0.0
     volts = run.voltage.copy()

@@ -139,7 +139,7 @@ class _Shape:
 
 def _clipped(clues: LogFeatures, index: int, *, keeps: float) -> Run | None:
     """The run with a start that keeps a share of its acceleration; None if it has no step."""
-    run, balance = clues.log.runs[index], clues.balance
+    run, balance = clues.log.runs[index], clues.baseline
     driven = np.flatnonzero(np.abs(run.voltage) > DRIVEN * np.abs(run.voltage).max(initial=0.0))
     if balance is None or driven.size < FEWEST:
         return None
@@ -193,7 +193,7 @@ def _step(run: Run) -> int | None:
 
 def _start(clues: LogFeatures, index: int, first: int) -> _Start | None:
     """The part of a test that tells how it starts."""
-    run, balance = clues.log.runs[index], clues.balance
+    run, balance = clues.log.runs[index], clues.baseline
     if balance is None:
         return None
     lasts = min(WIDE * balance.timescale, LONGEST)

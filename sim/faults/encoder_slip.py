@@ -58,7 +58,7 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
 
 def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find surprises that a share of the speed explains, which goes and comes back at once."""
-    for surprise in clues.surprises:
+    for surprise in clues.anomalies:
         if surprise.again:
             continue
         share, loss, first, last = _best(surprise, clues.period)

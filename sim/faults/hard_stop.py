@@ -124,7 +124,7 @@ def _at_once(run: Run, impact: int, *, speed: float, still: float) -> bool:
 
 def _leaning(clues: LogFeatures) -> Iterable[Damage]:
     """Find runs that begin pressed onto a stop which gives, and come off it too late."""
-    balance = clues.balance
+    balance = clues.baseline
     if balance is None or clues.log.type == "simple":
         return
     positions = np.concatenate([run.position for run in clues.log.runs])

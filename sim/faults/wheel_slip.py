@@ -55,7 +55,7 @@ CAUTION = 0.8  # [share of the voltage that still held] for the next step
 def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     """Let the wheels of a step break loose; where the blow falls, the step decides."""
     clues = LogFeatures(log)
-    run, balance = log.runs[blow.run], clues.balance
+    run, balance = log.runs[blow.run], clues.baseline
     held = HELD ** (blow.severity * rng.uniform(0.9, 1.1))
     if balance is None:
         return Spoilt(log, ())
@@ -101,13 +101,13 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
 
 def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Find steps that a surge and a lull explain better than any plain rise."""
-    if clues.balance is None or clues.log.type not in ("", *FAULT.types):
+    if clues.baseline is None or clues.log.type not in ("", *FAULT.types):
         return
     for index, run in enumerate(clues.log.runs):
         if run.kind != "dynamic" or len(run) < FEWEST:
             continue
         first = _step(run)
-        lasts = max(LASTS * clues.balance.timescale, LEAST * clues.period)
+        lasts = max(LASTS * clues.baseline.timescale, LEAST * clues.period)
         end = int(np.searchsorted(run.time, run.time[first] + lasts))
         if end - first < FEWEST:
             continue
@@ -117,8 +117,8 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
         rise = _Rise(
             np.abs(run.velocity[part]),
             run.time[part] - run.time[first],
-            _push(run, clues.balance)[part],
-            clues.balance.timescale,
+            _push(run, clues.baseline)[part],
+            clues.baseline.timescale,
         )
         plain = min(rise.fit(ALL)[0], rise.fit_limited())
         if plain <= CLEAR * float(rise.speed.max()):

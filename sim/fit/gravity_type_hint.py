@@ -47,5 +47,5 @@ def _left(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noq
         return float("inf")
     guess = clamp_to_physical(guess, period=problem.period)
     # with gravity it may lean on a stop, which no model has
-    other = replace(problem, type=type, seen=measure_runs(log, friction=guess["kS"]))
+    other = replace(problem, type=type, runs=measure_runs(log, friction=guess["kS"]))
     return replay_open_loop(other, fit_tracking(other, guess)).rmse

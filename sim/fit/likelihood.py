@@ -33,7 +33,7 @@ POSITIVE = ("kV", "kA")
 
 
 def _unasked() -> Array:
-    """What nobody has asked for yet."""
+    """Jacobian not computed yet."""
     return np.empty((0, 0))
 
 
@@ -43,26 +43,27 @@ class Estimate:
 
     Args:
         values: name -> value.
-        starts: (runs,) [unit] true position at a run's first sample, less the one seen there.
-        q: size of what pushes at random.
-        trust: (2, 2) by how much a measurement corrects, which follows from values and q.
-        ahead: (n, 2) innovations.
-        spread: (2, 2) their covariance, never quite nothing.
+        position_offsets: (runs,) [unit] true position at a run's first sample, minus the measured
+            one.
+        process_noise: size of the random disturbance.
+        kalman_gain: (2, 2) by how much a measurement corrects, which follows from values and q.
+        innovations: (n, 2) innovations.
+        innovation_cov: (2, 2) their covariance, never quite nothing.
         cost: -2 log L, up to a constant.
-        slopes: (2 n, values + runs) by how much the white innovations change with values and
+        jacobian: (2 n, values + runs) by how much the white innovations change with values and
             starts, here or close by; none until it is asked.
         fine: whether those are of this very point, and from both sides.
         begun: (n, 2) by how much the innovations of each run change with its own start.
     """
 
     values: Mapping[str, float]
-    starts: Array
-    q: float
-    trust: Array
-    ahead: Array
-    spread: Array
+    position_offsets: Array
+    process_noise: float
+    kalman_gain: Array
+    innovations: Array
+    innovation_cov: Array
     cost: float
-    slopes: Array = field(default_factory=_unasked)
+    jacobian: Array = field(default_factory=_unasked)
     fine: bool = False
     begun: Array = field(default_factory=_unasked)
 
@@ -73,14 +74,14 @@ class PredictionErrorProblem:
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
-        seen: the runs.
+        runs: the runs.
         noise: of the measurements, measured without a model.
         period: [s] between samples.
         held: names of values that are not searched.
     """
 
     type: str
-    seen: tuple[RunMeasurements, ...]
+    runs: tuple[RunMeasurements, ...]
     noise: SensorNoise
     period: float
     held: tuple[str, ...] = ()
@@ -108,9 +109,9 @@ class PredictionErrorProblem:
         def one(run: RunMeasurements, start: float) -> Array:
             return run_innovations(model, run, start=start, trust=trust)
 
-        if sum(run.time.size for run in self.seen) > LARGE:  # compiled code runs beside other
-            return np.concatenate(list(_threads().map(one, self.seen, starts.tolist())))
-        return np.concatenate(list(map(one, self.seen, starts.tolist())))
+        if sum(run.time.size for run in self.runs) > LARGE:  # compiled code runs beside other
+            return np.concatenate(list(_threads().map(one, self.runs, starts.tolist())))
+        return np.concatenate(list(map(one, self.runs, starts.tolist())))
 
     def without_strays(self, point: Estimate) -> "PredictionErrorProblem":
         """The same without the samples that no noise explains, and those around them.
@@ -118,13 +119,13 @@ class PredictionErrorProblem:
         A stop that was hit, a tooth that slipped, a voltage that was not applied: one such moment
         may weigh more than all the rest. Their measurements still keep the simulation on course.
         """
-        there = ~np.isnan(point.ahead).all(axis=0)
+        there = ~np.isnan(point.innovations).all(axis=0)
         size = np.full(2, math.inf)
-        size[there] = ROBUST * np.nanmedian(np.abs(point.ahead[:, there]), axis=0)
-        strays = np.abs(point.ahead) > STRAY * np.maximum(size, self.noise.grain)
+        size[there] = ROBUST * np.nanmedian(np.abs(point.innovations[:, there]), axis=0)
+        strays = np.abs(point.innovations) > STRAY * np.maximum(size, self.noise.grain)
         far = strays[:, 0] | strays[:, 1]
         kept, first = [], 0
-        for run in self.seen:
+        for run in self.runs:
             mine = far[first : first + run.time.size].copy()
             first += run.time.size
             # a start is what shows inertia: there a stray is more likely the model's
@@ -133,9 +134,9 @@ class PredictionErrorProblem:
             wide = np.convolve(mine, np.ones(2 * AROUND_STRAY + 1), mode="same") > 0.0
             kept.append(replace(run, telling=run.telling & ~wide[: run.time.size]))
         same = all(
-            np.array_equal(a.telling, b.telling) for a, b in zip(kept, self.seen, strict=True)
+            np.array_equal(a.telling, b.telling) for a, b in zip(kept, self.runs, strict=True)
         )
-        return self if same else replace(self, seen=tuple(kept))
+        return self if same else replace(self, runs=tuple(kept))
 
     def sloped(self, point: Estimate, *, fine: bool = False, starts: bool = True) -> Estimate:
         """The point with its slopes.
@@ -152,12 +153,12 @@ class PredictionErrorProblem:
             again = fine or not begun.size or self.type == "arm"
             begun = self._by_start(point) if again else begun
             parts += self._apart(begun)
-        return replace(point, slopes=whiten(point, np.stack(parts)).T, fine=fine, begun=begun)
+        return replace(point, jacobian=whiten(point, np.stack(parts)).T, fine=fine, begun=begun)
 
     def _apart(self, begun: Array) -> Iterator[Array]:
         """(n, 2) for each run: what its own start does, and nothing elsewhere."""
         first = 0
-        for run in self.seen:
+        for run in self.runs:
             part = np.zeros_like(begun)
             mine = slice(first, first + run.time.size)
             part[mine] = begun[mine]
@@ -166,22 +167,26 @@ class PredictionErrorProblem:
 
     def _by_value(self, point: Estimate, name: str, *, fine: bool) -> Array:
         if name in self.held:
-            return np.zeros_like(point.ahead)
+            return np.zeros_like(point.innovations)
         value = point.values[name]
         step = NUDGE * max(abs(value), LEAST.get(name, 0.0))
         model = model_from_values(self.type, {**point.values, name: value + step})
-        more = self._ahead(model, point.starts, point.trust)
+        more = self._ahead(model, point.position_offsets, point.kalman_gain)
         if not fine or value - step < FLOOR.get(name, -math.inf):
-            return np.asarray((more - point.ahead) / step)
+            return np.asarray((more - point.innovations) / step)
         model = model_from_values(self.type, {**point.values, name: value - step})
-        return np.asarray((more - self._ahead(model, point.starts, point.trust)) / (2.0 * step))
+        return np.asarray(
+            (more - self._ahead(model, point.position_offsets, point.kalman_gain)) / (2.0 * step)
+        )
 
     def _by_start(self, point: Estimate) -> Array:
         step = self.noise.position
         moved = self._ahead(
-            model_from_values(self.type, point.values), point.starts + step, point.trust
+            model_from_values(self.type, point.values),
+            point.position_offsets + step,
+            point.kalman_gain,
         )
-        return np.asarray((moved - point.ahead) / step)
+        return np.asarray((moved - point.innovations) / step)
 
     def _spread(self, ahead: Array) -> tuple[Array, int]:
         """(2, 2) covariance of innovations, and how many samples were measured at all."""
@@ -211,5 +216,5 @@ def _threads() -> ThreadPoolExecutor:
 
 def whiten(point: Estimate, table: Array) -> Array:
     """(..., 2 n) of (..., n, 2) positions and velocities, independent and of size one."""
-    inverse = np.linalg.inv(np.linalg.cholesky(point.spread))
+    inverse = np.linalg.inv(np.linalg.cholesky(point.innovation_cov))
     return np.asarray((np.nan_to_num(table) @ inverse.T).reshape(*table.shape[:-2], -1))

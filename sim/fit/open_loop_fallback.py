@@ -102,7 +102,7 @@ def replay_open_loop(
     """
     model = model_from_values(problem.type, point.values)
     seen, errors, moving, changes = [], [], [], []
-    for run in problem.seen:
+    for run in problem.runs:
         state = State.at(run.position, run.velocity)
         track = move(model, time=run.time, voltage=run.voltage, state=state)
         fresh = ~np.isnan(run.measured[:, 1])
@@ -135,14 +135,14 @@ def fit_velocity_only(
         All as they were if the model holds, or if nothing comes closer; and if the likeliest point
         is pardoned next to nothing, for then it is a simulation already, of the position too.
     """
-    if point.q <= ANEW * problem.noise.velocity**2 or not before.strays:
+    if point.process_noise <= ANEW * problem.noise.velocity**2 or not before.strays:
         return problem, point, before
     seen = []
-    for run in problem.seen:
+    for run in problem.runs:
         measured = run.measured.copy()
         measured[:, 0] = np.nan
         seen.append(replace(run, measured=measured))
-    blind = replace(problem, seen=tuple(seen), held=LAGS)
+    blind = replace(problem, runs=tuple(seen), held=LAGS)
     found = levenberg_marquardt(
         blind, blind.at(point.values, np.zeros(len(seen)), 0.0), steps=STEPS, enough=0.01
     )
@@ -155,7 +155,7 @@ def needs_large_process_noise(
     problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
 ) -> bool:
     """Whether a model that does not stray needs more pardon than one that holds."""
-    return not followed.strays and point.q > HOLDS * problem.noise.velocity**2
+    return not followed.strays and point.process_noise > HOLDS * problem.noise.velocity**2
 
 
 def correlated_error_covariance(
@@ -172,11 +172,11 @@ def correlated_error_covariance(
         point: the best point, with fine slopes.
         followed: how it follows.
     """
-    lacks = point.q > EXACT * problem.noise.velocity**2
+    lacks = point.process_noise > EXACT * problem.noise.velocity**2
     if followed.strays or lacks:
         yield _by_whiles(problem, point)
     if lacks and not followed.strays:
-        alone = problem.at(point.values, point.starts, DEEP * problem.noise.velocity**2)
+        alone = problem.at(point.values, point.position_offsets, DEEP * problem.noise.velocity**2)
         yield _by_whiles(problem, problem.sloped(alone))
 
 
@@ -186,7 +186,7 @@ def _by_whiles(problem: PredictionErrorProblem, point: Estimate) -> Array:
     Source: the sandwich of White (1980).
     """
     count = len(point.values)
-    table, rest = point.slopes, whiten(point, point.ahead)
+    table, rest = point.jacobian, whiten(point, point.innovations)
     whiles = np.repeat(_whiles(problem), 2)  # two measurements to a sample
     scores = np.zeros((int(whiles.max()) + 1, table.shape[1]))
     np.add.at(scores, whiles, table * rest[:, None])
@@ -197,7 +197,7 @@ def _by_whiles(problem: PredictionErrorProblem, point: Estimate) -> Array:
 def _whiles(problem: PredictionErrorProblem) -> NDArray[np.int_]:
     """(n,) which while a sample lies in, counted through all runs."""
     parts, first = [], 0
-    for run in problem.seen:
+    for run in problem.runs:
         parts.append(first + ((run.time - run.time[0]) // TOGETHER).astype(int))
         first = int(parts[-1][-1]) + 1
     return np.concatenate(parts)

@@ -48,7 +48,7 @@ def fit_tracking(problem: PredictionErrorProblem, values: Mapping[str, float]) -
         The point; where nothing can be simulated from the guess, the guess, at an infinite cost.
     """
     q = ANEW * problem.noise.velocity**2
-    point = problem.at(values, np.zeros(len(problem.seen)), q)
+    point = problem.at(values, np.zeros(len(problem.runs)), q)
     if not math.isfinite(point.cost):
         return point
     return levenberg_marquardt(problem, point, steps=STEPS, enough=5.0, starts=False)
@@ -62,16 +62,16 @@ def fit_open_loop(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     the far end is tried first. Failing that less and less is pardoned, as long as that is likelier.
     """
     size = problem.noise.velocity**2
-    deep = problem.at(point.values, point.starts, DEEP * size)
+    deep = problem.at(point.values, point.position_offsets, DEEP * size)
     deep = levenberg_marquardt(problem, deep, steps=STEPS, enough=0.05, goal=point.cost)
     if deep.cost < point.cost:
-        others = [problem.at(deep.values, deep.starts, q * size) for q in BETWEEN]
+        others = [problem.at(deep.values, deep.position_offsets, q * size) for q in BETWEEN]
         best = _with_best_process_noise(problem, min(deep, *others, key=lambda one: one.cost))
         return (
             best if best is deep else levenberg_marquardt(problem, best, steps=STEPS, enough=0.05)
         )
     for _ in range(FARTHEST):
-        other = problem.at(point.values, point.starts, point.q / COARSE)
+        other = problem.at(point.values, point.position_offsets, point.process_noise / COARSE)
         other = levenberg_marquardt(problem, other, steps=1, enough=1.0)
         if not other.cost < point.cost - 0.5:
             break
@@ -91,7 +91,7 @@ def predicted_improvement(
         point: a best point, with slopes.
         more: values to add, one set after another.
     """
-    table = point.slopes
+    table = point.jacobian
     size = np.linalg.norm(table, axis=0)
     size[size == 0.0] = 1.0
     adjusts = np.linalg.pinv(table.T @ table / np.outer(size, size), HARDLY, hermitian=True)
@@ -101,9 +101,12 @@ def predicted_improvement(
         slope = table.T @ rest / size
         return float(rest @ rest - slope @ adjusts @ slope)
 
-    now = left(point.ahead)
-    tried = (problem.at({**point.values, **one}, point.starts, point.q) for one in more)
-    return np.array([now - left(other.ahead) for other in tried])
+    now = left(point.innovations)
+    tried = (
+        problem.at({**point.values, **one}, point.position_offsets, point.process_noise)
+        for one in more
+    )
+    return np.array([now - left(other.innovations) for other in tried])
 
 
 def refine(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -114,10 +117,10 @@ def refine(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 def _with_best_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The same values at the likeliest q, to a factor of ``FINE``."""
     for way in (FINE, 1.0 / FINE):
-        other = problem.at(point.values, point.starts, point.q * way)
+        other = problem.at(point.values, point.position_offsets, point.process_noise * way)
         while other.cost < point.cost - 0.5:
             point = other
-            other = problem.at(point.values, point.starts, point.q * way)
+            other = problem.at(point.values, point.position_offsets, point.process_noise * way)
     return point
 
 
@@ -131,7 +134,7 @@ def estimate_covariance(
         point: the best point, with fine slopes.
         starts: whether to add rows and columns for them.
     """
-    columns = point.slopes
+    columns = point.jacobian
     square = columns.T @ columns + np.diag(_prior_information(problem, point))
     size = np.sqrt(np.maximum(np.diag(square), 1e-100))
     told, ways = np.linalg.eigh(square / np.outer(size, size))
@@ -159,14 +162,16 @@ def levenberg_marquardt(
     damping = DAMPING
     for _ in range(steps):
         point = problem.sloped(point, starts=starts)
-        table, rest = point.slopes, whiten(point, point.ahead)
+        table, rest = point.jacobian, whiten(point, point.innovations)
         size = np.linalg.norm(table, axis=0)
         size[size == 0.0] = 1.0
         beside = _prior_information(problem, point)[: size.size] / size**2
         square = (table.T @ table) / np.outer(size, size) + np.diag(beside)
         slope = table.T @ rest / size
         if starts:
-            slope[len(point.values) :] += (beside * size)[len(point.values) :] * point.starts
+            slope[len(point.values) :] += (beside * size)[
+                len(point.values) :
+            ] * point.position_offsets
         before = point
         for _ in range(TRIALS):
             way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
@@ -189,11 +194,11 @@ def _try_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Es
     """The point after a step, if that is better; its slopes are still about right."""
     count = len(point.values)
     by = by * _step_limit(point.values, by)
-    starts = point.starts + by[count:] if by.size > count else point.starts
-    moved = problem.at(_take_step(point.values, by), starts, point.q)
+    starts = point.position_offsets + by[count:] if by.size > count else point.position_offsets
+    moved = problem.at(_take_step(point.values, by), starts, point.process_noise)
     if not moved.cost < point.cost:
         return point
-    return replace(moved, slopes=point.slopes, begun=point.begun)
+    return replace(moved, jacobian=point.jacobian, begun=point.begun)
 
 
 def _step_limit(values: Mapping[str, float], by: Array) -> float:
@@ -217,7 +222,7 @@ def _converged_far_from_goal(point: Estimate, foretold: float, rest: Array, goal
 
 def _prior_information(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(values + runs,) what is known of each beside the measurements: 1/variance."""
-    return np.repeat([0.0, problem.aside**-2.0], [len(point.values), point.starts.size])
+    return np.repeat([0.0, problem.aside**-2.0], [len(point.values), point.position_offsets.size])
 
 
 def _take_step(values: Mapping[str, float], by: Array) -> dict[str, float]:

@@ -118,7 +118,7 @@ def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     seen = measure_runs(log, friction=None if type == "simple" else begin["kS"])
     problem = PredictionErrorProblem(type, seen, estimate_noise(seen), _period(seen))
     plain = fit_tracking(problem, begin)
-    if not math.isfinite(plain.cost) or np.isnan(plain.ahead).all():
+    if not math.isfinite(plain.cost) or np.isnan(plain.innovations).all():
         raise _nonsense(log)
     problem, likeliest, followed = _best(problem, plain)
     searched, point, followed = fit_velocity_only(problem, likeliest, followed)
@@ -127,9 +127,9 @@ def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     gains, errors = _gains(point, estimate_covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
     # unknown is refused
-    share = searched.noise.velocity / float(np.sqrt(point.spread[1, 1]))
+    share = searched.noise.velocity / float(np.sqrt(point.innovation_cov[1, 1]))
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
-    if type == "elevator" and not moves_both_ways(searched.seen):
+    if type == "elevator" and not moves_both_ways(searched.runs):
         least |= {"kS": math.inf, "kG": math.inf}
     hint = hint_gravity_type(log, problem, followed)
     refuse_unidentifiable(gains, least, log=log, type=type, hint=hint)
@@ -167,7 +167,10 @@ def _best(
         return problem, found, followed
 
     def settle(problem: PredictionErrorProblem, values: Mapping[str, float]) -> Estimate:
-        return fit_open_loop(problem, refine(problem, problem.at(values, found.starts, found.q)))
+        return fit_open_loop(
+            problem,
+            refine(problem, problem.at(values, found.position_offsets, found.process_noise)),
+        )
 
     found = problem.sloped(found, fine=True)
     best = _with_lags(problem, found, SHORT_LAGS, settle=settle)
@@ -273,6 +276,6 @@ def _used(log: Log, problem: PredictionErrorProblem) -> dict[str, int]:
     """Test -> samples in motion that were compared."""
     counts: dict[str, int] = {}
     long = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - as ``see`` has it
-    for run, part in zip(long, problem.seen, strict=True):
+    for run, part in zip(long, problem.runs, strict=True):
         counts[run.test] = counts.get(run.test, 0) + int(part.moving.sum())
     return counts

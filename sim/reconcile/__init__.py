@@ -82,13 +82,13 @@ def reconcile(
         )
     problem, base, slipped = _without_slips(problem, base)
     done = select_effects(
-        problem, base, both, make_folds([one.session for one in problem.lanes]), progress
+        problem, base, both, make_folds([one.session for one in problem.records]), progress
     )
     progress("what remains", 0.9)
     shown = HeldOutLog.of({"log": log, "validation": validation, "held_out": held_out}, aside)
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
-    last = done[-1].suspect.point
+    last = done[-1].candidate.point
     left = ResidualSummary.by(problem, last)
     findings = make_findings(
         problem, done, _once(slipped, aside.found), chapters, left=left, per=unit(log.units)
@@ -122,11 +122,11 @@ def _without_slips(
     found = list(detect_slips(problem, base))
     if not found:
         return problem, base, ()
-    runs = list(problem.lanes)
+    runs = list(problem.records)
     for number, one in found:
         runs[number] = runs[number].without(ExcludedInterval(number, one.start, one.end))
-    mended = replace(problem, lanes=tuple(runs))
-    begin = mended.at(base.hypothesis, base.values, base.outset, base.q)
+    mended = replace(problem, records=tuple(runs))
+    begin = mended.at(base.structure, base.values, base.nuisance, base.process_noise)
     return mended, minimize(mended, scan_process_noise(mended, begin)), (found[0][1],)
 
 
@@ -161,17 +161,17 @@ def _fit_base_model(
 
 def _lost(problem: PredictionErrorProblem, base: Estimate) -> float:
     """[1] of the motion that a point misses."""
-    gap = rms_gap(open_loop_errors(problem, base, base.outset)).velocity
+    gap = rms_gap(open_loop_errors(problem, base, base.nuisance)).velocity
     return missed_motion(gap / problem.noise.velocity, problem)
 
 
 def _base(problem: PredictionErrorProblem, log: Log, *, type: str) -> Estimate:  # noqa: A002 - as above
     """The best point without effects."""
     guess = clamp_to_physical(first_guess(log, type=type))
-    hypothesis = ModelStructure(type)
-    values = {name: guess[name] for name in hypothesis.names}
+    structure = ModelStructure(type)
+    values = {name: guess[name] for name in structure.names}
     begin = problem.at(
-        hypothesis, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
+        structure, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
     )
     return minimize_fully(
         problem,

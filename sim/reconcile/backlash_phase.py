@@ -30,10 +30,10 @@ def estimate_backlash_phase(
         point: with free play or without.
         aside: only the two sides are tried, for a quick look.
     """
-    if not point.hypothesis.plays or not math.isfinite(point.cost):
+    if not point.structure.plays or not math.isfinite(point.cost):
         return point
-    before = point.outset.meshed
-    if not point.outset.is_meshed:
+    before = point.nuisance.backlash_phase
+    if not point.nuisance.is_meshed:
         places = PLACES[:: len(PLACES) - 1] if aside else PLACES
         others = [np.full(before.size, place) for place in places]
     else:
@@ -41,16 +41,16 @@ def estimate_backlash_phase(
             np.where(np.isnan(before), math.copysign(1.0, by), np.clip(before + by, -1.0, 1.0))
             for by in (-FINER, FINER)
         ]
-    model = point.hypothesis.model(point.values)
-    costs = [_costs(problem, point, point.ahead, before)]
+    model = point.structure.model(point.values)
+    costs = [_costs(problem, point, point.innovations, before)]
     for each in others:
-        ahead = problem.ahead(model, point.outset.meshing(each), point.trust)
+        ahead = problem.ahead(model, point.nuisance.meshing(each), point.kalman_gain)
         costs.append(_costs(problem, point, ahead, each))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
     if not chosen.any():
         return point
-    outset = point.outset.meshing(tried[chosen, np.arange(before.size)])
-    found = problem.at(point.hypothesis, point.values, outset, point.q)
+    nuisance = point.nuisance.meshing(tried[chosen, np.arange(before.size)])
+    found = problem.at(point.structure, point.values, nuisance, point.process_noise)
     return (
         found
         if found.cost + backlash_phase_prior(found) < point.cost + backlash_phase_prior(point)
@@ -60,10 +60,10 @@ def estimate_backlash_phase(
 
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """Half the play, and each run begun in it anew: as much of it may be crossed as before."""
-    slacks = {name: 0.5 * point.values[name] for name in point.hypothesis.slacks}
+    slacks = {name: 0.5 * point.values[name] for name in point.structure.slacks}
     values = {**point.values, **slacks}
     return estimate_backlash_phase(
-        problem, problem.at(point.hypothesis, values, point.outset.unmeshed, point.q)
+        problem, problem.at(point.structure, values, point.nuisance.unmeshed, point.process_noise)
     )
 
 
@@ -76,7 +76,7 @@ def _costs(problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshe
 
 def backlash_phase_prior(point: Estimate) -> float:
     """[of -2 log L] of what was told of where its runs began."""
-    return float(np.sum(_prices(point.outset.meshed)))
+    return float(np.sum(_prices(point.nuisance.backlash_phase)))
 
 
 def _prices(meshed: Array) -> Array:

@@ -32,12 +32,12 @@ def replace_effects(
     """The same, with an earlier effect in another's place where that is likelier by now."""
     last = done[-1]
     for place in range(1, len(done) - 1):
-        effect = done[place].suspect.effect
+        effect = done[place].candidate.effect
         others = _others(done, place)
         if not others:
             continue
-        reduced = refit_without(problem, last.suspect, effect)
-        if reduced.score - last.suspect.score < required_improvement(
+        reduced = refit_without(problem, last.candidate, effect)
+        if reduced.score - last.candidate.score < required_improvement(
             effect
         ):  # it has become needless
             gap = validation_gap(problem, reduced.point, parts)
@@ -46,14 +46,16 @@ def replace_effects(
             rest = [*done[:place], *done[place + 1 : -1]]
             return [
                 *rest,
-                replace(last, suspect=replace(reduced, effect=last.suspect.effect), gap=gap),
+                replace(last, candidate=replace(reduced, effect=last.candidate.effect), gap=gap),
             ]
-        model = reduced.point.hypothesis.model(reduced.point.values)
+        model = reduced.point.structure.model(reduced.point.values)
         evidence = compute_voltage_residual(
-            log, dict(model.gains), type=reduced.point.hypothesis.type
+            log, dict(model.gains), type=reduced.point.structure.type
         )
         found = rank_candidates(problem, reduced.point, evidence, only=others, seeds=last.seeds)
-        if not found or score_improvement(last.suspect, found[0]) < _clear(effect, found[0].effect):
+        if not found or score_improvement(last.candidate, found[0]) < _clear(
+            effect, found[0].effect
+        ):
             continue
         gap = validation_gap(problem, found[0].point, parts)
         if rejection_reason(gap, last.gap, SURER) == WIDENS:
@@ -77,19 +79,19 @@ def simplify_effects(
     """
     for place in range(1, len(done)):
         last = done[-1]
-        effect = done[place].suspect.effect
-        had = last.suspect.point.hypothesis.effects  # those that nobody names among them
+        effect = done[place].candidate.effect
+        had = last.candidate.point.structure.effects  # those that nobody names among them
         names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []
-        model = last.suspect.point.hypothesis.model(last.suspect.point.values)
+        model = last.candidate.point.structure.model(last.candidate.point.values)
         evidence = compute_voltage_residual(
-            log, dict(model.gains), type=last.suspect.point.hypothesis.type
+            log, dict(model.gains), type=last.candidate.point.structure.type
         )
-        begun = simplify_effect(problem, last.suspect.point, names, evidence, effect=effect)
+        begun = simplify_effect(problem, last.candidate.point, names, evidence, effect=effect)
         if begun is None or not math.isfinite(begun.cost):
             continue
-        found = score_estimate(problem, minimize(problem, begun), begun.hypothesis.effects[-1])
+        found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
         gap = validation_gap(problem, found.point, parts)
-        as_good = found.score - last.suspect.score <= SIMPLER
+        as_good = found.score - last.candidate.score <= SIMPLER
         if as_good and rejection_reason(gap, last.gap, SURER) != WIDENS:
             done = _replaced(done, place, found, gap)
     return done
@@ -97,8 +99,8 @@ def simplify_effects(
 
 def _others(done: Sequence[SelectionRound], place: int) -> list[str]:
     """Effects that looked like one that was added, or are known to."""
-    effect = done[place].suspect.effect
-    had = {one.suspect.effect for one in done}
+    effect = done[place].candidate.effect
+    had = {one.candidate.effect for one in done}
     tried = done[place - 1].tried
     best = max((one.score for one in tried), default=0.0)
     alike = [one.effect for one in tried if one.score > ALIKE * best]
@@ -112,34 +114,34 @@ def _replaced(
     last = done[-1]
     old = done[place]
     if old is last:
-        return [*done[:place], replace(last, suspect=found, gap=gap, rivals=())]
-    swapped = replace(old.suspect, effect=found.effect)
-    middle = [*done[:place], replace(old, suspect=swapped, rivals=()), *done[place + 1 : -1]]
-    end = replace(found, effect=last.suspect.effect)
-    return [*middle, replace(last, suspect=end, gap=gap, rivals=())]
+        return [*done[:place], replace(last, candidate=found, gap=gap, rivals=())]
+    swapped = replace(old.candidate, effect=found.effect)
+    middle = [*done[:place], replace(old, candidate=swapped, rivals=()), *done[place + 1 : -1]]
+    end = replace(found, effect=last.candidate.effect)
+    return [*middle, replace(last, candidate=end, gap=gap, rivals=())]
 
 
 def measure_removals(
     problem: PredictionErrorProblem, done: list[SelectionRound], parts: Sequence[Fold]
 ) -> list[SelectionRound]:
     """The same, each with what the last model would be without its effect."""
-    last = done[-1].suspect
-    if len(last.point.hypothesis.effects) <= 1:  # what it brought is what it is worth
+    last = done[-1].candidate
+    if len(last.point.structure.effects) <= 1:  # what it brought is what it is worth
         return done
     told = [done[0]]
     for one in done[1:]:
-        reduced = refit_without(problem, last, one.suspect.effect)
+        reduced = refit_without(problem, last, one.candidate.effect)
         gap = validation_gap(problem, reduced.point, parts)
         told.append(replace(one, lost=reduced.score - last.score, bare=gap))
     return told
 
 
-def refit_without(problem: PredictionErrorProblem, suspect: Candidate, effect: str) -> Candidate:
+def refit_without(problem: PredictionErrorProblem, candidate: Candidate, effect: str) -> Candidate:
     """A model without one of its effects, fitted anew."""
-    point = suspect.point
-    hypothesis = point.hypothesis - effect
-    values = {name: point.values[name] for name in hypothesis.names}
-    begin = problem.at(hypothesis, values, point.outset, point.q)
+    point = candidate.point
+    structure = point.structure - effect
+    values = {name: point.values[name] for name in structure.names}
+    begin = problem.at(structure, values, point.nuisance, point.process_noise)
     return score_estimate(problem, minimize(problem, begin))
 
 

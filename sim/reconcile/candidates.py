@@ -1,4 +1,4 @@
-"""Suspects: every effect of the catalogue, tried on top of a point, the likeliest first.
+"""Candidates: every effect of the catalogue, tried on top of a point, the likeliest first.
 
 A start of each is drawn from what the log shows (``Effect.starts``) and simulated once; the most
 promising go downhill a little, the best of those to the end. What shakes only for a moment after
@@ -29,7 +29,7 @@ from sim.reconcile.random_friction import laplace_correction
 from sim.reconcile.two_body_starts import SHAKES, TwoBodyStarts
 from sim.voltage_residual import VoltageResidual
 
-TRIED, KEPT = 8, 4  # suspects that go downhill a little, and to the end
+TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
 A_LITTLE = 2  # steps
 FURTHER = 6  # steps from each valley of what shakes, which are to be compared
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
@@ -63,7 +63,7 @@ class Candidate:
 
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
     """A point with its score: -2 log L + k·ln N, as of Schwarz (1978)."""
-    values = point.hypothesis.free * math.log(max(problem.count, 2))
+    values = point.structure.free * math.log(max(problem.count, 2))
     own = laplace_correction(point.values, problem.by_frictions(point))
     return Candidate(effect, point, point.cost + own + backlash_phase_prior(point) + values)
 
@@ -83,7 +83,7 @@ def rank_candidates(
             are in a log, what one of them hides at first is hardly found anew beside the other.
     """
     seeds = seeds or {}
-    had = (*point.hypothesis.effects, *OWN.get(point.hypothesis.type, ()))
+    had = (*point.structure.effects, *OWN.get(point.structure.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
     calmer = _calmer(problem, point)
@@ -105,43 +105,43 @@ def rank_candidates(
     ended = [minimize(problem, one) for one in dict.fromkeys(best)]
     simpler = [simplify_effect(problem, one, names, evidence) for one in ended]
     ended = _each_once([*ended, *(minimize(problem, one) for one in simpler if one)])
-    found = [score_estimate(problem, one, one.hypothesis.effects[-1]) for one in ended]
+    found = [score_estimate(problem, one, one.structure.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
 
 
 def descend_candidate(
     problem: PredictionErrorProblem, point: Estimate, start: Estimate
 ) -> Estimate:
-    """A start of a suspect after some steps downhill, by which it is compared with others.
+    """A start of a candidate after some steps downhill, by which it is compared with others.
 
     Where in free play a run began is told before the gains have adjusted to it: if that leads to
-    less than the point without the suspect, the start may do better untold.
+    less than the point without the candidate, the start may do better untold.
 
     Args:
         problem: the measurements.
-        point: the best without the suspect.
+        point: the best without the candidate.
         start: with it.
     """
     if not _shakes(start):
         return levenberg_marquardt(problem, start, steps=A_LITTLE)
     gone = levenberg_marquardt(problem, start, steps=FURTHER)
-    if gone.cost < point.cost or not start.outset.is_meshed:
+    if gone.cost < point.cost or not start.nuisance.is_meshed:
         return gone
-    untold = problem.at(start.hypothesis, start.values, start.outset.unmeshed, start.q)
+    untold = problem.at(start.structure, start.values, start.nuisance.unmeshed, start.process_noise)
     return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=total_cost)
 
 
 def _shakes(point: Estimate) -> bool:
     """Whether the last effect of a point is a joint of two bodies."""
-    return EFFECTS[point.hypothesis.effects[-1]].kind == SHAKES
+    return EFFECTS[point.structure.effects[-1]].kind == SHAKES
 
 
 def _calmer(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None:
     """A point that little pushes, near one that much does; None where little does anyway."""
     calm = CALM * problem.noise.velocity**2
-    if point.q <= AGITATED * calm:
+    if point.process_noise <= AGITATED * calm:
         return None
-    calmer = problem.at(point.hypothesis, point.values, point.outset, calm)
+    calmer = problem.at(point.structure, point.values, point.nuisance, calm)
     calmer = levenberg_marquardt(problem, calmer, steps=A_LITTLE)
     return calmer if math.isfinite(calmer.cost) else None
 
@@ -166,25 +166,25 @@ def simplify_effect(
         evidence: what a log shows.
         effect: to replace; empty for the last one.
     """
-    old = EFFECTS[effect or point.hypothesis.effects[-1]]
+    old = EFFECTS[effect or point.structure.effects[-1]]
     name = old.simpler
     if name not in names:
         return None
     mine = {one: point.values[f"{old.name}.{one}"] for one in old.names}
     values = old.simplified(mine, evidence)
-    hypothesis = point.hypothesis - old.name + name
+    structure = point.structure - old.name + name
     more = {
-        f"{name}.{one}": hypothesis.within(f"{name}.{one}", value) for one, value in values.items()
+        f"{name}.{one}": structure.within(f"{name}.{one}", value) for one, value in values.items()
     }
-    kept = {one: point.values[one] for one in (point.hypothesis - old.name).names}
-    return problem.at(hypothesis, {**kept, **more}, point.outset, point.q)
+    kept = {one: point.values[one] for one in (point.structure - old.name).names}
+    return problem.at(structure, {**kept, **more}, point.nuisance, point.process_noise)
 
 
 def _each_once(points: Iterable[Estimate]) -> list[Estimate]:
     """The best point of each effect, the likeliest first."""
     best: dict[str, Estimate] = {}
     for one in sorted(points, key=total_cost):
-        best.setdefault(one.hypothesis.effects[-1], one)
+        best.setdefault(one.structure.effects[-1], one)
     return list(best.values())
 
 
@@ -201,7 +201,7 @@ def _begun(
     found = []
     lively = None
     for effect in effects:
-        hypothesis = point.hypothesis + effect.name
+        structure = point.structure + effect.name
         more = [
             {
                 f"{effect.name}.{one.name}": min(max(start[one.name], one.least), one.most)
@@ -213,13 +213,13 @@ def _begun(
         if effect.kind == SHAKES:
             lively = lively or TwoBodyStarts(problem, point)
             if shakes := lively.there:
-                more = lively.valleys(hypothesis, more, heavy=heavy)
+                more = lively.valleys(structure, more, heavy=heavy)
         more += _steps_below(effect, more)
         if effect.happens:
             more += scan_onsets(problem, point, effect, kept=kept)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))
-        begun = predicted_improvement(problem, point, hypothesis, more, kept=kept, as_given=shakes)
+        begun = predicted_improvement(problem, point, structure, more, kept=kept, as_given=shakes)
         begun.sort(key=lambda one: -one[0])
         if begun:
             found.append(begun if shakes else begun[:1])

@@ -66,16 +66,18 @@ def make_folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
 
 
 def validation_gap(problem: PredictionErrorProblem, point: Estimate, parts: Sequence[Fold]) -> Gap:
-    """The gap of a hypothesis on runs that its values were not fitted to."""
+    """The gap of a structure on runs that its values were not fitted to."""
     errors = [np.empty((0, 2))]
     for part in parts:
         if not (_tells(problem, part.fitted) and _tells(problem, part.predicted)):
             continue
         fitted = _some(problem, part.fitted)
-        begin = fitted.at(point.hypothesis, point.values, point.outset.of(part.fitted), point.q)
+        begin = fitted.at(
+            point.structure, point.values, point.nuisance.of(part.fitted), point.process_noise
+        )
         found = levenberg_marquardt(fitted, begin, steps=REFIT)
-        outset = point.outset.of(part.predicted).alike
-        errors.append(open_loop_errors(_some(problem, part.predicted), found, outset, eased=True))
+        nuisance = point.nuisance.of(part.predicted).alike
+        errors.append(open_loop_errors(_some(problem, part.predicted), found, nuisance, eased=True))
     return rms_gap(np.concatenate(errors))
 
 
@@ -86,23 +88,23 @@ def _tells(problem: PredictionErrorProblem, chosen: Sequence[int]) -> bool:
 
 
 def open_loop_errors(
-    problem: PredictionErrorProblem, point: Estimate, outset: RunNuisance, *, eased: bool = False
+    problem: PredictionErrorProblem, point: Estimate, nuisance: RunNuisance, *, eased: bool = False
 ) -> Array:
     """(n, 2) position and velocity, measured less simulated without correction, where it moves.
 
     Args:
         problem: the runs.
         point: values that are simulated.
-        outset: how each run begins.
+        nuisance: how each run begins.
         eased: each run may have a friction of its own, as ``friction.py`` has it: what one run's
             accident does to the gap says nothing about an effect.
     """
-    track = problem.track(point.hypothesis.model(point.values), outset)
+    track = problem.track(point.structure.model(point.values), nuisance)
     errors = problem.measured - track.read
     moves = problem.moving | ((track.velocity != 0.0) & problem.telling)
     if not eased:
         return np.asarray(errors[moves])
-    errors = _with_run_friction(problem, point, outset, track, moves)
+    errors = _with_run_friction(problem, point, nuisance, track, moves)
     away = np.isinf(errors).any(axis=1)  # which is not left out of the mean
     return np.asarray(errors[moves | away])
 
@@ -110,7 +112,7 @@ def open_loop_errors(
 def _with_run_friction(
     problem: PredictionErrorProblem,
     point: Estimate,
-    outset: RunNuisance,
+    nuisance: RunNuisance,
     track: Track,
     moves: NDArray[np.bool_],
 ) -> Array:
@@ -121,10 +123,10 @@ def _with_run_friction(
     likeliest is where a parabola is lowest.
     """
     most = MOST_VARIED * max(point.values["kS"], LEAST_KS)
-    model, runs = point.hypothesis.model(point.values), len(problem.lanes)
+    model, runs = point.structure.model(point.values), len(problem.records)
 
     def missed(rubs: Array) -> Array:
-        other = problem.track(model, outset.rubbing(rubs)) if rubs.any() else track
+        other = problem.track(model, nuisance.rubbing(rubs)) if rubs.any() else track
         return _missed(problem, other)
 
     every = np.stack([missed(np.full(runs, share * most)) for share in EASED])  # (shares, n, 2)
@@ -179,4 +181,4 @@ def missed_motion(strays: float, problem: PredictionErrorProblem) -> float:
 
 
 def _some(problem: PredictionErrorProblem, chosen: Sequence[int]) -> PredictionErrorProblem:
-    return PredictionErrorProblem(tuple(problem.lanes[n] for n in chosen), problem.noise)
+    return PredictionErrorProblem(tuple(problem.records[n] for n in chosen), problem.noise)

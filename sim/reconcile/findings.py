@@ -60,7 +60,7 @@ def make_findings(
         per: the owner's unit.
     """
     faults = [_fault(one, chapters[0].gap) for one in damages]
-    last = done[-1].suspect.point
+    last = done[-1].candidate.point
     end = done[-1].gap.velocity / problem.noise.velocity
     far = end > STRAYS or left.something
     effects = _sized(problem, done, chapters, far=far, per=per)
@@ -88,7 +88,7 @@ def _sized(
     the one that closed most of it is major.
     """
     least = FAR_MAJOR if far else MAJOR
-    errors = standard_errors(problem, done[-1].suspect.point)
+    errors = standard_errors(problem, done[-1].candidate.point)
     found = [
         _effect(
             done[n - 1],
@@ -112,8 +112,8 @@ def _sized(
 
 def _headline(one: Finding, done: Sequence[SelectionRound]) -> bool:
     """Whether a minor effect is worth a name where nothing else is missing."""
-    last = done[-1].suspect.point
-    places = (n for n in range(1, len(done)) if done[n].suspect.effect == one.effect)
+    last = done[-1].candidate.point
+    places = (n for n in range(1, len(done)) if done[n].candidate.effect == one.effect)
     lone = any(is_unrivalled(one.effect, done[n - 1].tried) for n in places)
     return is_significant(one.effect, last.values, one.score, lone=lone)
 
@@ -136,11 +136,11 @@ def is_contradicted(
     A sensor that slips or a robot that is bumped loses speed as one does that takes up a load, but
     has it back at another pace. The knock itself is known to a sample, and never explained quite.
     """
-    moment = left.moment
+    moment = left.worst_window
     if not (EFFECTS[effect].happens and left.shaken):
         return False
-    lane = problem.lanes[moment.lane]
-    onset = last.values[f"{effect}.{ONSET}"] - lane.clock + float(lane.seen.time[0])
+    record = problem.records[moment.record]
+    onset = last.values[f"{effect}.{ONSET}"] - record.clock + float(record.measurements.time[0])
     return onset + KNOCK * problem.period < moment.start < onset + AFTER
 
 
@@ -151,18 +151,18 @@ def list_remarks(
     left: ResidualSummary,
 ) -> tuple[str, ...]:
     """What a person should know of the last model: what was not named, and what no run told."""
-    last = done[-1].suspect.point
-    hypothesis = last.hypothesis
+    last = done[-1].candidate.point
+    structure = last.structure
     named = {one.effect for one in findings}
-    unsure = [name for name in hypothesis.effects if is_contradicted(name, problem, last, left)]
-    rest = [name for name in hypothesis.effects if name not in {*named, *unsure}]
+    unsure = [name for name in structure.effects if is_contradicted(name, problem, last, left)]
+    rest = [name for name in structure.effects if name not in {*named, *unsure}]
     said = []
     if rest:
         what = " and ".join(rest)
         why = "no more than on other robots, or too little to narrow the gap"
         said.append(f"In the last model there is also a little {what}: {why}.")
     said += [BELIED.format(name) for name in unsure]
-    if hypothesis.plays and not _turned(problem):
+    if structure.plays and not _turned(problem):
         said.append(TURNLESS)
     return tuple(said)
 
@@ -189,12 +189,12 @@ def _effect(  # noqa: PLR0917 - two rounds, and what to call them
     before: SelectionRound, now: SelectionRound, end: SelectionRound, errors: Mapping[str, float],
     gap_before: float, gap_after: float, *, per: Unit, least: float,
 ) -> Finding:  # fmt: skip
-    name = now.suspect.effect
+    name = now.candidate.effect
     effect = EFFECTS[name]
-    last = end.suspect.point
+    last = end.candidate.point
     with_, bare = (now.gap, before.gap) if now.bare is None else (end.gap, now.bare)
     major = with_.velocity <= least * bare.velocity
-    score = before.suspect.score - now.suspect.score if math.isnan(now.lost) else now.lost
+    score = before.candidate.score - now.candidate.score if math.isnan(now.lost) else now.lost
     parameters = {}
     for one in effect.parameters:
         whole = f"{name}.{one.name}"
@@ -223,5 +223,5 @@ def standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[st
     told, ways = np.linalg.eigh(table.T @ table)
     inverse = (ways / np.maximum(told, 1e-11)) @ ways.T
     errors = np.sqrt(np.maximum(np.diag(inverse), 0.0)) / size
-    names = point.hypothesis.searched
+    names = point.structure.searched
     return {name: float(error) for name, error in zip(names, errors, strict=False) if error > 0.0}

@@ -1,4 +1,4 @@
-"""Round by round: try every suspect, admit one that narrows the gap, refit everything, go on."""
+"""Round by round: try every candidate, admit one that narrows the gap, refit everything, go on."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -103,15 +103,15 @@ def add_pair(
     spring until that is there, too. Such a pair has to close much of the gap.
     """
     now = done[-1]
-    found = list_blocked(now.weighed)
+    found = list_blocked(now.candidates)
     if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
         return done
     one = found[0]
-    begun = SelectionRound(one.suspect, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
+    begun = SelectionRound(one.candidate, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
     path = _gone(problem, [*done, begun], log, parts, lambda what, _: progress(what, BESIDE))
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
     narrows = closes and rejection_reason(path[-1].gap, now.gap, SURER) != WIDENS
-    new = {other.suspect.effect for other in path} - {other.suspect.effect for other in done}
+    new = {other.candidate.effect for other in path} - {other.candidate.effect for other in done}
     return path if narrows and len(new) > 1 else done  # what was there may have become needless
 
 
@@ -128,10 +128,12 @@ def choose_path(
         return best
     for place, other in alternative_paths(done, lost=_leads_nowhere(problem, done))[:PATHS]:
         now = done[place]
-        begun = SelectionRound(other.suspect, other.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
+        begun = SelectionRound(
+            other.candidate, other.gap, now.gap, quiet=now.quiet, seeds=now.seeds
+        )
         path = [*done[: place + 1], begun]
         path = _gone(problem, path, log, parts, lambda what, _: progress(what, BESIDE))
-        likelier = score_improvement(best[-1].suspect, path[-1].suspect) >= CLOSE
+        likelier = score_improvement(best[-1].candidate, path[-1].candidate) >= CLOSE
         if likelier and rejection_reason(path[-1].gap, best[-1].gap, SURER) != WIDENS:
             best = path
     return best
@@ -149,16 +151,16 @@ def alternative_paths(
         done: the path.
         lost: whether it leads nowhere.
     """
-    gone = {frozenset(one.suspect.effect for one in done[: n + 1]) for n in range(len(done))}
+    gone = {frozenset(one.candidate.effect for one in done[: n + 1]) for n in range(len(done))}
     found = []
     for place, one in enumerate(done[:-1]):
-        had = {before.suspect.effect for before in done[: place + 1]}
-        admitted = [other for other in one.weighed if other.tried.admitted]
+        had = {before.candidate.effect for before in done[: place + 1]}
+        admitted = [other for other in one.candidates if other.tried.admitted]
         top = max((other.tried.score for other in admitted), default=0.0)
         near = [other for other in admitted if other.tried.score >= NEAR * top]
         near.sort(key=lambda other: other.tried.gap if lost else -other.tried.score)
         for other in near:
-            names = frozenset({*had, other.suspect.effect})
+            names = frozenset({*had, other.candidate.effect})
             if names not in gone:
                 gone.add(names)
                 found.append((place, other))
@@ -180,13 +182,15 @@ def _added(
         weighed = weigh_candidates(problem, now, log, parts)
         tried = tuple(one.tried for one in weighed)
         seeds = {**now.seeds, **_seeds(weighed)}
-        done[-1] = now = replace(now, tried=tried, seeds=seeds, weighed=tuple(weighed))
+        done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))
         admitted, quiet = admissible_candidates(weighed, most=MOST_QUIET - now.quiet)
         if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
             one = quiet[0]
-            if is_significant(one.suspect.effect, one.suspect.point.values, one.tried.score):
+            if is_significant(one.candidate.effect, one.candidate.point.values, one.tried.score):
                 done.append(
-                    SelectionRound(one.suspect, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
+                    SelectionRound(
+                        one.candidate, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds
+                    )
                 )
             else:
                 done[-1] = _with_quiet(now, one)
@@ -199,10 +203,10 @@ def _added(
             near = [one for one in near if _near(_ended(problem, one, parts), best)]
         done.append(
             SelectionRound(
-                best.suspect,
+                best.candidate,
                 best.gap,
                 now.gap,
-                tuple(one.suspect.effect for one in near),
+                tuple(one.candidate.effect for one in near),
                 quiet=now.quiet,
                 seeds=now.seeds,
             )
@@ -220,13 +224,15 @@ def admissible_candidates(
     battery together more than each of them does alone.
 
     Args:
-        weighed: the suspects of a round.
+        weighed: the candidates of a round.
         most: how many may be added without a name.
     """
     admitted = [one for one in weighed if one.tried.admitted]
     quiet = [one for one in weighed if one.tried.why == HARDLY and one.tried.score >= SURER][:most]
     every = sorted([*admitted, *quiet], key=lambda one: -one.tried.score)
-    usual = [one for one in every if is_ordinary_size(one.suspect.effect, one.suspect.point.values)]
+    usual = [
+        one for one in every if is_ordinary_size(one.candidate.effect, one.candidate.point.values)
+    ]
     if usual and usual[0].tried.score >= USUAL * every[0].tried.score:
         admitted = [one for one in admitted if one is usual[0]]
         quiet = [one for one in quiet if one is usual[0]]
@@ -242,7 +248,7 @@ def _leads_nowhere(problem: PredictionErrorProblem, done: Sequence[SelectionRoun
     share = missed_motion(now.gap.velocity / problem.noise.velocity, problem)
     if share <= LOST:
         return False
-    values = now.suspect.point.values
+    values = now.candidate.point.values
     if len(done) == 1:
         return values["kA"] > UNDRIVEN * values["kV"]
     return not now.gap.velocity <= FAR_MAJOR * now.before.velocity
@@ -251,9 +257,9 @@ def _leads_nowhere(problem: PredictionErrorProblem, done: Sequence[SelectionRoun
 def _ended(
     problem: PredictionErrorProblem, best: WeighedCandidate, parts: Sequence[Fold]
 ) -> WeighedCandidate:
-    """The same, as far as its search leads: suspects are only compared, the one taken goes on."""
-    suspect = best.suspect
-    point = minimize_fully(problem, suspect.point)
+    """The same, as far as its search leads: candidates are only compared, the one taken goes on."""
+    candidate = best.candidate
+    point = minimize_fully(problem, candidate.point)
     for other in flip_duration(problem, point):
         settled = minimize(problem, other)
         if settled.cost < point.cost - CLOSE:
@@ -261,30 +267,30 @@ def _ended(
     near = refine_onset(problem, point)
     if near is not point:
         point = minimize(problem, near)
-    if abs(suspect.point.cost - point.cost) < ENOUGH:
+    if abs(candidate.point.cost - point.cost) < ENOUGH:
         return best
     gap = validation_gap(problem, point, parts)
     if rejection_reason(gap, best.gap, SURER) == WIDENS:
         return best
-    return replace(best, suspect=score_estimate(problem, point, suspect.effect), gap=gap)
+    return replace(best, candidate=score_estimate(problem, point, candidate.effect), gap=gap)
 
 
 def _near(other: WeighedCandidate, best: WeighedCandidate) -> bool:
-    return other.suspect.score - best.suspect.score <= CLOSE
+    return other.candidate.score - best.candidate.score <= CLOSE
 
 
 def _seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
-    """What the suspects' parameters are, of those that explain something."""
+    """What the candidates' parameters are, of those that explain something."""
     found = {}
     for one in weighed:
         if one.tried.score >= SURE:
-            name, values = one.suspect.effect, one.suspect.point.values
+            name, values = one.candidate.effect, one.candidate.point.values
             found[name] = {f"{name}.{p}": values[f"{name}.{p}"] for p in EFFECTS[name].names}
     return found
 
 
 def _with_quiet(now: SelectionRound, best: WeighedCandidate) -> SelectionRound:
     """A round whose model has one effect more, which nobody names."""
-    suspect = replace(best.suspect, effect=now.suspect.effect)
-    plain = now.plain or now.suspect
-    return replace(now, suspect=suspect, gap=best.gap, quiet=now.quiet + 1, plain=plain)
+    candidate = replace(best.candidate, effect=now.candidate.effect)
+    plain = now.plain or now.candidate
+    return replace(now, candidate=candidate, gap=best.gap, quiet=now.quiet + 1, plain=plain)

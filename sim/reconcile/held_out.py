@@ -107,7 +107,7 @@ class HeldOutLog:
     @property
     def compared(self) -> tuple[NDArray[np.bool_], ...]:
         """A run -> (n,) its samples that count: where it moves, and nothing was set aside."""
-        return tuple(one.seen.telling for one in self.problem.lanes)
+        return tuple(one.measurements.telling for one in self.problem.records)
 
     def places(self, base: Chapter) -> tuple[Place, ...]:
         """Where the base model's velocity is off, the surest first."""
@@ -121,23 +121,23 @@ class HeldOutLog:
 
     def _chapter(self, one: SelectionRound) -> Chapter:
         point = reported_estimate(one)
-        model = point.hypothesis.model(point.values)
-        outset = self._outset(point)
+        model = point.structure.model(point.values)
+        nuisance = self._outset(point)
         gap = (
-            rms_gap(open_loop_errors(self.problem, point, outset)).velocity
+            rms_gap(open_loop_errors(self.problem, point, nuisance)).velocity
             / unit(self.log.units).si
         )
-        track = self.problem.track(model, outset).read
+        track = self.problem.track(model, nuisance).read
         runs = tuple(track[first:last] for first, last in pairwise(self.problem.edges.tolist()))
-        return Chapter(one.suspect.effect, model, one.tried, gap, runs)
+        return Chapter(one.candidate.effect, model, one.tried, gap, runs)
 
     def _outset(self, point: Estimate) -> RunNuisance:
         """How its runs begin: where they were first seen, and where in free play they say."""
-        seen = RunNuisance.seen(len(self.problem.lanes))
-        here = self.problem.at(point.hypothesis, point.values, seen, point.q)
+        seen = RunNuisance.seen(len(self.problem.records))
+        here = self.problem.at(point.structure, point.values, seen, point.process_noise)
         for _ in range(LOOKS):
             here = estimate_backlash_phase(self.problem, here)
-        return here.outset
+        return here.nuisance
 
 
 def _since(logs: Mapping[str, Log | None], name: str) -> float:

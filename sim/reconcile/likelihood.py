@@ -1,4 +1,4 @@
-"""How well values of a hypothesis follow the measurements, run by run.
+"""How well values of a structure follow the measurements, run by run.
 
     -2 log L = N·log det Σ + Σ (start/noise)² + Σ (δ/τ)²    Σ covariance (2, 2) of the innovations
 
@@ -35,32 +35,32 @@ FARTHEST = 1e100  # [1] that an innovation is off: the square of it is a number
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """Values of a hypothesis, and how well they follow.
+    """Values of a structure, and how well they follow.
 
     Args:
-        hypothesis: what is believed.
+        structure: what is believed.
         values: name -> value.
-        outset: how each run begins.
-        q: [unit²/s³] size of what pushes at random.
-        trust: (2, 2) by how much a measurement corrects.
-        ahead: (n, 2) innovations, nan where nothing is compared.
-        spread: (2, 2) covariance of these.
+        nuisance: how each run begins.
+        process_noise: [unit²/s³] size of what pushes at random.
+        kalman_gain: (2, 2) by how much a measurement corrects.
+        innovations: (n, 2) innovations, nan where nothing is compared.
+        innovation_cov: (2, 2) covariance of these.
         cost: -2 log L, up to a constant.
     """
 
-    hypothesis: ModelStructure
+    structure: ModelStructure
     values: Mapping[str, float]
-    outset: RunNuisance
-    q: float
-    trust: Array
-    ahead: Array
-    spread: Array
+    nuisance: RunNuisance
+    process_noise: float
+    kalman_gain: Array
+    innovations: Array
+    innovation_cov: Array
     cost: float
 
     @cached_property
     def whitening(self) -> Array:
         """(2, 2) that makes innovations independent and of size one."""
-        return np.asarray(np.linalg.inv(np.linalg.cholesky(self.spread)))
+        return np.asarray(np.linalg.inv(np.linalg.cholesky(self.innovation_cov)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,29 +68,31 @@ class PredictionErrorProblem:
     """The measurements of some runs.
 
     Args:
-        lanes: the runs.
+        records: the runs.
         noise: of their samples, measured without a model.
         most_q: [unit²/s³] beyond which nothing pushes at random.
     """
 
-    lanes: tuple[RunRecord, ...]
+    records: tuple[RunRecord, ...]
     noise: SensorNoise
     most_q: float = math.inf
 
     @classmethod
-    def of(cls, lanes: Sequence[RunRecord]) -> "PredictionErrorProblem":
+    def of(cls, records: Sequence[RunRecord]) -> "PredictionErrorProblem":
         """The problem of these runs, with the noise that they show."""
-        return cls(tuple(lanes), estimate_noise(tuple(lane.seen for lane in lanes)))
+        return cls(tuple(records), estimate_noise(tuple(record.measurements for record in records)))
 
     @cached_property
     def edges(self) -> NDArray[np.intp]:
         """(runs + 1,) where each run begins among all samples."""
-        return np.concatenate(([0], np.cumsum([lane.seen.time.size for lane in self.lanes])))
+        return np.concatenate(
+            ([0], np.cumsum([record.measurements.time.size for record in self.records]))
+        )
 
     @cached_property
     def course(self) -> RunBatch:
         """The runs as the engine follows them."""
-        seen = [lane.seen for lane in self.lanes]
+        seen = [record.measurements for record in self.records]
         return RunBatch(
             self.edges.astype(np.float64),
             np.concatenate([one.time for one in seen], dtype=np.float64),
@@ -98,21 +100,21 @@ class PredictionErrorProblem:
             np.ascontiguousarray(self.measured, dtype=np.float64),
             np.array([one.position for one in seen], dtype=np.float64),
             np.array([one.velocity for one in seen], dtype=np.float64),
-            np.array([lane.low for lane in self.lanes], dtype=np.float64),
-            np.array([lane.high for lane in self.lanes], dtype=np.float64),
-            np.array([lane.clock for lane in self.lanes], dtype=np.float64),
-            np.array([lane.memory for lane in self.lanes], dtype=np.float64),
+            np.array([record.low for record in self.records], dtype=np.float64),
+            np.array([record.high for record in self.records], dtype=np.float64),
+            np.array([record.clock for record in self.records], dtype=np.float64),
+            np.array([record.memory for record in self.records], dtype=np.float64),
         )
 
     @cached_property
     def measured(self) -> Array:
         """(n, 2) positions and velocities of all runs."""
-        return np.concatenate([lane.seen.measured for lane in self.lanes])
+        return np.concatenate([record.measurements.measured for record in self.records])
 
     @cached_property
     def telling(self) -> NDArray[np.bool_]:
         """(n,) samples that are compared: not the first of a run, from which it starts."""
-        telling = np.concatenate([lane.seen.telling for lane in self.lanes])
+        telling = np.concatenate([record.measurements.telling for record in self.records])
         telling[self.edges[:-1]] = False
         return telling & ~np.isnan(self.measured).all(axis=1)
 
@@ -131,7 +133,7 @@ class PredictionErrorProblem:
     @cached_property
     def moving(self) -> NDArray[np.bool_]:
         """(n,) samples at which it moved."""
-        return np.concatenate([lane.seen.moving for lane in self.lanes])
+        return np.concatenate([record.measurements.moving for record in self.records])
 
     @cached_property
     def count(self) -> int:
@@ -141,7 +143,11 @@ class PredictionErrorProblem:
     @cached_property
     def period(self) -> float:
         """[s] between samples."""
-        return float(np.median(np.concatenate([np.diff(lane.seen.time) for lane in self.lanes])))
+        return float(
+            np.median(
+                np.concatenate([np.diff(record.measurements.time) for record in self.records])
+            )
+        )
 
     @cached_property
     def top(self) -> float:
@@ -157,61 +163,68 @@ class PredictionErrorProblem:
 
     # -- simulate --------------------------------------------------------------------------------
 
-    def track(self, model: Model, outset: RunNuisance, trust: Array = NO_TRUST) -> Track:
+    def track(self, model: Model, nuisance: RunNuisance, trust: Array = NO_TRUST) -> Track:
         """All runs, one after another.
 
         Args:
             model: what moves.
-            outset: how each run begins.
+            nuisance: how each run begins.
             trust: (2, 2) by how much a measurement corrects; not at all, if it is not given.
         """
-        return Track.of(self._followed(model, outset, trust, self.course))
+        return Track.of(self._followed(model, nuisance, trust, self.course))
 
     def ahead(
-        self, model: Model, outset: RunNuisance, trust: Array, clocks: Array | None = None
+        self, model: Model, nuisance: RunNuisance, trust: Array, clocks: Array | None = None
     ) -> Array:
         """(n, 2) innovations: measured less expected; 0 where nothing is compared.
 
         Args:
             model: what moves.
-            outset: how each run begins.
+            nuisance: how each run begins.
             trust: (2, 2) by how much a measurement corrects.
             clocks: (runs,) [s] when each run begins, if not when it did.
         """
         course = self.course if clocks is None else replace(self.course, clocks=clocks)
-        ahead = self.measured - self._followed(model, outset, trust, course)[:, EXPECTED:]
+        ahead = self.measured - self._followed(model, nuisance, trust, course)[:, EXPECTED:]
         np.copyto(ahead, 0.0, where=self.untold)
         return np.asarray(ahead)
 
-    def _followed(self, model: Model, outset: RunNuisance, trust: Array, course: RunBatch) -> Array:
+    def _followed(
+        self, model: Model, nuisance: RunNuisance, trust: Array, course: RunBatch
+    ) -> Array:
         return follow(
             model, course, trust=trust,
-            beside=outset.beside, meshed=outset.meshed, rubs=outset.rubs,
+            beside=nuisance.position_offset, meshed=nuisance.backlash_phase,
+            rubs=nuisance.friction_offset,
         )  # fmt: skip
 
     def at(
-        self, hypothesis: ModelStructure, values: Mapping[str, float], outset: RunNuisance, q: float
+        self,
+        structure: ModelStructure,
+        values: Mapping[str, float],
+        nuisance: RunNuisance,
+        q: float,
     ) -> Estimate:
         """The point of these values; its cost is infinite where they are no physics."""
-        if not hypothesis.plays:
-            outset = outset.unmeshed
+        if not structure.plays:
+            nuisance = nuisance.unmeshed
         nowhere = Estimate(
-            hypothesis, values, outset, q, NO_TRUST, np.empty((0, 2)), np.eye(2), math.inf
+            structure, values, nuisance, q, NO_TRUST, np.empty((0, 2)), np.eye(2), math.inf
         )
         if not (values["kV"] > 0.0 and values["kA"] > 0.0):
             return nowhere
         if not self.count:
             return nowhere
-        model = hypothesis.model(values)
+        model = structure.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
             trust = steady_state_gain(model, noise=self.noise, q=q, period=self.period)
-            ahead = self.ahead(model, outset, trust)
+            ahead = self.ahead(model, nuisance, trust)
             spread = self.spread(ahead)
-            own = float(np.sum((outset.beside / self.loose) ** 2))
-            cost = self._cost(spread) + own + friction_prior(values, outset)
+            own = float(np.sum((nuisance.position_offset / self.loose) ** 2))
+            cost = self._cost(spread) + own + friction_prior(values, nuisance)
         if not math.isfinite(cost):
             return nowhere
-        return Estimate(hypothesis, values, outset, q, trust, ahead, spread, cost)
+        return Estimate(structure, values, nuisance, q, trust, ahead, spread, cost)
 
     # -- compare ---------------------------------------------------------------------------------
 
@@ -248,10 +261,12 @@ class PredictionErrorProblem:
         Raises:
             ValueError: the point follows nothing.
         """
-        hypothesis = point.hypothesis
-        values = [self.white(point, self._by_value(point, name)) for name in hypothesis.searched]
-        moved = self._with(point, point.outset.moved(np.full(len(self.lanes), self.noise.position)))
-        starts = (moved - point.ahead) / self.noise.position
+        structure = point.structure
+        values = [self.white(point, self._by_value(point, name)) for name in structure.searched]
+        moved = self._with(
+            point, point.nuisance.moved(np.full(len(self.records), self.noise.position))
+        )
+        starts = (moved - point.innovations) / self.noise.position
         return np.column_stack(
             [
                 *values,
@@ -262,29 +277,31 @@ class PredictionErrorProblem:
 
     def by_frictions(self, point: Estimate) -> Array:
         """(2 n, runs) change of the white innovations with each run's own friction."""
-        by = np.full(len(self.lanes), friction_sd(point.values))
-        more, less = (self._with(point, point.outset.rubbing(one)) for one in (by, -by))
+        by = np.full(len(self.records), friction_sd(point.values))
+        more, less = (self._with(point, point.nuisance.rubbing(one)) for one in (by, -by))
         return self._by_run(self.white(point, (more - less) / (2.0 * by[0])))
 
-    def _with(self, point: Estimate, outset: RunNuisance) -> Array:
-        return self.ahead(point.hypothesis.model(point.values), outset, point.trust)
+    def _with(self, point: Estimate, nuisance: RunNuisance) -> Array:
+        return self.ahead(point.structure.model(point.values), nuisance, point.kalman_gain)
 
     def _by_value(self, point: Estimate, name: str) -> Array:
-        hypothesis, value = point.hypothesis, point.values[name]
+        structure, value = point.structure, point.values[name]
         coarse = name.partition(".")[2] in STEPWISE
-        step = (COARSE_NUDGE if coarse else NUDGE) * hypothesis.size(name, value)
-        if hypothesis.within(name, value + step) != value + step:
+        step = (COARSE_NUDGE if coarse else NUDGE) * structure.size(name, value)
+        if structure.within(name, value + step) != value + step:
             step = -step
-        model = hypothesis.model({**point.values, name: value + step})
+        model = structure.model({**point.values, name: value + step})
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
-            return np.asarray((self.ahead(model, point.outset, point.trust) - point.ahead) / step)
+            return np.asarray(
+                (self.ahead(model, point.nuisance, point.kalman_gain) - point.innovations) / step
+            )
 
     def _by_run(self, change: Array) -> Array:
         """(2 n, runs): all runs are moved at once, and each is the business of its own column.
 
         A run is not moved without those before it, which may have heated what it found warm.
         """
-        table = np.zeros((change.size, len(self.lanes)))
+        table = np.zeros((change.size, len(self.records)))
         for number, (first, last) in enumerate(pairwise((2 * self.edges).tolist())):
             table[first:last, number] = change[first:last]
         return table

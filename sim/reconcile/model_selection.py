@@ -1,4 +1,4 @@
-"""Weighing: each suspect of a round against the gates, and the one that is taken."""
+"""Weighing: each candidate of a round against the gates, and the one that is taken."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -34,24 +34,24 @@ TINY = 1e-300  # no gap at all
 def weigh_candidates(
     problem: PredictionErrorProblem, now: SelectionRound, log: Log, parts: Sequence[Fold]
 ) -> list[WeighedCandidate]:
-    """The suspects of a round, each against the gates; the likeliest first."""
-    point = now.suspect.point
-    model = point.hypothesis.model(point.values)
-    evidence = compute_voltage_residual(log, dict(model.gains), type=point.hypothesis.type)
+    """The candidates of a round, each against the gates; the likeliest first."""
+    point = now.candidate.point
+    model = point.structure.model(point.values)
+    evidence = compute_voltage_residual(log, dict(model.gains), type=point.structure.type)
     found = []
-    for suspect in rank_candidates(problem, point, evidence, seeds=now.seeds):
-        score = now.suspect.score - suspect.score
-        if score < required_improvement(suspect.effect):
-            tried = Tried(suspect.effect, score, 1.0, admitted=False, why="explains too little")
-            found.append(WeighedCandidate(suspect, now.gap, tried))
+    for candidate in rank_candidates(problem, point, evidence, seeds=now.seeds):
+        score = now.candidate.score - candidate.score
+        if score < required_improvement(candidate.effect):
+            tried = Tried(candidate.effect, score, 1.0, admitted=False, why="explains too little")
+            found.append(WeighedCandidate(candidate, now.gap, tried))
             continue
-        gap = validation_gap(problem, suspect.point, parts)
+        gap = validation_gap(problem, candidate.point, parts)
         why = rejection_reason(gap, now.gap, score)
-        if why == HARDLY and EFFECTS[suspect.effect].happens:
+        if why == HARDLY and EFFECTS[candidate.effect].happens:
             why = ""
         share = gap.velocity / max(now.gap.velocity, TINY)
-        tried = Tried(suspect.effect, score, share, admitted=not why, why=why)
-        found.append(WeighedCandidate(suspect, gap, tried))
+        tried = Tried(candidate.effect, score, share, admitted=not why, why=why)
+        found.append(WeighedCandidate(candidate, gap, tried))
     return found
 
 
@@ -61,7 +61,7 @@ def required_improvement(effect: str) -> float:
 
 
 def rejection_reason(gap: Gap, before: Gap, score: float) -> str:
-    """The gate that a suspect does not pass; empty if it passes all."""
+    """The gate that a candidate does not pass; empty if it passes all."""
     if not math.isfinite(gap.velocity + gap.position):
         return WIDENS
     velocity = gap.velocity / max(before.velocity, TINY)
@@ -81,7 +81,7 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     likelier than all that lasts by as much as than nothing.
     """
     best = admitted[0]
-    lasting = [one for one in admitted if not EFFECTS[one.suspect.effect].happens]
+    lasting = [one for one in admitted if not EFFECTS[one.candidate.effect].happens]
     if lasting and best is not lasting[0] and best.tried.score - lasting[0].tried.score < ONCE:
         admitted, best = lasting, lasting[0]
     closer = [one for one in admitted if one.tried.score > HALF * best.tried.score]
@@ -90,15 +90,15 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
         best = closest
     top = best.tried.score
     admitted = [one for one in admitted if one.tried.score <= top]
-    simpler = EFFECTS[best.suspect.effect].simpler
+    simpler = EFFECTS[best.candidate.effect].simpler
     near = [
         one
         for one in admitted
         if top - one.tried.score <= SIMPLER
-        or (one.suspect.effect == simpler and one.tried.score > AS_GOOD * top)
+        or (one.candidate.effect == simpler and one.tried.score > AS_GOOD * top)
     ]
-    fewest = min(one.suspect.point.hypothesis.free for one in near)
-    near = [one for one in near if one.suspect.point.hypothesis.free == fewest]
+    fewest = min(one.candidate.point.structure.free for one in near)
+    near = [one for one in near if one.candidate.point.structure.free == fewest]
     likeliest = max(near, key=lambda one: one.tried.score)
     nearest = min(near, key=lambda one: one.tried.gap)
     return nearest if nearest.tried.gap < NARROWER * likeliest.tried.gap else likeliest
@@ -126,8 +126,8 @@ def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
         for one in weighed
         if one.tried.why == WIDENS
         and one.tried.score >= ONCE
-        and not EFFECTS[one.suspect.effect].happens
-        and not is_ordinary_size(one.suspect.effect, one.suspect.point.values)
+        and not EFFECTS[one.candidate.effect].happens
+        and not is_ordinary_size(one.candidate.effect, one.candidate.point.values)
     ]
 
 
@@ -166,7 +166,7 @@ def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
 
     Args:
         effect: that was added.
-        tried: the suspects of its round.
+        tried: the candidates of its round.
     """
     scores = {one.effect: one.score for one in tried}
     most = max(
@@ -178,5 +178,5 @@ def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
 
 def score_improvement(now: Candidate, other: Candidate) -> float:
     """[of -2 log L] by which another model is likelier; one with fewer values wins when close."""
-    fewer = now.point.hypothesis.free - other.point.hypothesis.free
+    fewer = now.point.structure.free - other.point.structure.free
     return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)

@@ -1,4 +1,4 @@
-"""A hypothesis: the base model and some effects, as numbers that a search can move."""
+"""A structure: the base model and some effects, as numbers that a search can move."""
 
 import math
 from collections.abc import Mapping

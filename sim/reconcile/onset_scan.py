@@ -86,18 +86,21 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
     No search moves from one to the other, and what was likelier before another effect was added may
     not be likelier beside it.
     """
-    for name in point.hypothesis.effects:
+    for name in point.structure.effects:
         effect = EFFECTS[name]
         if not effect.happens:
             continue
         onset = point.values[f"{name}.{ONSET}"]
-        ends = [lane.clock + float(np.ptp(lane.seen.time)) + MOMENT for lane in problem.lanes]
+        ends = [
+            record.clock + float(np.ptp(record.measurements.time)) + MOMENT
+            for record in problem.records
+        ]
         over = min((end for end in ends if end > onset), default=LATER)
         for kind, until in product(fixed_parameter_choices(effect), (over, LATER)):
             changed = {f"{name}.{one}": value for one, value in {**kind, UNTIL: until}.items()}
             values = {**point.values, **changed}
             if values != point.values:
-                yield problem.at(point.hypothesis, values, point.outset, point.q)
+                yield problem.at(point.structure, values, point.nuisance, point.process_noise)
 
 
 def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -105,14 +108,16 @@ def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
     No search moves a moment: across a sample what is likely jumps.
     """
-    for name in point.hypothesis.effects:
+    for name in point.structure.effects:
         if not EFFECTS[name].happens:
             continue
-        onset, step, hypothesis = f"{name}.{ONSET}", problem.period, point.hypothesis
+        onset, step, structure = f"{name}.{ONSET}", problem.period, point.structure
         for _ in range(HALVINGS):
-            around = (hypothesis.within(onset, point.values[onset] + by) for by in (-step, step))
+            around = (structure.within(onset, point.values[onset] + by) for by in (-step, step))
             moved = ({**point.values, onset: moment} for moment in around)
-            tried = [problem.at(hypothesis, one, point.outset, point.q) for one in moved]
+            tried = [
+                problem.at(structure, one, point.nuisance, point.process_noise) for one in moved
+            ]
             point = min(point, *tried, key=lambda one: one.cost)
             step *= 0.5
     return point
@@ -168,9 +173,12 @@ class _Scan:
         self.problem, self.point, self.effect, self.kept = problem, point, effect, kept.ways
         most = min(one.most for one in effect.parameters if one.searched)
         self.ka = min(point.values["kA"], most / MOST)  # which may be any number in the wild
-        self.lasts = [float(lane.seen.time[-1] - lane.seen.time[0]) for lane in problem.lanes]
+        self.lasts = [
+            float(record.measurements.time[-1] - record.measurements.time[0])
+            for record in problem.records
+        ]
         self._some: dict[tuple[int, ...], tuple[PredictionErrorProblem, RunNuisance]] = {}
-        rest = problem.white(point, point.ahead)
+        rest = problem.white(point, point.innovations)
         self.rest = rest - kept.ways @ kept.told(rest)
 
     def coarse(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
@@ -178,7 +186,7 @@ class _Scan:
 
         What takes momentum is looked for where speed is lost, anything else all over the run.
         """
-        every = range(len(self.problem.lanes))
+        every = range(len(self.problem.records))
         knocks = any(kind.values())
         shares = [0.0] if knocks else [0.0, *((n + 0.5) / PARTS for n in range(PARTS))]
         table = [self._sums(kind, share, every) for share in shares]
@@ -212,7 +220,7 @@ class _Scan:
 
     def values(self, one: _Moment) -> dict[str, float]:
         """Of all parameters, if it happens then."""
-        began = self.problem.lanes[one.run].clock
+        began = self.problem.records[one.run].clock
         return {
             **self._sized(one.best[1]),
             **one.kind,
@@ -232,7 +240,7 @@ class _Scan:
         heard = sum(np.correlate(rest[:, n], echo[:, n], "full")[len(echo) - 1 :] for n in (0, 1))
         left = np.minimum(np.arange(len(rest), 0, -1), len(echo))
         lost = -np.asarray(heard) * np.sign(np.nan_to_num(speed)) / np.sqrt(size[left - 1])
-        time = self.problem.lanes[run].seen.time
+        time = self.problem.records[run].measurements.time
         within = time[:-1] + EARLY * np.diff(time) - time[0]
         place = int(np.argmax(lost[1:]))
         near = within[max(place - NEXT, 0) : place + NEXT + 1] / self.lasts[run]
@@ -243,7 +251,9 @@ class _Scan:
         """(samples, 2) white innovations after a velocity that is one more than expected."""
         rate, dt = self.point.values["kV"] / self.ka, self.problem.period
         kept = math.exp(-rate * dt)
-        step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]]) @ (np.eye(2) - self.point.trust)
+        step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]]) @ (
+            np.eye(2) - self.point.kalman_gain
+        )
         off, heard = np.array([0.0, 1.0]), []
         for _ in range(min(max(math.ceil(ECHO / (rate * dt)), 4), LONGEST)):
             heard.append(off)
@@ -255,14 +265,14 @@ class _Scan:
 
     def _sums(self, kind: Mapping[str, float], share: float, runs: Sequence[int]) -> list[_Sums]:
         """What it changes from that share of each of these runs on, to its end."""
-        some, outset = self._alone(tuple(runs))
+        some, nuisance = self._alone(tuple(runs))
         clocks = CLOCK - share * np.array([self.lasts[run] for run in runs])
         size = PROBE * self.ka
         given = {**self._sized(size), **kind, ONSET: CLOCK, UNTIL: LATER}
-        model = self.point.hypothesis.model(self.point.values)
+        model = self.point.structure.model(self.point.values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
             model += Part(self.effect.name, given)
-            ahead = some.ahead(model, outset, self.point.trust, clocks)
+            ahead = some.ahead(model, nuisance, self.point.kalman_gain, clocks)
             return [
                 self._summed(run, (ahead[slice(*rows)] - self._plain[run]) / size)
                 for run, rows in zip(runs, pairwise(some.edges.tolist()), strict=True)
@@ -275,9 +285,9 @@ class _Scan:
     def _alone(self, runs: tuple[int, ...]) -> tuple[PredictionErrorProblem, RunNuisance]:
         """These runs, none finding warm what another heated, and how they begin."""
         if runs not in self._some:
-            lanes = (replace(self.problem.lanes[run], memory=run) for run in runs)
-            some = PredictionErrorProblem(tuple(lanes), self.problem.noise)
-            self._some[runs] = some, self.point.outset.of(runs)
+            records = (replace(self.problem.records[run], memory=run) for run in runs)
+            some = PredictionErrorProblem(tuple(records), self.problem.noise)
+            self._some[runs] = some, self.point.nuisance.of(runs)
         return self._some[runs]
 
     @property
@@ -289,7 +299,7 @@ class _Scan:
     @cached_property
     def _plain(self) -> list[Array]:
         """A run -> (n, 2) innovations without it."""
-        alone, outset = self._alone(tuple(range(len(self.problem.lanes))))
-        model = self.point.hypothesis.model(self.point.values)
-        ahead = alone.ahead(model, outset, self.point.trust)
+        alone, nuisance = self._alone(tuple(range(len(self.problem.records))))
+        model = self.point.structure.model(self.point.values)
+        ahead = alone.ahead(model, nuisance, self.point.kalman_gain)
         return [ahead[slice(*rows)] for rows in pairwise(self.problem.edges.tolist())]

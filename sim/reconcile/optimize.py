@@ -91,11 +91,11 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     """
     found = [_settled(problem, point)]
     calm = CALM * problem.noise.velocity**2
-    if found[0].q > AGITATED * calm:
-        calmer = problem.at(point.hypothesis, found[0].values, found[0].outset, calm)
+    if found[0].process_noise > AGITATED * calm:
+        calmer = problem.at(point.structure, found[0].values, found[0].nuisance, calm)
         found.append(_settled(problem, levenberg_marquardt(problem, calmer, steps=STEPS)))
     best = min(found, key=total_cost)
-    return _tight(problem, best) if point.hypothesis.plays else best
+    return _tight(problem, best) if point.structure.plays else best
 
 
 def _tight(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -130,16 +130,19 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
     least = LEAST_Q * problem.noise.velocity**2
 
     def at(part: float) -> Estimate:
-        return problem.at(point.hypothesis, point.values, point.outset, point.q * part)
+        return problem.at(point.structure, point.values, point.nuisance, point.process_noise * part)
 
     beside = {way: at(way) for way in (SOFTER, 1.0 / SOFTER)}
     for way in (SOFTER, 1.0 / SOFTER):
-        while beside[way].cost < point.cost - 0.1 and least < beside[way].q < problem.most_q:
+        while (
+            beside[way].cost < point.cost - 0.1
+            and least < beside[way].process_noise < problem.most_q
+        ):
             beside[1.0 / way], point = point, beside[way]
             beside[way] = at(way)
     more, less = beside[SOFTER].cost, beside[1.0 / SOFTER].cost
     bend = more + less - 2.0 * point.cost
-    if not (math.isfinite(bend) and bend > 0.0 and beside[SOFTER].q < problem.most_q):
+    if not (math.isfinite(bend) and bend > 0.0 and beside[SOFTER].process_noise < problem.most_q):
         return point
     other = at(SOFTER ** (0.5 * (less - more) / bend))
     return min(point, other, key=lambda one: one.cost)
@@ -176,10 +179,10 @@ def levenberg_marquardt(
 
 
 def predicted_improvement(
-    problem: PredictionErrorProblem, point: Estimate, hypothesis: ModelStructure,
+    problem: PredictionErrorProblem, point: Estimate, structure: ModelStructure,
     more: Sequence[Mapping[str, float]], *, kept: JointJacobian, as_given: bool = False,
 ) -> list[Begun]:  # fmt: skip
-    """What each start of a suspect may gain once the gains have adjusted to it, and its point.
+    """What each start of a candidate may gain once the gains have adjusted to it, and its point.
 
     A start that goes too far, or the wrong way, as it may beside another effect that no start knows
     of, is tried again at the size that would gain most, if what it does were proportional to it;
@@ -188,80 +191,80 @@ def predicted_improvement(
 
     Args:
         problem: the measurements.
-        point: the best without the suspect.
-        hypothesis: with it.
+        point: the best without the candidate.
+        structure: with it.
         more: values that it adds, one start after another.
         kept: what the point adjusts to.
         as_given: none is tried smaller: they have been chosen from some that were.
     """
 
     def begun(one: Mapping[str, float]) -> tuple[float, Estimate]:
-        other = problem.at(hypothesis, {**point.values, **one}, point.outset, point.q)
-        if not point.hypothesis.plays:  # else its runs are told by now
+        other = problem.at(structure, {**point.values, **one}, point.nuisance, point.process_noise)
+        if not point.structure.plays:  # else its runs are told by now
             other = estimate_backlash_phase(problem, other, aside=not as_given)
         if not math.isfinite(other.cost):
             return -math.inf, other
-        return square - kept.square(problem.white(point, other.ahead)) - backlash_phase_prior(
+        return square - kept.square(problem.white(point, other.innovations)) - backlash_phase_prior(
             other
         ), other
 
-    now = problem.white(point, point.ahead)
+    now = problem.white(point, point.innovations)
     square = kept.square(now)
     found = []
     for one in more:
         gained, other = begun(one)
         if not math.isfinite(gained):
             continue
-        change = problem.white(point, other.ahead) - now
+        change = problem.white(point, other.innovations) - now
         along, size = kept.along(change, now)
         part = -along / size if size > 0.0 else 0.0
         found.append((gained, other))
-        if as_given or not _another_size(hypothesis, part):
+        if as_given or not _another_size(structure, part):
             continue
         if part**2 * size > gained + SURELY_MORE:
-            found.append(begun(_sized(hypothesis, one, part)))
+            found.append(begun(_sized(structure, one, part)))
     if found and not as_given:
-        found += _halved(hypothesis, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
+        found += _halved(structure, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
     return [one for one in found if math.isfinite(one[0])]
 
 
 def _halved(
-    hypothesis: ModelStructure, names: Sequence[str], best: Begun,
+    structure: ModelStructure, names: Sequence[str], best: Begun,
     begun: Callable[[Mapping[str, float]], Begun],
 ) -> Iterator[Begun]:  # fmt: skip
     """Half of the best start, and half of that, as long as it promises more."""
     for _ in range(HALVINGS):
-        half = begun(_sized(hypothesis, {name: best[1].values[name] for name in names}, 0.5))
+        half = begun(_sized(structure, {name: best[1].values[name] for name in names}, 0.5))
         if not half[0] > best[0]:
             return
         yield half
         best = half
 
 
-def _another_size(hypothesis: ModelStructure, part: float) -> bool:
+def _another_size(structure: ModelStructure, part: float) -> bool:
     """Whether a part of a start's size is worth a look: a smaller one, or one the other way."""
     if part > 0.0:
         return SMALL_PART < part < LARGE_PART
-    sizes = _sizes(hypothesis)
-    signed = bool(sizes) and all(hypothesis.parameters[name].least < 0.0 for name in sizes)
+    sizes = _sizes(structure)
+    signed = bool(sizes) and all(structure.parameters[name].least < 0.0 for name in sizes)
     return signed and SMALL_PART < -part < LARGEST_PART
 
 
-def _sizes(hypothesis: ModelStructure) -> list[str]:
+def _sizes(structure: ModelStructure) -> list[str]:
     """The parameters of the last effect that are nothing where it is not there."""
-    own = f"{hypothesis.effects[-1]}."
+    own = f"{structure.effects[-1]}."
     return [
         name
-        for name, known in hypothesis.parameters.items()
+        for name, known in structure.parameters.items()
         if name.startswith(own) and known.neutral == 0.0 and known.searched
     ]
 
 
-def _sized(hypothesis: ModelStructure, one: Mapping[str, float], part: float) -> dict[str, float]:
+def _sized(structure: ModelStructure, one: Mapping[str, float], part: float) -> dict[str, float]:
     """A start at a part of its size."""
-    sizes = _sizes(hypothesis)
+    sizes = _sizes(structure)
     return {
-        name: hypothesis.within(name, value * part) if name in sizes else value
+        name: structure.within(name, value * part) if name in sizes else value
         for name, value in one.items()
     }
 
@@ -281,32 +284,36 @@ def append_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple
         problem: the measurements.
         point: the values.
     """
-    table, rest = problem.columns(point), problem.white(point, point.ahead)
-    runs, tau = len(problem.lanes), friction_sd(point.values)
+    table, rest = problem.columns(point), problem.white(point, point.innovations)
+    runs, tau = len(problem.records), friction_sd(point.values)
     prior = np.zeros((2 * runs, table.shape[1]))
     prior[:, -2 * runs :] = np.diag(np.repeat([1.0 / problem.loose, 1.0 / tau], runs))
-    own = [point.outset.beside / problem.loose, point.outset.rubs / tau]
+    own = [point.nuisance.position_offset / problem.loose, point.nuisance.friction_offset / tau]
     return np.vstack([table, prior]), np.concatenate([rest, *own])
 
 
 def _moved(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Estimate:
-    hypothesis = point.hypothesis
+    structure = point.structure
     values = dict(point.values)
-    searched = hypothesis.searched
+    searched = structure.searched
     for name, step in zip(searched, by.tolist(), strict=False):
-        values[name] = hypothesis.stepped(name, values[name], step)
+        values[name] = structure.stepped(name, values[name], step)
     starts, rubs = by[len(searched) :].reshape(2, -1)
-    outset = point.outset.moved(starts).rubbing(rubs)
-    common = float(np.mean(outset.rubs))  # what all runs have is kS: only the price tells, hardly
+    nuisance = point.nuisance.moved(starts).rubbing(rubs)
+    common = float(
+        np.mean(nuisance.friction_offset)
+    )  # what all runs have is kS: only the price tells, hardly
     values["kS"] = max(values["kS"] + common, 0.0)
-    outset = outset.rubbing(np.full_like(outset.rubs, -common))
-    return problem.at(hypothesis, values, outset, point.q)
+    nuisance = nuisance.rubbing(np.full_like(nuisance.friction_offset, -common))
+    return problem.at(structure, values, nuisance, point.process_noise)
 
 
 def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The same values with the likeliest q of all sizes: there may be more than one valley."""
     tried = [
-        problem.at(point.hypothesis, point.values, point.outset, point.q * SOFTER**power)
+        problem.at(
+            point.structure, point.values, point.nuisance, point.process_noise * SOFTER**power
+        )
         for power in SCANNED
     ]
     return min([point, *tried], key=lambda one: one.cost)

@@ -25,9 +25,9 @@ def friction_sd(values: Mapping[str, float]) -> float:
     return VARIES * max(values["kS"], LEAST_KS)
 
 
-def friction_prior(values: Mapping[str, float], outset: RunNuisance) -> float:
+def friction_prior(values: Mapping[str, float], nuisance: RunNuisance) -> float:
     """[of -2 log L] of frictions that are each run's own."""
-    return float(np.sum(np.square(outset.rubs / friction_sd(values))))
+    return float(np.sum(np.square(nuisance.friction_offset / friction_sd(values))))
 
 
 def laplace_correction(values: Mapping[str, float], slopes: Array) -> float:

@@ -10,7 +10,7 @@ from sim.fit.measurements import RunMeasurements, estimate_noise, measure_runs
 from sim.gap import GapMap, Residuals, gap_map
 from sim.log import Array, Log, Run
 
-FEWEST = 4  # samples of a run that is simulated, as ``lanes`` has it
+FEWEST = 4  # samples of a run that is simulated, as ``records`` has it
 
 
 def residual_map(

@@ -1,4 +1,4 @@
-"""What is each run's own: how it begins, and how much more or less it rubs."""
+"""Nuisance parameters of each run: start position, backlash phase and additional friction."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -10,18 +10,18 @@ from sim.log import Array
 
 @dataclass(frozen=True, eq=False)
 class RunNuisance:
-    """What is each run's own.
+    """Nuisance parameters of each run.
 
     Args:
-        beside: (runs,) [unit] true position at its first sample, less the one seen there.
-        meshed: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where the load's
-            weight decides.
-        rubs: (runs,) [V] its dry friction, beyond that of all runs.
+        position_offset: (runs,) [unit] true position at a run's first sample, minus the measured one.
+        backlash_phase: (runs,) [1] where in its backlash the motor starts, from -1 to 1; nan where
+            the load's weight decides.
+        friction_offset: (runs,) [V] Coulomb friction of a run minus that of all runs.
     """
 
-    beside: Array
-    meshed: Array
-    rubs: Array
+    position_offset: Array
+    backlash_phase: Array
+    friction_offset: Array
 
     @classmethod
     def seen(cls, runs: int) -> "RunNuisance":
@@ -31,31 +31,33 @@ class RunNuisance:
     def of(self, chosen: Sequence[int]) -> "RunNuisance":
         """That of some runs."""
         places = list(chosen)
-        return RunNuisance(self.beside[places], self.meshed[places], self.rubs[places])
+        return RunNuisance(
+            self.position_offset[places], self.backlash_phase[places], self.friction_offset[places]
+        )
 
     def moved(self, by: Array) -> "RunNuisance":
         """The same; ``by`` (runs,) [unit] further."""
-        return replace(self, beside=self.beside + by)
+        return replace(self, position_offset=self.position_offset + by)
 
     def rubbing(self, by: Array) -> "RunNuisance":
         """The same; each run with ``by`` (runs,) [V] more friction."""
-        return replace(self, rubs=self.rubs + by)
+        return replace(self, friction_offset=self.friction_offset + by)
 
     @property
     def alike(self) -> "RunNuisance":
         """The same, all runs with one friction."""
-        return replace(self, rubs=np.zeros_like(self.rubs))
+        return replace(self, friction_offset=np.zeros_like(self.friction_offset))
 
     def meshing(self, meshed: Array) -> "RunNuisance":
         """The same, with ``meshed`` (runs,)."""
-        return replace(self, meshed=meshed)
+        return replace(self, backlash_phase=meshed)
 
     @property
     def unmeshed(self) -> "RunNuisance":
         """The same; where in free play a run begins is left to the load's weight."""
-        return self.meshing(np.full_like(self.meshed, np.nan))
+        return self.meshing(np.full_like(self.backlash_phase, np.nan))
 
     @property
     def is_meshed(self) -> bool:
         """Whether it is told of any run where in free play that begins."""
-        return not bool(np.isnan(self.meshed).all())
+        return not bool(np.isnan(self.backlash_phase).all())

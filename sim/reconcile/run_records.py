@@ -49,7 +49,7 @@ class RunRecord:
         memory: runs of one number followed one another: what one heated, the next found warm.
     """
 
-    seen: RunMeasurements
+    measurements: RunMeasurements
     test: str
     low: float
     high: float
@@ -59,12 +59,16 @@ class RunRecord:
 
     def without(self, aside: ExcludedInterval) -> "RunRecord":
         """The same, and that stretch says nothing."""
-        time = self.seen.time
+        time = self.measurements.time
         begins = aside.start <= time[0] + AROUND  # on the stop: it leaves it, and all is well
         end = np.inf if aside.for_good and not begins else aside.end + AROUND
         out = (time >= aside.start - AROUND) & (time <= end)
-        seen = replace(self.seen, telling=self.seen.telling & ~out, moving=self.seen.moving & ~out)
-        return replace(self, seen=seen)
+        seen = replace(
+            self.measurements,
+            telling=self.measurements.telling & ~out,
+            moving=self.measurements.moving & ~out,
+        )
+        return replace(self, measurements=seen)
 
 
 def run_records(
@@ -104,7 +108,7 @@ def session_length(*logs: Log) -> float:
 
 
 def join_records(log: Log, later: Log) -> Log:
-    """The runs of both, on one clock if each has one: as ``lanes`` has them, with no pause."""
+    """The runs of both, on one clock if each has one: as ``records`` has them, with no pause."""
     runs = later.runs
     if share_a_clock(log) and share_a_clock(later):
         by = log.runs[0].time[0] + session_length(log) + AFTER - later.runs[0].time[0]

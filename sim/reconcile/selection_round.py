@@ -11,15 +11,15 @@ from sim.reconcile.story import Tried
 
 @dataclass(frozen=True, eq=False)
 class WeighedCandidate:
-    """A suspect, and what the gates said.
+    """A candidate, and what the gates said.
 
     Args:
-        suspect: the model with it.
+        candidate: the model with it.
         gap: outside of what was fitted.
         tried: the same, as it is told.
     """
 
-    suspect: Candidate
+    candidate: Candidate
     gap: Gap
     tried: Tried
 
@@ -29,20 +29,20 @@ class SelectionRound:
     """A model, and what was tried on top of it.
 
     Args:
-        suspect: the model, and the effect that made it of the one before; empty for the base.
+        candidate: the model, and the effect that made it of the one before; empty for the base.
         gap: outside of what was fitted.
         before: the gap without that effect; the same for the base.
         rivals: effects that would have explained as much.
-        tried: the suspects of the next round.
+        tried: the candidates of the next round.
         quiet: effects of the model that make the log likelier and hardly narrow the gap.
         plain: the model before the first of those; None if there are none.
-        seeds: parameters of the suspects that were likelier than nothing, of all rounds so far.
+        seeds: parameters of the candidates that were likelier than nothing, of all rounds so far.
         lost: [of -2 log L] what the last model would lose without this effect; nan if not asked.
         bare: the gap of the last model without this effect; None if not asked.
-        weighed: the suspects of the next round, with their models.
+        candidates: the candidates of the next round, with their models.
     """
 
-    suspect: Candidate
+    candidate: Candidate
     gap: Gap
     before: Gap
     rivals: tuple[str, ...] = ()
@@ -52,10 +52,10 @@ class SelectionRound:
     seeds: Seeds = field(default_factory=dict)
     lost: float = math.nan
     bare: Gap | None = None
-    weighed: tuple[WeighedCandidate, ...] = ()
+    candidates: tuple[WeighedCandidate, ...] = ()
 
 
 def reported_estimate(one: SelectionRound) -> Estimate:
     """The model of a round that is shown: of the base, the one without quiet effects."""
     plain = one.plain if one.plain and not one.plain.effect else None
-    return (plain or one.suspect).point
+    return (plain or one.candidate).point

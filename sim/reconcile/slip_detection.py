@@ -46,7 +46,7 @@ class _Errors:
     """What an open loop leaves of a run's velocity.
 
     Args:
-        lane: the run.
+        record: the run.
         left: (n,) measured less simulated.
         speed: (n,) simulated.
         told: (n,) whether it is compared, and not at the very beginning or end.
@@ -55,7 +55,7 @@ class _Errors:
         spread: what is ordinary from one sample to the next.
     """
 
-    lane: RunRecord
+    record: RunRecord
     left: Array
     speed: Array
     told: NDArray[np.bool_]
@@ -85,25 +85,25 @@ def detect_slips(
         problem: the measurements.
         point: the base model that follows them.
     """
-    gains = point.hypothesis.model(point.values).gains
+    gains = point.structure.model(point.values).gains
     scale = gains["kA"] / gains["kV"]
     every = dict(_errors(problem, point))
     sharp = _sharp_of_all(every.values()) if scale >= SLOW * problem.period else {}
     for number, run in every.items():
         short = _short(run, longest=scale / CLEARLY)
         for begin, end, size in (*short, *sharp.get(run, ())):
-            slip = _slip(run.lane, begin, end, size / run.spread, scale)
+            slip = _slip(run.record, begin, end, size / run.spread, scale)
             yield number, replace(slip, run=number)
 
 
 def _errors(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[int, _Errors]]:
     """Which run -> what is left of it."""
-    speeds = problem.track(point.hypothesis.model(point.values), point.outset).seen
+    speeds = problem.track(point.structure.model(point.values), point.nuisance).seen
     near = max(round(BESIDE / problem.period), 3)
     for number, (first, last) in enumerate(pairwise(problem.edges.tolist())):
-        lane, told = problem.lanes[number], problem.telling[first:last].copy()
+        record, told = problem.records[number], problem.telling[first:last].copy()
         left = np.nan_to_num(problem.measured[first:last, 1] - speeds[first:last])
-        moves = np.flatnonzero(lane.seen.moving)
+        moves = np.flatnonzero(record.measurements.moving)
         if left.size < SHORT * near or not told.any() or not moves.size:
             continue
         apart = np.abs(left - _median(left, near))[told]
@@ -111,13 +111,13 @@ def _errors(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[
             apart = np.abs(np.diff(left, prepend=left[:1]))[told] / math.sqrt(2.0)
         spread = max(ROBUST * float(np.median(apart)), problem.noise.velocity)
         told[:near] = told[-FEWEST:] = False
-        since = lane.seen.time - float(lane.seen.time[moves[0]])
-        yield number, _Errors(lane, left, speeds[first:last], told, since, near, spread)
+        since = record.measurements.time - float(record.measurements.time[moves[0]])
+        yield number, _Errors(record, left, speeds[first:last], told, since, near, spread)
 
 
 def _short(run: _Errors, *, longest: float) -> Iterator[tuple[int, int, float]]:
     """First and last sample, and size, of what is over before a mechanism could have answered."""
-    time, near = run.lane.seen.time, run.near
+    time, near = run.record.measurements.time, run.near
     apart = run.left - _median(run.left, near)
     told = run.told & (run.since > STARTING)
     told[-near:] = False
@@ -143,7 +143,7 @@ def _sharp_of_all(every: Iterable[_Errors]) -> dict[_Errors, list[tuple[int, int
 
 
 def _sharp(run: _Errors) -> Iterator[tuple[int, int, float]]:
-    time, jumps = run.lane.seen.time, run.jumps
+    time, jumps = run.record.measurements.time, run.jumps
     edges = np.flatnonzero(np.abs(jumps) > SEEN * run.spread).tolist()
     done = 0
     for clear in run.clear:
@@ -178,13 +178,13 @@ def _lost(run: _Errors, begin: int, end: int) -> float:
     return size if alike and abs(after - before) < BACK * size + run.spread else 0.0
 
 
-def _slip(lane: RunRecord, begin: int, end: int, noises: float, scale: float) -> DamagedInterval:
-    time = lane.seen.time
+def _slip(record: RunRecord, begin: int, end: int, noises: float, scale: float) -> DamagedInterval:
+    time = record.measurements.time
     length = float(time[end] - time[begin] + time[1] - time[0])
     return DamagedInterval(
         None, float(time[begin]), float(time[end]), "encoder-slip", 1.0,
-        f"In {lane.test}, {time[begin]:.2f} s, the velocity is off by {noises:.0f} times its noise "
-        f"for {length * 1000:.0f} ms and right again at once, while the mechanism takes "
+        f"In {record.test}, {time[begin]:.2f} s, the velocity is off by {noises:.0f} times its "
+        f"noise for {length * 1000:.0f} ms and right again at once, while the mechanism takes "
         f"{scale:.2f} s to change its speed.",
         "Check the encoder's mounting, set screw and belt; record that test again.",
     )  # fmt: skip

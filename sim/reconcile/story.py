@@ -64,7 +64,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Tried:
-    """A suspect of one round.
+    """A candidate of one round.
 
     Args:
         effect: its name.
@@ -88,7 +88,7 @@ class Chapter:
     Args:
         added: the effect that made this model of the one before; empty for the base.
         model: with it.
-        tried: the suspects of the next round, the likeliest first.
+        tried: the candidates of the next round, the likeliest first.
         gap: [owner's unit/s] RMS velocity error on the shown log.
         tracks: a run of the shown log -> (n, 2) simulated position and velocity, SI.
     """

@@ -2,7 +2,7 @@
 
 SURE = 20.0
 """[of -2 log L] by which an effect must make the model likelier, prices paid: odds of e¹⁰, about
-twenty thousand to one, because some twenty suspects are asked several times."""
+twenty thousand to one, because some twenty candidates are asked several times."""
 
 NARROWER = 0.985
 """[1] of the gap before: the validation's gap, geometric mean of velocity's and position's, must

@@ -40,22 +40,22 @@ class TwoBodyStarts:
     """
 
     def __init__(self, problem: PredictionErrorProblem, point: Estimate) -> None:
-        chosen = [n for n, lane in enumerate(problem.lanes) if SLOW not in lane.test]
+        chosen = [n for n, record in enumerate(problem.records) if SLOW not in record.test]
         self.there = False
         if not chosen:
             return
         self.problem = PredictionErrorProblem(
-            tuple(problem.lanes[n] for n in chosen), problem.noise
+            tuple(problem.records[n] for n in chosen), problem.noise
         )
         self.point = self.problem.at(
-            point.hypothesis, point.values, point.outset.of(chosen), point.q
+            point.structure, point.values, point.nuisance.of(chosen), point.process_noise
         )
         if isfinite(self.point.cost):  # else all of them were set aside, or fly off
             self.there = True
             self.kept = joint_jacobian(self.problem, self.point)
 
     def valleys(
-        self, hypothesis: ModelStructure, more: list[dict[str, float]], *, heavy: bool
+        self, structure: ModelStructure, more: list[dict[str, float]], *, heavy: bool
     ) -> list[dict[str, float]]:
         """The starts that are worth a look at all runs.
 
@@ -63,16 +63,16 @@ class TwoBodyStarts:
         these are the runs in which a joint shows, and a look at all of them takes longest.
 
         Args:
-            hypothesis: with the effect that shakes as its last one.
+            structure: with the effect that shakes as its last one.
             more: values that it adds, one start after another.
             heavy: two bodies of more inertia are tried, too.
         """
-        effect = hypothesis.effects[-1]
+        effect = structure.effects[-1]
         names = ["kA", *(f"{effect}.{name}" for name in EFFECTS[effect].names)]
         tried = list(more)
         if heavy:
             tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in more]
-        begun = predicted_improvement(self.problem, self.point, hypothesis, tried, kept=self.kept)
+        begun = predicted_improvement(self.problem, self.point, structure, tried, kept=self.kept)
         gone = self._a_step(_best_of_each(begun, effect))
         for most in GO_ON:
             gone = self._a_step(_apart(gone, names)[:most])

@@ -58,9 +58,9 @@ def _remains(findings: Sequence[Finding], done: Sequence[SelectionRound], *, str
             f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
             "effect of the catalogue makes that less."
         )
-    if likely := list_blocked(done[-1].weighed):
+    if likely := list_blocked(done[-1].candidates):
         return (
-            f"With {likely[0].suspect.effect} the log would be far likelier, and yet runs that "
+            f"With {likely[0].candidate.effect} the log would be far likelier, and yet runs that "
             "were not fitted are missed by more: something else is missing, or more than that."
         )
     if series := _series(findings):
@@ -75,17 +75,17 @@ def _remains(findings: Sequence[Finding], done: Sequence[SelectionRound], *, str
 def _is_left(problem: PredictionErrorProblem, left: ResidualSummary, per: Unit) -> str:
     """A sentence about what the last model leaves that is no noise; empty if it is."""
     if left.shaken:
-        moment = left.moment
-        lane = problem.lanes[moment.lane]
+        moment = left.worst_window
+        record = problem.records[moment.record]
         return (
-            f"In {lane.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
+            f"In {record.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
             f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
         )
     if left.repeats:
-        return _habit(left.alike, per)
+        return _habit(left.repeated, per)
     if left.swings:
         return (
-            f"Something pushes to and fro every {1.0 / left.rhythm.rate:.2f} s, whatever the "
+            f"Something pushes to and fro every {1.0 / left.peak.rate:.2f} s, whatever the "
             "mechanism does meanwhile, and no effect of the catalogue explains it. Look for what "
             "has a time of its own: a robot that rocks on its blocks, a compressor, another "
             "mechanism."

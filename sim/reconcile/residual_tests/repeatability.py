@@ -69,12 +69,12 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
         point: what is believed.
     """
     missed = smooth_innovations(problem, point)
-    track = problem.track(point.hypothesis.model(point.values), point.outset, point.trust)
+    track = problem.track(point.structure.model(point.values), point.nuisance, point.kalman_gain)
     speed, position = track.seen, problem.measured[:, 0]
     position = np.where(np.isnan(position), track.position, position)
     told = ~problem.untold.all(axis=1)
     told &= np.abs(speed) > SLOW * problem.top
-    run = np.repeat(np.arange(len(problem.lanes)), np.diff(problem.edges))
+    run = np.repeat(np.arange(len(problem.records)), np.diff(problem.edges))
     found = []
     for what, value in ((POSITION, position), (SPEED, speed)):
         ways = {
@@ -91,7 +91,7 @@ def smooth_innovations(problem: PredictionErrorProblem, point: Estimate) -> Arra
     """(n,) how much of a push within its period each white innovation has."""
     period = problem.period
     push = problem.white(point, np.array([[0.5 * period**2, period]]))
-    white = problem.white(point, point.ahead).reshape(-1, 2)
+    white = problem.white(point, point.innovations).reshape(-1, 2)
     return np.asarray(white @ (push / np.linalg.norm(push)))
 
 

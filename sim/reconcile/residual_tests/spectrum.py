@@ -64,11 +64,13 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
 def _runs(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[Array, Array]]:
     """Of each run that is long enough: times, and pushes less their mean."""
     every, told = smooth_innovations(problem, point), np.asarray(~problem.untold.all(axis=1))
-    for lane, (first, last) in zip(problem.lanes, pairwise(problem.edges.tolist()), strict=True):
+    for record, (first, last) in zip(
+        problem.records, pairwise(problem.edges.tolist()), strict=True
+    ):
         mine = told[first:last]
         push = every[first:last][mine]
         if push.size >= SHORTEST:
-            yield lane.seen.time[mine], push - np.mean(push)
+            yield record.measurements.time[mine], push - np.mean(push)
 
 
 def _unlikely(power: float, count: int) -> float:

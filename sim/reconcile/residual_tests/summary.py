@@ -15,28 +15,28 @@ class ResidualSummary:
 
     Args:
         moment: that the model explains least.
-        alike: what runs miss of it alike.
-        rhythm: what comes back in time.
+        repeated: what runs miss of it alike.
+        peak: what comes back in time.
     """
 
-    moment: WorstWindow = CALM
-    alike: RepeatedResidual = field(default_factory=RepeatedResidual)
-    rhythm: SpectralPeak = field(default_factory=SpectralPeak)
+    worst_window: WorstWindow = CALM
+    repeated: RepeatedResidual = field(default_factory=RepeatedResidual)
+    peak: SpectralPeak = field(default_factory=SpectralPeak)
 
     @property
     def shaken(self) -> bool:
         """Whether there is a moment that is not explained."""
-        return self.moment.size > SHAKEN
+        return self.worst_window.size > SHAKEN
 
     @property
     def swings(self) -> bool:
         """Whether something comes back in time."""
-        return self.rhythm.size > RHYTHM
+        return self.peak.size > RHYTHM
 
     @property
     def repeats(self) -> bool:
         """Whether runs miss the same at the same places or speeds."""
-        return self.alike.size > ALIKE
+        return self.repeated.size > ALIKE
 
     @property
     def something(self) -> bool:

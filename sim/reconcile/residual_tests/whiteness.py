@@ -29,13 +29,13 @@ class WorstWindow:
 
     Args:
         size: [robust standard deviations of all windows as long].
-        lane: which run.
+        record: which run.
         start: [s] on the run's clock.
         end: [s].
     """
 
     size: float
-    lane: int
+    record: int
     start: float
     end: float
 
@@ -54,30 +54,30 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
     for length in WINDOWS:
         count = max(round(length / problem.period), 2)
         position, velocity = (_sizes(problem, white[:, column], count) for column in (0, 1))
-        for lane, one in position.items():
-            other = velocity[lane]
+        for record, one in position.items():
+            other = velocity[record]
             together = np.where(one * other > 0.0, np.hypot(one, other), 0.0)
             size = np.max([np.abs(one), np.abs(other), together], axis=0)
             place = int(np.argmax(size))
-            time = problem.lanes[lane].seen.time
+            time = problem.records[record].measurements.time
             end = min(place + count, time.size - 1)
             moments.append(
-                WorstWindow(float(size[place]), lane, float(time[place]), float(time[end]))
+                WorstWindow(float(size[place]), record, float(time[place]), float(time[end]))
             )
     return max(moments, key=lambda one: one.size, default=CALM)
 
 
 def _sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
     """Which run -> (windows,) their sums, in what is ordinary."""
-    sums = {lane: one for lane, one in _windows(problem, white, count) if one.size}
+    sums = {record: one for record, one in _windows(problem, white, count) if one.size}
     every = np.concatenate([*sums.values(), np.zeros(0)])
     if every.size < FEWEST:
-        return {lane: np.zeros(one.size) for lane, one in sums.items()}
+        return {record: np.zeros(one.size) for record, one in sums.items()}
     spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
     spread = max(spread, LEAST * count**0.5)
     return {
-        lane: one / (spread * _ordinary(problem.lanes[lane])[: one.size])
-        for lane, one in sums.items()
+        record: one / (spread * _ordinary(problem.records[record])[: one.size])
+        for record, one in sums.items()
     }
 
 
@@ -87,14 +87,14 @@ def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
     A step comes a part of a sample late, another part in each run: that is of clocks, not of
     physics.
     """
-    delayed = point.hypothesis
+    delayed = point.structure
     if DELAY not in delayed.effects:
         delayed = delayed + DELAY
     late = PART * problem.period
     values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
-    more = problem.ahead(delayed.model(values), point.outset, point.trust)
-    white = point.ahead @ point.whitening.T
-    change = np.nan_to_num(more - point.ahead) @ point.whitening.T
+    more = problem.ahead(delayed.model(values), point.nuisance, point.kalman_gain)
+    white = point.innovations @ point.whitening.T
+    change = np.nan_to_num(more - point.innovations) @ point.whitening.T
     for first, last in pairwise(problem.edges.tolist()):
         column, rest = change[first:last].ravel(), white[first:last].ravel()
         along = float(column @ column)
@@ -103,14 +103,14 @@ def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
     return np.asarray(white)
 
 
-def _ordinary(lane: RunRecord) -> Array:
+def _ordinary(record: RunRecord) -> Array:
     """(n,) what is ordinary for a window that begins there, in what is ordinary elsewhere.
 
     Soon after a step of the voltage everything is fast: what happens between two samples, as a
     battery that gives way and recovers, adds up to twice as much.
     """
-    time = lane.seen.time
-    jumps = time[np.abs(np.diff(lane.seen.voltage, prepend=0.0)) > JUMP]
+    time = record.measurements.time
+    jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > JUMP]
     last = np.searchsorted(jumps, time, side="right") - 1
     since = time - np.concatenate((jumps, [-np.inf]))[last]
     return np.where(since <= SOON, 2.0, 1.0)
@@ -120,7 +120,7 @@ def _windows(
     problem: PredictionErrorProblem, white: Array, count: int
 ) -> Iterator[tuple[int, Array]]:
     """Sums of so many innovations, of each run; windows with untold samples are left out."""
-    for lane, (first, last) in enumerate(zip(problem.edges[:-1], problem.edges[1:], strict=True)):
+    for record, (first, last) in enumerate(zip(problem.edges[:-1], problem.edges[1:], strict=True)):
         mine, told = white[first:last], problem.telling[first:last]
         if mine.size <= count:
             continue
@@ -128,4 +128,4 @@ def _windows(
         there = np.concatenate(([0], np.cumsum(told)))
         sums = total[count:] - total[:-count]
         sums[there[count:] - there[:-count] < count] = 0.0
-        yield lane, sums
+        yield record, sums
