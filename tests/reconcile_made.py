@@ -88,7 +88,7 @@ def rubbing(gains, shares, *parts, noise, step, seed):
 def based(log, gains):
     """The problem of a log, and the point of gains without effects."""
     problem = PredictionErrorProblem.of(run_records(log))
-    begun = RunNuisance.seen(len(problem.lanes))
+    begun = RunNuisance.seen(len(problem.records))
     return problem, problem.at(ModelStructure("simple"), gains, begun, problem.noise.velocity**2)
 
 

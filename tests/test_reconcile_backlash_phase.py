@@ -73,10 +73,10 @@ def problem():
     return PredictionErrorProblem.of(run_records(session(0, step=4.0, seed=1)))
 
 
-def at(problem, hypothesis=PLAYS, outset=None):
-    begun = outset or RunNuisance.seen(len(problem.lanes))
-    values = {name: VALUES[name] for name in hypothesis.names}
-    return problem.at(hypothesis, values, begun, problem.noise.velocity**2)
+def at(problem, structure=PLAYS, nuisance=None):
+    begun = nuisance or RunNuisance.seen(len(problem.records))
+    values = {name: VALUES[name] for name in structure.names}
+    return problem.at(structure, values, begun, problem.noise.velocity**2)
 
 
 def test_each_run_is_begun_where_it_went_on_from(problem):
@@ -85,16 +85,20 @@ def test_each_run_is_begun_where_it_went_on_from(problem):
     seen = estimate_backlash_phase(problem, blind)
 
     assert seen.cost + backlash_phase_prior(seen) < blind.cost - 100.0
-    assert seen.outset.meshed == pytest.approx([one for one, _ in BEGAN.values()], abs=0.2)
+    assert seen.nuisance.backlash_phase == pytest.approx(
+        [one for one, _ in BEGAN.values()], abs=0.2
+    )
 
 
 def test_a_second_look_is_nearer():
     off = PredictionErrorProblem.of(run_records(session(1, step=3.0, seed=2)))  # -1, 0, 1 and -0.5
     began = RunNuisance.seen(4).meshing(np.array([-0.8, 0.2, 0.8, -0.7]))
 
-    seen = estimate_backlash_phase(off, at(off, outset=began))
+    seen = estimate_backlash_phase(off, at(off, nuisance=began))
 
-    assert seen.outset.meshed == pytest.approx([one for _, one in BEGAN.values()], abs=0.05)
+    assert seen.nuisance.backlash_phase == pytest.approx(
+        [one for _, one in BEGAN.values()], abs=0.05
+    )
 
 
 def test_a_start_that_was_told_amiss_is_gone_untold_too():
@@ -103,19 +107,19 @@ def test_a_start_that_was_told_amiss_is_gone_untold_too():
     base = minimize_fully(problem, stiff)
     told = RunNuisance.seen(len(BEGAN)).meshing(np.array([1.0, -1.0, 1.0, -1.0]))
     values = {**base.values, "backlash.slack": SLACK, "backlash.share": SHARE}
-    start = problem.at(PLAYS, values, told, base.q)
+    start = problem.at(PLAYS, values, told, base.process_noise)
     assert levenberg_marquardt(problem, start, steps=FURTHER).cost > base.cost  # it leads nowhere
 
     found = descend_candidate(problem, base, start)
 
     assert found.cost < base.cost - 5000.0
-    assert not found.outset.is_meshed
+    assert not found.nuisance.is_meshed
 
 
 def test_what_is_told_has_its_price(problem):
     seen = estimate_backlash_phase(problem, at(problem))
-    aside = np.count_nonzero(np.abs(seen.outset.meshed) == 1.0)
-    between = np.count_nonzero(np.abs(seen.outset.meshed) < 1.0)
+    aside = np.count_nonzero(np.abs(seen.nuisance.backlash_phase) == 1.0)
+    between = np.count_nonzero(np.abs(seen.nuisance.backlash_phase) < 1.0)
 
     assert aside > between > 0
     assert backlash_phase_prior(seen) == pytest.approx(aside * ASIDE + between * BETWEEN)
@@ -128,8 +132,8 @@ def test_without_play_nothing_is_told_and_nothing_is_kept(problem):
     stiff = at(problem, ModelStructure("simple"))
     assert estimate_backlash_phase(problem, stiff) is stiff
 
-    told = estimate_backlash_phase(problem, at(problem)).outset
-    assert np.isnan(at(problem, ModelStructure("simple"), told).outset.meshed).all()
+    told = estimate_backlash_phase(problem, at(problem)).nuisance
+    assert np.isnan(at(problem, ModelStructure("simple"), told).nuisance.backlash_phase).all()
 
 
 def test_play_is_named_wherever_its_runs_began_and_the_gap_closes():

@@ -23,10 +23,10 @@ def session(*parts, step, frictions=(1.0, 1.0, 1.0, 1.0)):
     return rubbing(GAINS, frictions, *parts, noise=NOISE, step=step, seed=round(100.0 * step))
 
 
-def at(problem, values, *effects, q=1.0):
-    hypothesis = ModelStructure("simple", effects)
-    size = q * problem.noise.velocity**2
-    return problem.at(hypothesis, values, RunNuisance.seen(len(problem.lanes)), size)
+def at(problem, values, *effects, process_noise=1.0):
+    structure = ModelStructure("simple", effects)
+    size = process_noise * problem.noise.velocity**2
+    return problem.at(structure, values, RunNuisance.seen(len(problem.records)), size)
 
 
 def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
@@ -37,10 +37,10 @@ def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
     truth, without = at(problem, values, "cogging"), at(problem, GAINS)
 
     plain = (
-        rms_gap(open_loop_errors(problem, truth, truth.outset)).velocity / problem.noise.velocity
+        rms_gap(open_loop_errors(problem, truth, truth.nuisance)).velocity / problem.noise.velocity
     )
-    eased = rms_gap(open_loop_errors(problem, truth, truth.outset, eased=True)).velocity
-    bare = rms_gap(open_loop_errors(problem, without, without.outset, eased=True)).velocity
+    eased = rms_gap(open_loop_errors(problem, truth, truth.nuisance, eased=True)).velocity
+    bare = rms_gap(open_loop_errors(problem, without, without.nuisance, eased=True)).velocity
 
     assert plain > 5.0
     assert eased < 0.3 * plain * problem.noise.velocity
@@ -51,13 +51,13 @@ def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
 def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
     problem = PredictionErrorProblem.of(run_records(session(step=4.0)))
     far = {"kS": 0.0, "kV": off * GAINS["kV"], "kA": 20.0 * GAINS["kA"]}
-    begun = at(problem, far, q=4.0**6)
+    begun = at(problem, far, process_noise=4.0**6)
 
     found = minimize_fully(problem, begun)
 
     assert found.cost <= minimize(problem, begun).cost
     assert found.values == pytest.approx(GAINS, rel=0.02)
-    assert found.q < problem.noise.velocity**2
+    assert found.process_noise < problem.noise.velocity**2
 
 
 def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
@@ -67,7 +67,7 @@ def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
 
     def halfway(problem, point):
         values = {name: 0.5 * (point.values[name] + GAINS[name]) for name in GAINS}
-        found = problem.at(point.hypothesis, values, point.outset, point.q)
+        found = problem.at(point.structure, values, point.nuisance, point.process_noise)
         costs.append(found.cost)
         return found
 
@@ -80,7 +80,7 @@ def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
 def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     log = session(Part("constant-load", {"load": 0.3}), step=4.0)
     problem = PredictionErrorProblem.of(run_records(log))
-    parts = make_folds([one.session for one in problem.lanes])
+    parts = make_folds([one.session for one in problem.records])
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     spring = {**GAINS, "spring.rate": 1e-4, "spring.preload": 0.3}
     taken = score_estimate(problem, minimize(problem, at(problem, spring, "spring")), "spring")
@@ -89,15 +89,15 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
 
     told = simplify_effects(problem, done, log, parts)
 
-    assert [one.suspect.effect for one in told] == ["", "constant-load"]
-    assert told[-1].suspect.point.hypothesis.effects == ("constant-load",)
-    assert told[-1].suspect.point.values["constant-load.load"] == pytest.approx(0.3, abs=0.02)
+    assert [one.candidate.effect for one in told] == ["", "constant-load"]
+    assert told[-1].candidate.point.structure.effects == ("constant-load",)
+    assert told[-1].candidate.point.values["constant-load.load"] == pytest.approx(0.3, abs=0.02)
 
 
 def test_an_effect_that_needs_its_parameters_keeps_them():
     log = session(Part("spring", {"rate": 0.1, "preload": 0.0}), step=4.0)
     problem = PredictionErrorProblem.of(run_records(log))
-    parts = make_folds([one.session for one in problem.lanes])
+    parts = make_folds([one.session for one in problem.records])
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}
     taken = score_estimate(problem, minimize(problem, at(problem, values, "spring")), "spring")

@@ -51,8 +51,8 @@ def test_two_logs_in_a_row_have_the_clock_of_their_lanes(first, later):
 
     row = join_records(one, other)
 
-    begun = [lane.clock for lane in run_records(one)]
-    begun += [lane.clock for lane in run_records(other, session=1, since=session_length(one))]
+    begun = [record.clock for record in run_records(one)]
+    begun += [record.clock for record in run_records(other, session=1, since=session_length(one))]
     assert run_start_times(row) == pytest.approx(begun, abs=1e-5)
     assert begun[3] == pytest.approx(begun[2] + 1.0)  # no pause between the logs
 
@@ -155,7 +155,7 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
     values = {"extra": 0.02, "onset": dynamic + after, "until": until, "shared": shared}
     log = log_with((Part("inertia-change", values),))
     problem = PredictionErrorProblem.of(run_records(log))
-    begun = RunNuisance.seen(len(problem.lanes))
+    begun = RunNuisance.seen(len(problem.records))
     point = minimize(
         problem, problem.at(ModelStructure("simple"), GAINS, begun, problem.noise.velocity**2)
     )
@@ -164,9 +164,7 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
     tried = list(scan_onsets(problem, point, EFFECTS["inertia-change"], kept=kept))
 
     likeliest = max(
-        predicted_improvement(
-            problem, point, point.hypothesis + "inertia-change", tried, kept=kept
-        ),
+        predicted_improvement(problem, point, point.structure + "inertia-change", tried, kept=kept),
         key=lambda one: one[0],
     )[1].values
     found = {name: likeliest[f"inertia-change.{name}"] for name in values}
@@ -241,11 +239,11 @@ def joined(dynamic):
     """A log in which inertia joins for good, and the point of it that has it over with its run."""
     part = Part("inertia-change", {"extra": 0.02, "onset": dynamic, "until": LATER, "shared": 0.0})
     problem = PredictionErrorProblem.of(run_records(log_with((part,))))
-    ends = dynamic + float(np.ptp(problem.lanes[2].seen.time)) + 1e-6
+    ends = dynamic + float(np.ptp(problem.records[2].measurements.time)) + 1e-6
     over = {**part.parameters, "onset": dynamic + 1e-3, "until": ends}
     values = {**GAINS, **{f"inertia-change.{name}": value for name, value in over.items()}}
-    hypothesis = ModelStructure("simple") + "inertia-change"
-    return problem, problem.at(hypothesis, values, RunNuisance.seen(4), problem.noise.velocity**2)
+    structure = ModelStructure("simple") + "inertia-change"
+    return problem, problem.at(structure, values, RunNuisance.seen(4), problem.noise.velocity**2)
 
 
 def test_what_was_over_with_its_run_is_tried_for_good(joined):
@@ -258,7 +256,7 @@ def test_what_was_over_with_its_run_is_tried_for_good(joined):
     assert best.values["inertia-change.until"] == LATER
     assert best.values["inertia-change.extra"] == pytest.approx(0.02, rel=0.05)
     assert best.cost < minimize(problem, point).cost - 100.0
-    plain = problem.at(ModelStructure("simple"), GAINS, RunNuisance.seen(4), point.q)
+    plain = problem.at(ModelStructure("simple"), GAINS, RunNuisance.seen(4), point.process_noise)
     assert not list(flip_duration(problem, plain))
 
 
@@ -272,8 +270,8 @@ def test_a_moment_is_found_between_two_samples(dynamic, shared, off):
         **GAINS,
         **{f"inertia-change.{n}": v for n, v in {**given, "onset": onset + off}.items()},
     }
-    hypothesis = ModelStructure("simple") + "inertia-change"
-    point = problem.at(hypothesis, begun, RunNuisance.seen(4), problem.noise.velocity**2)
+    structure = ModelStructure("simple") + "inertia-change"
+    point = problem.at(structure, begun, RunNuisance.seen(4), problem.noise.velocity**2)
 
     found = refine_onset(problem, point)
 
@@ -286,15 +284,15 @@ def test_a_moment_stays_on_the_clock():
     problem = PredictionErrorProblem.of(run_records(log_with(())))
     given = {"extra": 0.01, "onset": 0.0, "until": LATER, "shared": 0.0}
     values = {**GAINS, **{f"inertia-change.{n}": v for n, v in given.items()}}
-    hypothesis = ModelStructure("simple") + "inertia-change"
+    structure = ModelStructure("simple") + "inertia-change"
 
-    found = refine_onset(problem, problem.at(hypothesis, values, RunNuisance.seen(4), 1e-4))
+    found = refine_onset(problem, problem.at(structure, values, RunNuisance.seen(4), 1e-4))
 
     assert found.values["inertia-change.onset"] >= 0.0
 
 
 @pytest.mark.parametrize(
-    ("size", "lane", "after", "is_belied"),
+    ("size", "record", "after", "is_belied"),
     [
         (12.0, 2, 0.2, True),
         (12.0, 2, 0.005, False),  # the knock itself
@@ -303,10 +301,10 @@ def test_a_moment_stays_on_the_clock():
         (5.0, 2, 0.2, False),  # ordinary
     ],
 )
-def test_what_is_had_back_at_another_pace_was_no_inertia(joined, size, lane, after, is_belied):
+def test_what_is_had_back_at_another_pace_was_no_inertia(joined, size, record, after, is_belied):
     problem, point = joined
-    start = float(problem.lanes[lane].seen.time[0]) + after
-    left = ResidualSummary(moment=WorstWindow(size, lane, start, start + 0.1))
+    start = float(problem.records[record].measurements.time[0]) + after
+    left = ResidualSummary(worst_window=WorstWindow(size, record, start, start + 0.1))
 
     assert is_contradicted("inertia-change", problem, point, left) is is_belied
     assert not is_contradicted("drag", problem, point, left)

@@ -51,7 +51,7 @@ def test_a_start_that_is_far_too_large_is_halved():
     base = ModelStructure("simple")
     values = {name: built.gains[name] for name in base.names}
     point = problem.at(
-        base, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
+        base, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
     )
     far = {"compliance.softness": FAR * truth, "compliance.share": 0.25}
 
@@ -87,7 +87,7 @@ def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
     base, name = ModelStructure("simple"), "asymmetric-back-emf"
     values = {name: built.gains[name] for name in base.names}
     point = problem.at(
-        base, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
+        base, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
     )
 
     begun = predicted_improvement(
@@ -108,7 +108,7 @@ def test_what_cannot_be_negative_is_not_turned():
     base = ModelStructure("simple")
     values = {name: built.gains[name] for name in base.names}
     point = problem.at(
-        base, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
+        base, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
     )
     more = [{"drag.drag": size * built.hidden[0].parameters["drag"]} for size in (0.05, 4.0)]
 
@@ -153,7 +153,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     moves = np.sqrt(np.nanmean(problem.measured[problem.moving, 1] ** 2))
     sizes = [Gap(share * float(moves), 1.0) for share in gaps]
     values = {"kS": 0.1, "kV": 2.0, "kA": 2.0 * inertia, "drag.drag": 0.1}
-    begun = RunNuisance.seen(len(problem.lanes))
+    begun = RunNuisance.seen(len(problem.records))
     base = problem.at(ModelStructure("simple"), values, begun, problem.noise.velocity**2)
     calls = []
 
@@ -161,7 +161,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
         calls.append(now)
         if len(calls) == len(sizes):
             return []
-        other = replace(now.suspect, effect="drag", score=now.suspect.score - 500.0)
+        other = replace(now.candidate, effect="drag", score=now.candidate.score - 500.0)
         return [
             WeighedCandidate(
                 other, sizes[len(calls)], Tried("drag", 500.0, 0.9, admitted=True, why="")
@@ -248,15 +248,17 @@ def test_a_start_moves_its_own_run_and_heats_as_the_runs_before_it_did(effect):
     base = ModelStructure("simple") + effect
     values = {name: built.gains[name] for name in base.names if name in built.gains}
     values |= {f"{effect}.{name}": one for name, one in built.hidden[0].parameters.items()}
-    outset, count = RunNuisance.seen(len(problem.lanes)), len(problem.lanes)
-    point = problem.at(base, values, outset, problem.noise.velocity**2)
+    nuisance, count = RunNuisance.seen(len(problem.records)), len(problem.records)
+    point = problem.at(base, values, nuisance, problem.noise.velocity**2)
 
     starts = problem.columns(point)[:, -2 * count : -count]
 
     for number in range(count):
         by = np.zeros(count)
         by[number] = problem.noise.position
-        moved = problem.at(base, values, outset.moved(by), point.q)
-        change = problem.white(point, moved.ahead - point.ahead) / problem.noise.position
+        moved = problem.at(base, values, nuisance.moved(by), point.process_noise)
+        change = (
+            problem.white(point, moved.innovations - point.innovations) / problem.noise.position
+        )
         size = np.abs(change).max()
         assert starts[:, number] == pytest.approx(change, abs=0.02 * size)

@@ -31,9 +31,9 @@ from sim.reconcile.story import Tried
 
 def weighed(effect, score, *, gap=0.95, why="", **values):
     """A suspect, as far as choosing among them asks: how likely, how near, how large."""
-    hypothesis = ModelStructure("simple") + effect
+    structure = ModelStructure("simple") + effect
     named = {f"{effect}.{name}": value for name, value in values.items()}
-    point = replace(NOWHERE, hypothesis=hypothesis, values=named)
+    point = replace(NOWHERE, structure=structure, values=named)
     tried = Tried(effect, score, gap, admitted=not why, why=why)
     return WeighedCandidate(Candidate(effect, point, 0.0), Gap(gap, gap), tried)
 
@@ -49,7 +49,7 @@ def model(effect, score, *, gap, others=()):
         )
         for name, more, good in others
     )
-    return SelectionRound(suspect, Gap(gap, gap), Gap(gap, gap), weighed=weighed)
+    return SelectionRound(suspect, Gap(gap, gap), Gap(gap, gap), candidates=weighed)
 
 
 QUICK = recorded(
@@ -75,7 +75,10 @@ def test_other_paths_turn_off_early_where_an_admitted_effect_came_near():
     turned = alternative_paths(gone(end=4.0), lost=False)
 
     # spring was not admitted, and a delay of 10 is no ninth of what cogging explained
-    assert [(place, one.suspect.effect) for place, one in turned] == [(0, "delay"), (1, "stribeck")]
+    assert [(place, one.candidate.effect) for place, one in turned] == [
+        (0, "delay"),
+        (1, "stribeck"),
+    ]
 
 
 @pytest.mark.parametrize(
@@ -84,11 +87,11 @@ def test_other_paths_turn_off_early_where_an_admitted_effect_came_near():
 def test_a_path_that_is_lost_gives_way_to_what_comes_nearest_not_to_the_likeliest(lost, order):
     others = {"backlash": (790.0, 0.91), "compliance": (780.0, 0.90), "limit": (730.0, 0.61)}
     tried = tuple(weighed(name, score, gap=gap) for name, (score, gap) in others.items())
-    base = replace(model("", 1000.0, gap=9.0), weighed=tried)
+    base = replace(model("", 1000.0, gap=9.0), candidates=tried)
 
     turned = alternative_paths([base, model("backlash", 210.0, gap=8.2)], lost=lost)
 
-    assert [one.suspect.effect for _, one in turned] == order
+    assert [one.candidate.effect for _, one in turned] == order
 
 
 @pytest.mark.parametrize(
@@ -135,11 +138,11 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
     point = replace(NOWHERE, values=small)
     tried = Tried(effect, score, 1.2, admitted=False, why=why)
     another = WeighedCandidate(Candidate(effect, point, 0.0), Gap(5.0, 5.0), tried)
-    done = [replace(model("", 1000.0, gap=4.0), weighed=(another,))]
+    done = [replace(model("", 1000.0, gap=4.0), candidates=(another,))]
     asked = []
 
     def gone_on(_, begun, *__):
-        asked.append(begun[-1].suspect.effect)
+        asked.append(begun[-1].candidate.effect)
         new = (model(f"effect {n}", 100.0, gap=gap) for n, gap in enumerate(path))
         return [*done, *new]
 
@@ -161,7 +164,7 @@ def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, 
     suspect = Candidate("compliance", replace(NOWHERE, values=small), 0.0)
     blocked = WeighedCandidate(suspect, Gap(5.0, 5.0), tried)
     base = model("", 1000.0, gap=4.0)
-    done = [base, replace(model("cogging", 900.0, gap=3.8), weighed=(blocked,))]
+    done = [base, replace(model("cogging", 900.0, gap=3.8), candidates=(blocked,))]
     path = [base, *(model(name, 100.0, gap=1.2) for name in pair)]
     room = sys.modules[choose_path.__module__]
     monkeypatch.setattr(room, "_gone", lambda *_: path)
@@ -192,7 +195,7 @@ def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, 
 def test_of_two_about_as_likely_the_validation_decides(one, other, taken):
     tried = [weighed(name, score, gap=gap) for name, score, gap in (one, other)]
 
-    assert choose_simplest(tried).suspect.effect == taken
+    assert choose_simplest(tried).candidate.effect == taken
 
 
 # -- what goes first ------------------------------------------------------------------------------
@@ -217,7 +220,7 @@ def test_what_any_robot_has_a_little_of_goes_first_where_it_is_nearly_the_likeli
 ):
     found = admissible_candidates([LIMIT, SAG, other], most=2)
 
-    assert [[one.suspect.effect for one in some] for some in found] == [admitted, quiet]
+    assert [[one.candidate.effect for one in some] for some in found] == [admitted, quiet]
 
 
 @pytest.mark.parametrize(
@@ -237,7 +240,7 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     base = replace(model("", 1000.0, gap=2.0), tried=tried)
     point = replace(
         NOWHERE,
-        hypothesis=ModelStructure("simple") + "battery-sag" + "stribeck",
+        structure=ModelStructure("simple") + "battery-sag" + "stribeck",
         values={"kS": 0.1, "kV": 1.0, "kA": 0.1, "battery-sag.share": 0.5, "stribeck.extra": 0.2,
                 "stribeck.slow": 0.1},
     )  # fmt: skip
@@ -251,4 +254,4 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
 
     found = replace_effects(ONE_NOISE, done, None, ())
 
-    assert [one.suspect.effect for one in found] == ["", taken, "stribeck"]
+    assert [one.candidate.effect for one in found] == ["", taken, "stribeck"]

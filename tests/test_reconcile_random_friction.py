@@ -28,9 +28,9 @@ def session(shares, *parts, step=4.0, seed=0):
 
 
 def begun(problem, *effects, **values):
-    hypothesis = ModelStructure("simple", effects)
-    outset = RunNuisance.seen(len(problem.lanes))
-    return problem.at(hypothesis, {**GAINS, **values}, outset, problem.noise.velocity**2)
+    structure = ModelStructure("simple", effects)
+    nuisance = RunNuisance.seen(len(problem.records))
+    return problem.at(structure, {**GAINS, **values}, nuisance, problem.noise.velocity**2)
 
 
 def followed(model, time, volts, *, rubs):
@@ -62,9 +62,11 @@ def test_each_runs_friction_is_found_and_is_no_other_gain():
     found = minimize(problem, begun(problem))
 
     assert found.values == pytest.approx(GAINS, rel=0.03)
-    frictions = (found.values["kS"] + found.outset.rubs) / GAINS["kS"]
+    frictions = (found.values["kS"] + found.nuisance.friction_offset) / GAINS["kS"]
     assert frictions == pytest.approx(SHARES, abs=0.01)
-    assert float(np.mean(found.outset.rubs)) == pytest.approx(0.0, abs=1e-3)  # kS is their mean
+    assert float(np.mean(found.nuisance.friction_offset)) == pytest.approx(
+        0.0, abs=1e-3
+    )  # kS is their mean
 
 
 def test_what_pushes_at_random_is_not_made_of_friction():
@@ -73,7 +75,7 @@ def test_what_pushes_at_random_is_not_made_of_friction():
 
     found = minimize(problem, begun(problem))
 
-    assert found.q < 0.05 * problem.noise.velocity**2
+    assert found.process_noise < 0.05 * problem.noise.velocity**2
 
 
 def test_its_slope_is_of_the_size_by_which_friction_varies():
@@ -81,8 +83,8 @@ def test_its_slope_is_of_the_size_by_which_friction_varies():
     problem = session(SHARES)
     found = minimize(problem, begun(problem))
     nudged = [
-        problem.at(found.hypothesis, {**found.values, "kS": share * found.values["kS"]},
-                   found.outset, found.q)
+        problem.at(found.structure, {**found.values, "kS": share * found.values["kS"]},
+                   found.nuisance, found.process_noise)
         for share in (0.999, 0.9995, 1.0005, 1.001)
     ]  # fmt: skip
 
@@ -113,7 +115,7 @@ def test_what_a_point_adjusts_to_is_what_the_priors_allow():
     problem = session(SHARES)
     point = begun(problem)
     kept = joint_jacobian(problem, point)
-    white = problem.white(point, point.ahead)
+    white = problem.white(point, point.innovations)
 
     table, rest = append_prior_rows(problem, point)
     by, *_ = np.linalg.lstsq(table, rest, rcond=None)
@@ -131,8 +133,8 @@ def test_a_gap_is_that_of_each_runs_own_friction_between_those_that_are_tried(sh
     problem = session((share,) * 4)
     point = begun(problem)
 
-    plain = rms_gap(open_loop_errors(problem, point, point.outset)).velocity
-    eased = rms_gap(open_loop_errors(problem, point, point.outset, eased=True)).velocity
+    plain = rms_gap(open_loop_errors(problem, point, point.nuisance)).velocity
+    eased = rms_gap(open_loop_errors(problem, point, point.nuisance, eased=True)).velocity
 
     assert eased == pytest.approx(NOISE[1], rel=0.05)
     assert plain > 1.02 * eased
@@ -143,7 +145,7 @@ def test_a_gap_of_a_friction_that_is_beyond_all_bounds_stays_wide():
     point = begun(problem)
 
     assert (
-        rms_gap(open_loop_errors(problem, point, point.outset, eased=True)).velocity
+        rms_gap(open_loop_errors(problem, point, point.nuisance, eased=True)).velocity
         > 3.0 * NOISE[1]
     )
 
@@ -156,7 +158,7 @@ def test_a_search_beside_an_effect_finds_both():
     found = minimize_fully(problem, begun(problem, "cogging", **values))
 
     assert found.values["cogging.cosine"] == pytest.approx(wave["cosine"], abs=0.01)
-    frictions = (found.values["kS"] + found.outset.rubs) / GAINS["kS"]
+    frictions = (found.values["kS"] + found.nuisance.friction_offset) / GAINS["kS"]
     assert frictions == pytest.approx(SHARES, abs=0.015)
     assert friction_sd(found.values) == pytest.approx(0.02, rel=0.05)
 

@@ -118,7 +118,7 @@ def test_it_is_told_where_and_by_how_much(alike, units, said):
     done = [SelectionRound(score_estimate(problem, point), gap, gap)]
 
     verdict, remainder, remains = verdict_of(
-        [], done, problem, left=ResidualSummary(alike=alike), per=unit(units)
+        [], done, problem, left=ResidualSummary(repeated=alike), per=unit(units)
     )
 
     assert (verdict, remainder) == ("unexplained", True)

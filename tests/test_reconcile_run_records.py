@@ -12,7 +12,7 @@ TIME = np.arange(0.0, 4.0, 0.02)
 ROUGH = 6e-4  # [m]
 
 
-def lane(way, *, rough=ROUGH):
+def record(way, *, rough=ROUGH):
     noise = rough * np.random.default_rng(7).standard_normal(TIME.size)
     position = 0.16 + way + noise
     position[0] = 0.16
@@ -29,7 +29,7 @@ def lifted(sunk):
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_what_stays_where_it_began_lies_on_its_stop_there(way):
-    found = lane(way * lifted(0.0))
+    found = record(way * lifted(0.0))
 
     assert (found.low if way > 0.0 else found.high) == 0.16
     assert math.isinf(found.high if way > 0.0 else found.low)
@@ -37,7 +37,7 @@ def test_what_stays_where_it_began_lies_on_its_stop_there(way):
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_what_first_sinks_a_little_finds_its_stop_there(way):
-    found = lane(way * lifted(0.05))
+    found = record(way * lifted(0.05))
 
     stop = found.low if way > 0.0 else found.high
     assert stop == pytest.approx(0.16 - way * 0.05, abs=5.0 * ROUGH)
@@ -45,12 +45,12 @@ def test_what_first_sinks_a_little_finds_its_stop_there(way):
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_what_sinks_far_lies_on_nothing(way):
-    found = lane(way * lifted(0.3))
+    found = record(way * lifted(0.3))
 
     assert math.isinf(found.low)
     assert math.isinf(found.high)
 
 
 def test_positions_without_noise_are_no_obstacle():
-    assert lane(lifted(0.0), rough=0.0).low == 0.16
-    assert lane(lifted(0.05), rough=0.0).low == pytest.approx(0.11)
+    assert record(lifted(0.0), rough=0.0).low == 0.16
+    assert record(lifted(0.05), rough=0.0).low == pytest.approx(0.11)

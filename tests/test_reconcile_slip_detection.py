@@ -59,8 +59,8 @@ def slips(scale, *, test="quasistatic-forward", lost=(), reads=(), lasts=1.0):
     problem = PredictionErrorProblem.of(
         run_records(Log(tuple(runs), units="meters", type="simple"))
     )
-    outset = RunNuisance.seen(len(problem.lanes))
-    return list(detect_slips(problem, problem.at(BASE, gains(scale), outset, NOISE[1] ** 2)))
+    nuisance = RunNuisance.seen(len(problem.records))
+    return list(detect_slips(problem, problem.at(BASE, gains(scale), nuisance, NOISE[1] ** 2)))
 
 
 @pytest.mark.parametrize("scale", [LIGHT, HEAVY])

@@ -69,7 +69,7 @@ def test_a_swing_is_found_at_its_rate_though_it_passes_for_pushes_at_random(seed
 
     assert rhythm.size > RHYTHM
     assert rhythm.rate == pytest.approx(swings, abs=0.15)
-    assert point.q > problem.noise.velocity**2
+    assert point.process_noise > problem.noise.velocity**2
     assert ResidualSummary.by(problem, point).swings
 
 
@@ -93,7 +93,7 @@ def test_runs_that_are_too_short_have_none():
     brief = PredictionErrorProblem(
         tuple(run_records(replace(log, runs=tuple(short)))), problem.noise
     )
-    seen = RunNuisance.seen(len(brief.lanes))
+    seen = RunNuisance.seen(len(brief.records))
 
     point = brief.at(ModelStructure("simple"), GAINS, seen, problem.noise.velocity**2)
 
@@ -109,7 +109,7 @@ def remains_of(left):
 
 
 def test_it_is_told_how_often():
-    verdict, remainder, remains = remains_of(ResidualSummary(rhythm=SpectralPeak(320.0, 1.6)))
+    verdict, remainder, remains = remains_of(ResidualSummary(peak=SpectralPeak(320.0, 1.6)))
 
     assert (verdict, remainder) == ("unexplained", True)
     assert "to and fro every 0.62 s" in remains

@@ -34,7 +34,7 @@ def looked(mechanism):
     problem = PredictionErrorProblem.of(run_records(log))
     values = {name: mechanism.gains[name] for name in BASE.names}
     begun = problem.at(
-        BASE, values, RunNuisance.seen(len(problem.lanes)), problem.noise.velocity**2
+        BASE, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
     )
     point = levenberg_marquardt(problem, begun, steps=STEPS)
     evidence = compute_voltage_residual(log, dict(BASE.model(point.values).gains), type="simple")
@@ -69,7 +69,7 @@ def test_valleys_explain_the_lively_runs_and_are_not_one():
     assert 0 < len(found) <= VALLEYS
     for one in found:
         there = lively.problem.at(
-            SOFT, {**lively.point.values, **one}, lively.point.outset, lively.point.q
+            SOFT, {**lively.point.values, **one}, lively.point.nuisance, lively.point.process_noise
         )
         assert levenberg_marquardt(lively.problem, there, steps=STEPS).cost < lively.point.cost
     for one, other in pairwise(found):
@@ -79,9 +79,9 @@ def test_valleys_explain_the_lively_runs_and_are_not_one():
 def test_the_start_nearest_to_what_is_there_need_not_promise_most():
     lively, _ = looked(built("compliance", softness=0.02, share=0.3))
     values = {**lively.point.values, "compliance.softness": 0.02}
-    outset, q = lively.point.outset, lively.point.q
+    nuisance, q = lively.point.nuisance, lively.point.process_noise
     heavy, light = (
-        lively.problem.at(SOFT, {**values, "compliance.share": share}, outset, q)
+        lively.problem.at(SOFT, {**values, "compliance.share": share}, nuisance, q)
         for share in (0.5, 0.15)
     )
 

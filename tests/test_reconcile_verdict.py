@@ -45,10 +45,10 @@ def problem():
     return PredictionErrorProblem.of(run_records(Log(tuple(runs), units="meters", type="simple")))
 
 
-def rounds(problem, *gaps, values=GAINS, hypothesis=None):
+def rounds(problem, *gaps, values=GAINS, structure=None):
     """The base and what was added to it, with gaps in noises of the velocity."""
-    hypothesis = hypothesis or ModelStructure("simple")
-    point = problem.at(hypothesis, values, RunNuisance.seen(2), problem.noise.velocity**2)
+    structure = structure or ModelStructure("simple")
+    point = problem.at(structure, values, RunNuisance.seen(2), problem.noise.velocity**2)
     sizes = [Gap(gap * problem.noise.velocity, 1e-5) for gap in gaps]
     before = [sizes[0], *sizes[:-1]]
     return [
@@ -82,12 +82,12 @@ def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, 
 def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, softness, verdict):
     done = rounds(problem, 2.0)
     values = {"compliance.softness": softness, "compliance.share": 0.2}
-    point = replace(done[0].suspect.point, values=values)
+    point = replace(done[0].candidate.point, values=values)
     tried = Tried("compliance", score, 1.6, admitted=False, why=WIDENS)
     other = WeighedCandidate(
-        replace(done[0].suspect, effect="compliance", point=point), done[0].gap, tried
+        replace(done[0].candidate, effect="compliance", point=point), done[0].gap, tried
     )
-    done = [replace(done[0], weighed=(other,))]
+    done = [replace(done[0], candidates=(other,))]
 
     said = verdict_of([], done, problem, left=ResidualSummary(), per=METERS)
 
@@ -120,8 +120,8 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
 
 def added(problem, *steps, values):
     """The base and each effect with the gap it left, and the gap without it in the end [noises]."""
-    hypothesis = ModelStructure("simple", tuple(name for name, *_ in steps))
-    point = problem.at(hypothesis, values, RunNuisance.seen(2), problem.noise.velocity**2)
+    structure = ModelStructure("simple", tuple(name for name, *_ in steps))
+    point = problem.at(structure, values, RunNuisance.seen(2), problem.noise.velocity**2)
     gaps = [Gap(size * problem.noise.velocity, 1e-5) for size in (2.0, *(one[1] for one in steps))]
     done = [SelectionRound(score_estimate(problem, point), gaps[0], gaps[0])]
     for (name, _, bare), gap, before in zip(steps, gaps[1:], gaps, strict=False):
@@ -161,9 +161,9 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
 @pytest.mark.parametrize(
     "rest",
     [
-        ResidualSummary(moment=WorstWindow(20.0, 0, 0.5, 0.6)),
-        ResidualSummary(alike=RepeatedResidual(9.0, "position", 1, 0.4, 0.5)),
-        ResidualSummary(rhythm=SpectralPeak(300.0, 1.7)),
+        ResidualSummary(worst_window=WorstWindow(20.0, 0, 0.5, 0.6)),
+        ResidualSummary(repeated=RepeatedResidual(9.0, "position", 1, 0.4, 0.5)),
+        ResidualSummary(peak=SpectralPeak(300.0, 1.7)),
     ],
     ids=["a moment", "a place", "a rhythm"],
 )
@@ -265,13 +265,13 @@ def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score
 
 @pytest.mark.parametrize(("after", "told"), [(0.2, True), (0.9, False)])
 def test_what_is_in_the_model_and_not_named_is_told(problem, after, told):
-    onset = float(problem.lanes[0].clock) + 0.5
+    onset = float(problem.records[0].clock) + 0.5
     joins = {"extra": 0.02, "onset": onset, "until": LASTS, "shared": 0.0}
     part = Part("inertia-change", joins)
     values = {**GAINS, **{f"{part.effect}.{name}": value for name, value in joins.items()}}
-    done = rounds(problem, 5.0, values=values, hypothesis=ModelStructure("simple") + part.effect)
-    start = float(problem.lanes[0].seen.time[0]) + 0.5 + after
-    strange = ResidualSummary(moment=WorstWindow(20.0, 0, start, start + 0.1))
+    done = rounds(problem, 5.0, values=values, structure=ModelStructure("simple") + part.effect)
+    start = float(problem.records[0].measurements.time[0]) + 0.5 + after
+    strange = ResidualSummary(worst_window=WorstWindow(20.0, 0, start, start + 0.1))
 
     (said,) = list_remarks(problem, done, [], strange)
 

@@ -13,7 +13,8 @@ class RunNuisance:
     """Nuisance parameters of each run.
 
     Args:
-        position_offset: (runs,) [unit] true position at a run's first sample, minus the measured one.
+        position_offset: (runs,) [unit] true position at a run's first sample, minus the first
+            measurement.
         backlash_phase: (runs,) [1] where in its backlash the motor starts, from -1 to 1; nan where
             the load's weight decides.
         friction_offset: (runs,) [V] Coulomb friction of a run minus that of all runs.
