@@ -24,17 +24,17 @@ ONSET, UNTIL = "onset", "until"  # parameters of what happens once
 
 ASKS: Mapping[str, tuple[str, ...]] = {
     # a term: volts that the motor must pay on top of kS, kV and kA
-    "pull": ("x", "v"),
+    "force": ("x", "v"),
     # dry friction beyond kS [V] when moving, or about to move, toward ``way`` (+1 or -1)
-    "grip": ("v", "way"),
+    "coulomb_friction": ("v", "way"),
     # inertia beyond kA [V·s²/unit]; ``clock`` is [s] since the log began
-    "heft": ("clock",),
+    "added_inertia": ("clock",),
     # share of the momentum that what joins takes from what moves: 1 if it was at rest
-    "jolt": (),
+    "impact": (),
     # [s] of the clock at which inertia changes next: no step of the engine goes across it
     "changes": ("clock",),
     # a path: the voltage that gets through, from the voltage ``u`` that arrives
-    "passes": ("u", "v", "kv", "memory"),
+    "transform_voltage": ("u", "v", "kv", "memory"),
     # [s] by which a command comes late
     "late": (),
     # the next ``memory`` of an effect that has one, after ``dt`` [s] under the voltage ``u``
@@ -44,7 +44,7 @@ ASKS: Mapping[str, tuple[str, ...]] = {
     "softness": (),
     "share": (),
     # a sense: what the sensor says instead of ``seen``, from the motion up to sample ``now``
-    "sees": ("seen", "now", "time", "position", "velocity"),
+    "transform_velocity": ("seen", "now", "time", "position", "velocity"),
 }
 """Hook -> the names of the engine's quantities that it may ask for, in SI."""
 
@@ -127,7 +127,7 @@ class Effect:
         acts: hook -> function; the hooks and what they may ask for are in ``ASKS``.
         symmetric: mirrored volts give mirrored motion, whatever the parameters.
         stores: [V·unit] energy that it holds at a position, for what can give energy back: a
-            function of ``x`` and the parameters. ``pull`` is its slope.
+            function of ``x`` and the parameters. ``force`` is its slope.
         pace: [s] the fastest it acts, from parameters and gains; None if it is never fast.
         span: [unit] way along which it stays much the same, from parameters, for what depends on
             places: its steps are long where the motion is slow. None if it has none.
@@ -194,6 +194,6 @@ class Effect:
                 for name in asked
                 if name not in known
             )
-        if "passes" in self.acts and not self.order:
+        if "transform_voltage" in self.acts and not self.order:
             found.append("order is 0; say where on the path from command to motor it stands")
         return found

@@ -21,7 +21,7 @@ import numpy as np
 from sim.effect import Effect, Parameter
 
 
-def pull(v, churn):
+def force(v, churn):
     """[V] against the motion."""
     return churn * math.copysign(math.sqrt(abs(v)), v) if v else 0.0
 
@@ -48,11 +48,11 @@ EFFECT = Effect(
     apart={"drag": "A faster run: drag grows faster than speed, churn more slowly."},
     example=ordinary,
     starts=starts,
-    acts={"pull": pull},
+    acts={"force": force},
 )
 '''
 WRONG = {
-    "argument": ("def pull(v, churn)", "def pull(speed, churn)", "pull asks for 'speed'"),
+    "argument": ("def force(v, churn)", "def force(speed, churn)", "force asks for 'speed'"),
     "look-alike": ('apart={"drag"', 'apart={"friction"', "told apart from 'friction', which is no"),
     "sign": ("return churn *", "return -churn *", "test_a_term_never_pushes_harder_than"),
 }  # fmt: skip

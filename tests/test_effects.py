@@ -227,7 +227,7 @@ def asked(act, **known):
     return act(**{name: known[name] for name in names})
 
 
-@pytest.mark.parametrize(("name", "kind"), [p for p in PAIRS if "pull" in EFFECTS[p[0]].acts])
+@pytest.mark.parametrize(("name", "kind"), [p for p in PAIRS if "force" in EFFECTS[p[0]].acts])
 def test_a_term_never_pushes_harder_than_the_back_emf_holds_back(name, kind):
     # beyond what it stores and gives back, kV·v and the term together never feed the motion
     found, scale = EFFECTS[name], MECHANISMS[kind].scale
@@ -240,9 +240,9 @@ def test_a_term_never_pushes_harder_than_the_back_emf_holds_back(name, kind):
                 slope = (found.stores(x + step, **values) - found.stores(x - step, **values)) / (
                     2.0 * step
                 )
-            pull = asked(found.acts["pull"], x=x, v=way, **values)
-            tiny = 1e-6 * abs(pull)
-            assert (scale.kv * way + pull - slope) * way >= -tiny * abs(way), (x, way)
+            force = asked(found.acts["force"], x=x, v=way, **values)
+            tiny = 1e-6 * abs(force)
+            assert (scale.kv * way + force - slope) * way >= -tiny * abs(way), (x, way)
 
 
 @pytest.mark.parametrize("name", ["backlash", "compliance"])
@@ -279,8 +279,8 @@ def test_what_a_term_pulls_is_the_slope_of_what_it_stores(name):
     found = EFFECTS[name]
     for x in np.linspace(-2.0, 2.0, 17).tolist():
         slope = (found.stores(x + 1e-5, **values) - found.stores(x - 1e-5, **values)) / 2e-5
-        pull = asked(found.acts["pull"], x=x, v=0.0, **values)
-        assert pull == pytest.approx(slope, abs=1e-6)
+        force = asked(found.acts["force"], x=x, v=0.0, **values)
+        assert force == pytest.approx(slope, abs=1e-6)
 
 
 @pytest.mark.parametrize(("name", "kind"), PAIRS)
@@ -355,8 +355,8 @@ def test_starts_survive_a_log_in_which_nothing_moves():
         (dict(kind="magic"), "kind is 'magic'; choose one of: term"),
         (dict(acts={}), "acts is empty"),
         (dict(acts={"pulls": lambda v: v}), "'pulls', which is not one of: pull"),
-        (dict(acts={"pull": lambda speed: speed}), "pull asks for 'speed'; it may ask for: x, v"),
-        (dict(acts={"passes": lambda u: u}), "order is 0"),
+        (dict(acts={"force": lambda speed: speed}), "force asks for 'speed'; it may ask for: x, v"),
+        (dict(acts={"transform_voltage": lambda u: u}), "order is 0"),
     ],
     ids=["kind", "nothing", "hook", "argument", "order"],
 )

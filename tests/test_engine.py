@@ -228,17 +228,17 @@ def test_a_new_effect_is_composed_into_the_engine_and_called():
     module = compose(new_effect(), compiled=False)
 
     on = np.zeros(len(EFFECTS) + 1 + len(module.__dict__))
-    assert module.pull(on, np.ones(99), 0.0, 2.0) == 0.0
+    assert module.force(on, np.ones(99), 0.0, 2.0) == 0.0
     on[:] = 0.0
     on[len(EFFECTS)] = 1.0
     on[len(EFFECTS) + 1 :] = 1.0
-    assert module.pull(on, np.full(99, 0.5), 0.0, 2.0) == pytest.approx(2.0)
+    assert module.force(on, np.full(99, 0.5), 0.0, 2.0) == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (dict(acts={"pull": lambda speed: speed}), "effect new-one: pull asks for 'speed'"),
+        (dict(acts={"force": lambda speed: speed}), "effect new-one: force asks for 'speed'"),
         (dict(acts={}), "effect new-one: acts is empty"),
     ],
     ids=["argument", "nothing"],

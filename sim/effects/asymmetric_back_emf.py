@@ -11,7 +11,7 @@ from sim.effect import Effect, Parameter, Scale
 from sim.voltage_residual import VoltageResidual
 
 
-def pull(v: float, lean: float) -> float:
+def force(v: float, lean: float) -> float:
     """[V] against forward motion, along with reverse motion."""
     return lean * abs(v)
 
@@ -43,6 +43,6 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"pull": pull},
+    acts={"force": force},
     symmetric=False,
 )

@@ -15,7 +15,7 @@ from sim.voltage_residual import VoltageResidual
 EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
 
 
-def grip(way: float, lean: float) -> float:
+def coulomb_friction(way: float, lean: float) -> float:
     """[V] beyond kS."""
     return lean * way
 
@@ -52,6 +52,6 @@ EFFECT = Effect(
     example=ordinary,
     starts=starts,
     everyday=everyday,
-    acts={"grip": grip},
+    acts={"coulomb_friction": coulomb_friction},
     symmetric=False,
 )

@@ -17,7 +17,7 @@ EVERYDAY = 0.1  # [1] of a battery in good order
 NOMINAL = 12.0  # [V] that a duty cycle of one stands for
 
 
-def passes(u: float, v: float, kv: float, share: float) -> float:
+def transform_voltage(u: float, v: float, kv: float, share: float) -> float:
     """[V] at the motor."""
     duty = min(abs(u) / NOMINAL, 1.0)
     emf = kv * v
@@ -58,7 +58,7 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"passes": passes},
+    acts={"transform_voltage": transform_voltage},
     order=3,
     everyday=everyday,
 )

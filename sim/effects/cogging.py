@@ -20,7 +20,7 @@ ENOUGH = 1500  # samples that show a spectrum
 SHOWN = 3  # peaks of the spectrum that are worth a start
 
 
-def pull(x: float, cosine: float, sine: float, turns: float) -> float:
+def force(x: float, cosine: float, sine: float, turns: float) -> float:
     """[V] toward negative positions."""
     return cosine * math.cos(turns * x) + sine * math.sin(turns * x)
 
@@ -99,7 +99,7 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"pull": pull},
+    acts={"force": force},
     symmetric=False,
     stores=stored,
     pace=pace,

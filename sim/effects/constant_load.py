@@ -15,7 +15,7 @@ from sim.voltage_residual import VoltageResidual
 EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
 
 
-def pull(load: float) -> float:
+def force(load: float) -> float:
     """[V] toward negative positions."""
     return load
 
@@ -58,7 +58,7 @@ EFFECT = Effect(
     example=ordinary,
     starts=starts,
     everyday=everyday,
-    acts={"pull": pull},
+    acts={"force": force},
     symmetric=False,
     stores=stored,
 )

@@ -13,7 +13,7 @@ from sim.effect import Effect, Parameter, Scale
 from sim.voltage_residual import VoltageResidual
 
 
-def passes(u: float, v: float, kv: float, limit: float) -> float:
+def transform_voltage(u: float, v: float, kv: float, limit: float) -> float:
     """[V] at the motor."""
     emf = kv * v
     return emf + min(max(u - emf, -limit), limit)
@@ -50,6 +50,6 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"passes": passes},
+    acts={"transform_voltage": transform_voltage},
     order=4,
 )

@@ -15,7 +15,7 @@ from sim.voltage_residual import VoltageResidual
 STARTED = 0.02  # [share of the top speed] at which a run has begun to move
 
 
-def passes(u: float, band: float) -> float:
+def transform_voltage(u: float, band: float) -> float:
     """[V] at the motor."""
     return u if abs(u) >= band else 0.0
 
@@ -55,6 +55,6 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"passes": passes},
+    acts={"transform_voltage": transform_voltage},
     order=1,
 )

@@ -11,7 +11,7 @@ from sim.effect import Effect, Parameter, Scale
 from sim.voltage_residual import VoltageResidual
 
 
-def pull(v: float, drag: float) -> float:
+def force(v: float, drag: float) -> float:
     """[V] against the motion."""
     return drag * v * abs(v)
 
@@ -42,5 +42,5 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"pull": pull},
+    acts={"force": force},
 )

@@ -14,7 +14,7 @@ from sim.effect import Effect, Parameter, Scale
 from sim.voltage_residual import VoltageResidual
 
 
-def pull(x: float, level: float, upright: float) -> float:
+def force(x: float, level: float, upright: float) -> float:
     """[V] toward negative angles."""
     return level * math.cos(x) + upright * math.sin(x)
 
@@ -67,7 +67,7 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"pull": pull},
+    acts={"force": force},
     symmetric=False,
     stores=stored,
     cannot=only_angles,

@@ -17,7 +17,7 @@ from sim.voltage_residual import VoltageResidual, share_a_clock
 COOLING = 90.0  # [s] in which a motor's winding gives its heat to the case
 
 
-def passes(u: float, v: float, kv: float, memory: float) -> float:
+def transform_voltage(u: float, v: float, kv: float, memory: float) -> float:
     """[V] at a cold motor that would drive the same current."""
     emf = kv * v
     return emf + (u - emf) / (1.0 + memory)
@@ -64,6 +64,6 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"passes": passes, "remembers": remembers},
+    acts={"transform_voltage": transform_voltage, "remembers": remembers},
     order=5,
 )

@@ -27,12 +27,12 @@ EARLY = 0.25  # [samples] after the last one before a drop: a search looks aroun
 ROBUST, TINY = 1.4826, 1e-12  # standard deviations in a median absolute deviation; [unit/s] none
 
 
-def heft(clock: float, extra: float, onset: float, until: float) -> float:
+def added_inertia(clock: float, extra: float, onset: float, until: float) -> float:
     """[V·s²/unit] beyond kA."""
     return extra if onset <= clock < until else 0.0
 
 
-def jolt(shared: float) -> float:
+def impact(shared: float) -> float:
     """[1] of the momentum that what joins takes."""
     return shared
 
@@ -149,5 +149,5 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"heft": heft, "jolt": jolt, "changes": changes},
+    acts={"added_inertia": added_inertia, "impact": impact, "changes": changes},
 )

@@ -13,7 +13,7 @@ from sim.effect import Effect, Parameter, Scale
 from sim.voltage_residual import VoltageResidual
 
 
-def pull(x: float, rate: float, preload: float) -> float:
+def force(x: float, rate: float, preload: float) -> float:
     """[V] toward negative positions."""
     return rate * x + preload
 
@@ -65,7 +65,7 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"pull": pull},
+    acts={"force": force},
     symmetric=False,
     stores=stored,
     cannot=only_bounded,

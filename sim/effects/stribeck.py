@@ -16,7 +16,7 @@ from sim.voltage_residual import VoltageResidual
 EVERYDAY = 0.06  # [V]
 
 
-def grip(v: float, extra: float, slow: float) -> float:
+def coulomb_friction(v: float, extra: float, slow: float) -> float:
     """[V] beyond kS."""
     return extra * math.exp(-abs(v) / slow)
 
@@ -62,7 +62,7 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"grip": grip},
+    acts={"coulomb_friction": coulomb_friction},
     pace=pace,
     everyday=everyday,
 )

@@ -15,7 +15,7 @@ from sim.log import Array
 from sim.voltage_residual import VoltageResidual
 
 
-def sees(
+def transform_velocity(
     seen: float, now: int, time: Array, position: Array, velocity: Array, window: float
 ) -> float:
     """[unit/s] that the sensor reports."""
@@ -73,6 +73,6 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"sees": sees},
+    acts={"transform_velocity": transform_velocity},
     order=1,
 )

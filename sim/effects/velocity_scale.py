@@ -13,7 +13,7 @@ from sim.effect import Effect, Parameter, Scale
 from sim.voltage_residual import VoltageResidual
 
 
-def sees(seen: float, scale: float) -> float:
+def transform_velocity(seen: float, scale: float) -> float:
     """[unit/s] that the sensor reports."""
     return scale * seen
 
@@ -50,6 +50,6 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"sees": sees},
+    acts={"transform_velocity": transform_velocity},
     order=2,
 )

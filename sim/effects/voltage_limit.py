@@ -14,7 +14,7 @@ from sim.effect import Effect, Parameter, Scale
 from sim.voltage_residual import VoltageResidual
 
 
-def passes(u: float, limit: float) -> float:
+def transform_voltage(u: float, limit: float) -> float:
     """[V] at the motor."""
     return min(max(u, -limit), limit)
 
@@ -48,6 +48,6 @@ EFFECT = Effect(
     },
     example=ordinary,
     starts=starts,
-    acts={"passes": passes},
+    acts={"transform_voltage": transform_voltage},
     order=2,
 )

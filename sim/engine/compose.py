@@ -25,16 +25,16 @@ CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets t
 HOOKS: Mapping[str, tuple[str, str, str]] = {
     # hook: arguments of the composed function, value to begin with, how an effect's answer joins
     "late": ("on, p", "0.0", "{0} + {1}"),
-    "passes": ("on, p, memory, u, v, kv", "u", "{1}"),
-    "pull": ("on, p, x, v", "0.0", "{0} + {1}"),
-    "grip": ("on, p, v, way", "0.0", "{0} + {1}"),
-    "heft": ("on, p, clock", "0.0", "{0} + {1}"),
-    "jolt": ("on, p", "0.0", "max({0}, {1})"),
+    "transform_voltage": ("on, p, memory, u, v, kv", "u", "{1}"),
+    "force": ("on, p, x, v", "0.0", "{0} + {1}"),
+    "coulomb_friction": ("on, p, v, way", "0.0", "{0} + {1}"),
+    "added_inertia": ("on, p, clock", "0.0", "{0} + {1}"),
+    "impact": ("on, p", "0.0", "max({0}, {1})"),
     "changes": ("on, p, clock", "math.inf", "min({0}, {1})"),
     "slack": ("on, p", "0.0", "{0} + {1}"),
     "softness": ("on, p", "0.0", "{0} + {1}"),
     "share": ("on, p", "0.0", "max({0}, {1})"),
-    "sees": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
+    "transform_velocity": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
 }
 SHAPES = {  # of the arrays that `runs` asks for, but for what effects remember
     "edges": "(count + 1,)",
@@ -52,7 +52,10 @@ SHAPES = {  # of the arrays that `runs` asks for, but for what effects remember
     "trust": "(2, 2)",
     "out": "(n, 8)",
 }
-RUNNING = {"passes": "u", "sees": "seen"}  # a chain: each effect changes what the last one left
+RUNNING = {
+    "transform_voltage": "u",
+    "transform_velocity": "seen",
+}  # a chain: each effect changes what the last one left
 
 
 def parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:

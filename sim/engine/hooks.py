@@ -22,27 +22,29 @@ def late(on: Numbers, p: Numbers) -> float:
     return 0.0
 
 
-def passes(on: Numbers, p: Numbers, memory: Array, u: float, v: float, kv: float) -> float:
+def transform_voltage(
+    on: Numbers, p: Numbers, memory: Array, u: float, v: float, kv: float
+) -> float:
     """[V] that gets through to the motor."""
     return u
 
 
-def pull(on: Numbers, p: Numbers, x: float, v: float) -> float:
+def force(on: Numbers, p: Numbers, x: float, v: float) -> float:
     """[V] that terms take from the motor's."""
     return 0.0
 
 
-def grip(on: Numbers, p: Numbers, v: float, way: float) -> float:
+def coulomb_friction(on: Numbers, p: Numbers, v: float, way: float) -> float:
     """[V] of dry friction beyond kS when moving toward ``way``."""
     return 0.0
 
 
-def heft(on: Numbers, p: Numbers, clock: float) -> float:
+def added_inertia(on: Numbers, p: Numbers, clock: float) -> float:
     """[V·s²/unit] of inertia beyond kA."""
     return 0.0
 
 
-def jolt(on: Numbers, p: Numbers) -> float:
+def impact(on: Numbers, p: Numbers) -> float:
     """[1] of the momentum it needs that joining inertia takes from what moves."""
     return 0.0
 
@@ -73,6 +75,8 @@ def remembers(
     """Bring every effect's memory up to date, after ``dt`` [s] under ``u`` [V]."""
 
 
-def sees(on: Numbers, p: Numbers, now: int, time: Array, position: Array, velocity: Array) -> float:
+def transform_velocity(
+    on: Numbers, p: Numbers, now: int, time: Array, position: Array, velocity: Array
+) -> float:
     """[unit/s] that the sensor says at sample ``now``."""
     return float(velocity[now])

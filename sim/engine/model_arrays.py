@@ -37,7 +37,9 @@ SLACKS = {
     for name, act in ((one.name, one.acts.get("slack")) for one in EFFECTS.values())
     if act is not None
 }
-DELAYS = frozenset(one.name for one in EFFECTS.values() if set(one.acts) <= {"late", "sees"})
+DELAYS = frozenset(
+    one.name for one in EFFECTS.values() if set(one.acts) <= {"late", "transform_velocity"}
+)
 
 
 def only_delays(part: Part) -> bool:

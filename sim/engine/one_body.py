@@ -11,7 +11,7 @@ Plain functions of numbers: ``sim/engine/compose.py`` compiles them together wit
 
 import math
 
-from sim.engine.hooks import Numbers, grip, passes, pull  # composed: begin
+from sim.engine.hooks import Numbers, coulomb_friction, force, transform_voltage  # composed: begin
 from sim.engine.power_path import reaches
 from sim.log import Array  # composed: end
 
@@ -37,7 +37,7 @@ def bounded(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
 
 def slides(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
     """[V] of dry friction toward ``way``, never below none."""
-    return float(max(c[KS] + grip(on, p, v, way), 0.0))
+    return float(max(c[KS] + coulomb_friction(on, p, v, way), 0.0))
 
 
 def glide(
@@ -112,7 +112,7 @@ def through(
 ) -> float:
     """[V] at the motor, after the wires and then the paths."""
     u = reaches(w, 0.0 if off else asked, v)
-    return passes(on, p, memory, u, v, c[KV])
+    return transform_voltage(on, p, memory, u, v, c[KV])
 
 
 def within(c: Numbers, x: float, v: float) -> tuple[float, float]:
@@ -132,10 +132,10 @@ def single(
     x, v = state[X], state[V]
     u = through(c, w, on, p, memory, asked, v, off)
     if not plain:
-        drive = u - gravity(c, x) - pull(on, p, x, v)
+        drive = u - gravity(c, x) - force(on, p, x, v)
         half, v_half = ahead(c, on, p, x, v, drive, c[KV], ka, 0.5 * dt, 1.0)
         u = through(c, w, on, p, memory, asked, v_half, off)
-        drive = u - gravity(c, half) - pull(on, p, half, v_half)
+        drive = u - gravity(c, half) - force(on, p, half, v_half)
         x, v = glide(c, on, p, x, v, v_half, drive, c[KV], ka, dt, 1.0)
     else:
         x, v = glide(c, on, p, x, v, v, u - c[LOAD], c[KV], ka, dt, 1.0)

@@ -12,13 +12,13 @@ import numpy as np
 
 from sim.engine.hooks import (  # composed: begin
     Numbers,
+    added_inertia,
     changes,
-    heft,
-    jolt,
+    impact,
     late,
     remembers,
-    sees,
     share,
+    transform_velocity,
 )
 from sim.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bounded, single
 from sim.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_at, reaches
@@ -43,9 +43,9 @@ def advance(
     Inertia that joins on the way and was at rest shares the momentum. Inertia that leaves takes its
     own momentum along.
     """
-    heavy = c[KA] + heft(on, p, clock)
+    heavy = c[KA] + added_inertia(on, p, clock)
     if heavy > ka:
-        kept = 1.0 - jolt(on, p) * (1.0 - ka / heavy)
+        kept = 1.0 - impact(on, p) * (1.0 - ka / heavy)
         state[V] *= kept
         state[W] *= kept
     off = clock < state[OFF_UNTIL]
@@ -123,14 +123,14 @@ def run(
     n = time.size
     command = -1  # the last one that has arrived
     rests = state[V] == 0.0 and state[W] == 0.0
-    ka = c[KA] + heft(on, p, began)
+    ka = c[KA] + added_inertia(on, p, began)
     for k in range(n):
         now = time[k]
         while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
             command += 1
         record(out, k, state, w, asked[k], began + now - time[0])
         out[k, EXPECTED] = state[X]
-        out[k, SEEN] = sees(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
+        out[k, SEEN] = transform_velocity(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
         if measured.shape[0] > 0:
             ahead, faster = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
             correct(state, ahead, faster, trust)

@@ -9,7 +9,7 @@ Plain functions of numbers: ``sim/engine/compose.py`` compiles them together wit
 
 import math
 
-from sim.engine.hooks import Numbers, pull, share, slack, softness  # composed: begin
+from sim.engine.hooks import Numbers, force, share, slack, softness  # composed: begin
 from sim.engine.one_body import (
     HIGH,
     KV,
@@ -109,7 +109,7 @@ def swing(
     side = 0.5 * play * math.copysign(1.0, x - y)
     d = x - y - side
     u = through(c, w, on, p, memory, asked, v, off)
-    r = -gravity(c, y) - pull(on, p, y, z)
+    r = -gravity(c, y) - force(on, p, y, z)
     stands = z == 0.0
     if stands and not stays(c, on, p, y, stiff * d + damp * v + r, rest):
         return math.nan
@@ -128,7 +128,7 @@ def swing(
     y_half = y + becomes(ways, half + 3 * ROW, d, v, z, b, r)
     u = through(c, w, on, p, memory, asked, v_half, off)
     b = u - way * part * slides(c, on, p, v_half, way)
-    r = -gravity(c, y_half) - pull(on, p, y_half, z_half)
+    r = -gravity(c, y_half) - force(on, p, y_half, z_half)
     r = 0.0 if stands else r - toward * rest * slides(c, on, p, z_half, toward)
     d_end = becomes(ways, full, d, v, z, b, r)
     v_end = becomes(ways, full + ROW, d, v, z, b, r)
@@ -138,7 +138,7 @@ def swing(
     slowest = min(v * way, v_half * way, v_end * way)
     if stands:
         y_end, z_end = y, 0.0
-        load = stiff * d_end + damp * v_end - gravity(c, y) - pull(on, p, y, 0.0)
+        load = stiff * d_end + damp * v_end - gravity(c, y) - force(on, p, y, 0.0)
         slowest = slowest if stays(c, on, p, y, load, rest) else 0.0
     else:
         slowest = min(slowest, z * toward, z_half * toward, z_end * toward)
@@ -177,11 +177,11 @@ def loose(
     x, v, y, z = state[X], state[V], state[Y], state[W]
     u = through(c, w, on, p, memory, asked, v, off)
     _, v_half = ahead(c, on, p, x, v, u, c[KV], own, 0.5 * dt, part)
-    drive = -gravity(c, y) - pull(on, p, y, z)
+    drive = -gravity(c, y) - force(on, p, y, z)
     y_half, z_half = ahead(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
     u = through(c, w, on, p, memory, asked, v_half, off)
     x, v = glide(c, on, p, x, v, v_half, u, c[KV], own, dt, part)
-    drive = -gravity(c, y_half) - pull(on, p, y_half, z_half)
+    drive = -gravity(c, y_half) - force(on, p, y_half, z_half)
     y, z = glide(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
     if joint(play, stiff, damp, x - y, v - z) != 0.0:
         return math.nan
@@ -236,13 +236,13 @@ def pair(
     u = through(c, w, on, p, memory, asked, v, off)
     push = joint(play, stiff, damp, x - y, v - z)
     x_half, v_half = ahead(c, on, p, x, v, u - push, c[KV], own, 0.5 * dt, part)
-    drive = push - gravity(c, y) - pull(on, p, y, z)
+    drive = push - gravity(c, y) - force(on, p, y, z)
     y_half, z_half = ahead(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
 
     u = through(c, w, on, p, memory, asked, v_half, off)
     push = joint(play, stiff, damp, x_half - y_half, v_half - z_half)
     x, v = glide(c, on, p, x, v, v_half, u - push, c[KV], own, dt, part)
-    drive = push - gravity(c, y_half) - pull(on, p, y_half, z_half)
+    drive = push - gravity(c, y_half) - force(on, p, y_half, z_half)
     y, z = glide(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
     state[X], state[V] = x, v
     state[Y], state[W] = within(c, y, z)
@@ -263,7 +263,7 @@ def joint(play: float, stiff: float, damp: float, gap: float, rush: float) -> fl
     if into <= 0.0:
         return 0.0
     way = math.copysign(1.0, gap)
-    force = stiff * into + damp * rush * way
+    push = stiff * into + damp * rush * way
     if play > 0.0:  # teeth push and never pull
-        force = max(force, 0.0)
-    return force * way
+        push = max(push, 0.0)
+    return push * way

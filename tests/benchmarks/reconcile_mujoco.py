@@ -200,7 +200,7 @@ class _Body:
         """(n,) the velocity that the sensor says."""
         seen = velocity
         motion = {"time": time, "position": position, "velocity": velocity}
-        for _, act in self.acts["sees"]:
+        for _, act in self.acts["transform_velocity"]:
             seen = np.array(
                 [act({"seen": one, "now": now, **motion}) for now, one in enumerate(seen.tolist())]
             )
@@ -213,18 +213,18 @@ class _Body:
     def _step(self, volts: float, rubs: float) -> None:
         v, y, z = (float(one) for one in (self.data.qvel[0], *self._load))
         at_motor = volts
-        for effect, act in self.acts["passes"]:
+        for effect, act in self.acts["transform_voltage"]:
             known = {"u": at_motor, "v": v, "kv": self.kv, "memory": self.memory[effect]}
             at_motor = act(known)
         self._remember(at_motor, v, STEP)
         way = math.copysign(1.0, v if abs(v) > STILL else at_motor)
-        grips = sum(self._ask("grip", v=v, way=way))
+        grips = sum(self._ask("coulomb_friction", v=v, way=way))
         rub = max(rubs * self.ks + grips, 0.0)  # as heavy bodies do, each its share
         self.model.dof_frictionloss[0] = self.share * rub
         self.model.tendon_frictionloss[:] = (1.0 - self.share) * rub
-        if self.acts["heft"]:
+        if self.acts["added_inertia"]:
             self._carry()
-        self.data.qfrc_applied[:] = -sum(self._ask("pull", x=y, v=z))
+        self.data.qfrc_applied[:] = -sum(self._ask("force", x=y, v=z))
         self.data.qfrc_applied[0] += at_motor
         mujoco.mj_step(self.model, self.data)
         self.clock += STEP
@@ -236,10 +236,10 @@ class _Body:
 
     def _carry(self) -> None:
         """Take up inertia, or give it away; what was at rest takes its share of the momentum."""
-        more = sum(self._ask("heft", clock=self.clock))
+        more = sum(self._ask("added_inertia", clock=self.clock))
         if more > self.more:
             kept = (self.ka + self.more) / (self.ka + more)
-            self.data.qvel[:] *= 1.0 - sum(self._ask("jolt")) * (1.0 - kept)
+            self.data.qvel[:] *= 1.0 - sum(self._ask("impact")) * (1.0 - kept)
         self.model.dof_armature[0] = more
         self.model.dof_M0[0] += more - self.more  # what MuJoCo keeps where nothing else couples
         self.more = more
