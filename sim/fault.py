@@ -170,7 +170,7 @@ def fault_of(module: ModuleType, *, name: str) -> Fault:
 
     Args:
         module: the file, imported.
-        name: what the fault is called, after its file: ``encoder-slip``.
+        name: of its file, with which the fault's own name begins: ``encoder-slip``.
 
     Raises:
         BadRequest: the file breaks the contract; the sentence says where.
@@ -193,7 +193,9 @@ def _broken(fault: Fault, *, name: str, caption: str) -> list[str]:
     """What a fault's file does not keep of the contract."""
     earliest, latest = fault.when
     rules = {
-        f"is named {fault.name!r} and not {name!r}, as its file says": fault.name == name,
+        f"is named {fault.name!r} and not {name!r}, as its file says": (
+            f"{fault.name}-".startswith(f"{name}-")
+        ),
         "opens with no sentence that says what it is": bool(caption.strip()),
         "has no line in the module's text that begins with Fingerprint:": "Fingerprint:" in caption,
         "has no summary of one line": len(fault.summary) > 0 and "\n" not in fault.summary,

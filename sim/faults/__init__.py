@@ -7,7 +7,10 @@ from sim.errors import BadRequest
 from sim.fault import Fault, fault_of
 
 FAULTS: dict[str, Fault] = {
-    name: fault_of(module, name=name) for name, module in members(sys.modules[__name__]).items()
+    found.name: found
+    for found in (
+        fault_of(module, name=name) for name, module in members(sys.modules[__name__]).items()
+    )
 }
 
 
