@@ -1,4 +1,4 @@
-"""The bench: simulate a mechanism, and hold a measured log against it.
+"""Simulate FRC mechanisms, read their logs, fit gains, and reconcile model and log.
 
 Names that everybody uses are here: ``sim.read``, ``sim.write``, ``sim.Log``, ``sim.Run``,
 ``sim.Routine``, ``sim.MECHANISMS``, ``sim.Refusal``. The verbs live in modules of their own name:

@@ -1,4 +1,4 @@
-"""Where a run does not go the way its voltage says, and how much of that an explanation explains.
+"""Intervals in which a run does not follow its voltage, and how much of that a hypothesis explains.
 
 A run's voltage is replayed through the balance of the whole log. Where the velocity strays further
 than noise and an ordinary mechanism's own ways can take it, and only for a while, there is a
@@ -30,7 +30,7 @@ JOIN = 0.06  # [s] two closer ones are one
 
 @dataclass(frozen=True, eq=False)
 class Anomaly:
-    """A stretch of a run that its voltage does not explain.
+    """An interval of a run in which its velocity does not follow its voltage.
 
     Args:
         run: which run of the log.
@@ -88,7 +88,7 @@ class Anomaly:
 
 
 def predict_velocity(run: Run, balance: BaselineModel, *, still: float) -> Array:
-    """The velocity (n,) [m/s or rad/s] that a run's voltage should bring about.
+    """The velocity (n,) [m/s or rad/s] that the baseline model predicts from a run's voltage.
 
     Before its first motion it is taken to stand: whether a stop or friction holds it there, a log
     cannot tell.
@@ -101,7 +101,7 @@ def predict_velocity(run: Run, balance: BaselineModel, *, still: float) -> Array
 
 
 def find_first_motion(run: Run, *, still: float) -> int:
-    """The sample before the first three that all move; the last one if none do."""
+    """Index of the sample before the first three moving ones; the last index if nothing moves."""
     fast = np.abs(run.velocity) > still
     lasting = fast[:-2] & fast[1:-1] & fast[2:]
     return max(int(np.argmax(lasting)) - 1, 0) if lasting.any() else max(len(run) - 1, 0)
@@ -116,7 +116,7 @@ def find_anomalies(
     noise: float,
     period: float,
 ) -> tuple[Anomaly, ...]:
-    """Find where runs stray from what is expected of them.
+    """Find the intervals in which runs do not follow the prediction.
 
     Args:
         runs: of the log.

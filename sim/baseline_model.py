@@ -1,4 +1,4 @@
-"""Which voltage a motion needs, by most of a log: a balance that one bad stretch cannot tip.
+"""Robust regression of kS, kV, kA and gravity, so that one bad stretch of a log does not spoil it.
 
     ∫V dt = kV·∫v dt + kA·Δv + kS·∫sgn v dt + ∫(k0 + kc·cos x + ks·sin x) dt
 
@@ -29,7 +29,7 @@ QUICK, SLOW = 0.004, 5.0  # [s] timescales a mechanism can have
 
 @dataclass(frozen=True, eq=False)
 class BaselineModel:
-    """What most of a log agrees on.
+    """Gains that describe most of a log.
 
     Args:
         kv: [V·s/m or V·s/rad] positive.
@@ -92,7 +92,7 @@ class BaselineModel:
 
 
 def fit_baseline(runs: Sequence[Run], *, still: float, period: float) -> BaselineModel | None:
-    """Find the balance of a log.
+    """Fit kS, kV, kA and gravity robustly, by iteratively reweighted least squares.
 
     Args:
         runs: of the log.

@@ -1,4 +1,4 @@
-"""The battery under load, and the robot controller that takes the motors off when it sinks too low.
+"""The battery under load, and the roboRIO's brownout protection.
 
 A brownout ends when the battery is back above a second threshold, which it is as soon as no motor
 draws from it.

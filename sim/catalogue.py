@@ -1,4 +1,4 @@
-"""A plural folder is a catalogue: what lies in it is found by looking, and registered nowhere."""
+"""A catalogue is a folder: each module in it is one member, and nothing is registered."""
 
 from importlib import import_module
 from pkgutil import iter_modules

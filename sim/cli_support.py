@@ -1,4 +1,4 @@
-"""What both commands share: exit codes, one-line errors, consoles of every encoding."""
+"""Shared by both commands: exit codes, one-line errors, and consoles of any encoding."""
 
 import codecs
 import io

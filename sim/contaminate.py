@@ -1,4 +1,4 @@
-"""Damage a log on purpose: choose where a fault strikes, or be told, and let it.
+"""Damage a log on purpose with a fault of the catalogue.
 
 contaminate(log, "encoder-slip", severity=0.5, test="dynamic-forward", at=0.4, rng=rng)
 """

@@ -1,4 +1,4 @@
-"""What is wrong with a record: every detector asked, and their answers brought into one account.
+"""Run every fault detector on a log and combine their results.
 
     inspect(log).damages
 

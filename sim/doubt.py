@@ -1,4 +1,4 @@
-"""A doubt: what a person should know before trusting a result, said beside the result."""
+"""A warning that is attached to a result."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""What reaches the motors when a program asks for a share of the battery instead of a voltage.
+"""Simulate a program that commands a share of the battery voltage instead of a voltage.
 
     D = V/12                          the duty cycle that ``set(volts / 12)`` asks for
     Vbat = V0 - Rb·D·n·I              what the battery gives while the motors draw from it

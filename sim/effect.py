@@ -1,4 +1,4 @@
-"""The contract of an effect: physics that a model may contain, forward and backward side by side.
+"""The contract of an effect: physics that a model may contain, for simulation and for fitting.
 
     V = kS·sgn(v) + kV·v + kA·a + what an effect pulls        everything is priced in volts
 

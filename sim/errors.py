@@ -1,4 +1,4 @@
-"""Everything raised on purpose. Each is one line: what is wrong, where, and what to do next.
+"""All exceptions raised on purpose: one line with what is wrong, where, and what to do next.
 
     Refusal
     ├── UnreadableFile    missing, empty, damaged, truncated, or of a format nobody here reads

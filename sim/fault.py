@@ -1,4 +1,4 @@
-"""The contract of a fault: damage to the record of a test, made on purpose and found again.
+"""The contract of a fault: damage to a recording, made on purpose and detected again.
 
 A fault is not physics: an effect is something a model ought to include, a fault is something a
 record ought not to contain. A module of ``sim/faults`` offers one as ``FAULT``, with ``spoil``,

@@ -1,4 +1,4 @@
-"""Feedback gains on trial: the fitted mechanism under SysId's suggestions, and the learner's own.
+"""Step responses of the suggested feedback gains and of the learner's own.
 
 SysId's recipe makes up for a delay by looking ahead: K ← K (A - BK)^(delay/period). Where the delay
 is longer than the mechanism takes, what it sees ahead has turned round, and so has the sign of kP.
@@ -44,7 +44,7 @@ class OwnGains:
 
 @dataclass(frozen=True, eq=False)
 class FeedbackTrial:
-    """Gains, and what came of them.
+    """Feedback gains and the step response that they give.
 
     Args:
         whose: ``suggested`` or ``your own``.
@@ -73,7 +73,7 @@ class FeedbackTrial:
 def try_feedback_gains(
     found: Fit, preset: Preset, *, own: OwnGains | None = None
 ) -> tuple[FeedbackTrial, ...]:
-    """Try a fit's suggested gains, and the learner's own; none where nothing can be suggested.
+    """Simulate a fit's suggested gains and the learner's own; none if nothing can be suggested.
 
     Args:
         found: the fit, in the unit that the gains count in.

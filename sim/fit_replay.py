@@ -1,4 +1,4 @@
-"""Measured against simulated: a fit's gains under each run's voltage, beside what the log says.
+"""Simulate a fit's gains under each run's voltage and compare with the measurement.
 
 Open loop, from where each run began, with the lag and the averaging of the velocity that the fit
 found: what remains is what the gains do not explain, and the noise that no gains could.
@@ -25,7 +25,7 @@ SHORTEST = 1e-5  # [s] a lag below it is none
 
 @dataclass(frozen=True, eq=False)
 class RunReplay:
-    """One run as it was, and as the fit has it.
+    """One run, measured and simulated.
 
     Args:
         run: from its first sample that a fit uses.

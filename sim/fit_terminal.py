@@ -1,4 +1,4 @@
-"""Results as text for a terminal."""
+"""Print a fit on a terminal."""
 
 import math
 from collections.abc import Sequence

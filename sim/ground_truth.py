@@ -1,4 +1,4 @@
-"""The truth about a simulated mechanism, written for an instructor and never read by a fit."""
+"""Write the true gains and effects of a simulated mechanism, for instructors only."""
 
 import json
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""Log and Run: all that anyone sees of a mechanism, whether a robot or the bench made it.
+"""Log and Run: the recorded tests of one mechanism, from a robot or from the simulation.
 
 Everything is in SI: seconds, volts, meters or radians. The unit the owner of the log thinks in
 travels along as a name (``Log.units``); conversion happens where a file is read and where a

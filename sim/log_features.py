@@ -1,4 +1,4 @@
-"""What a detective may look at: a log, and what follows from it, each computed once when asked for.
+"""Features of a log that detectors use, each computed once, on demand.
 
 Everything here is robust: one bad stretch must not bend what the rest of the log says.
 """
@@ -33,7 +33,7 @@ Counts: TypeAlias = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class LogFeatures:
-    """A log under investigation.
+    """Features of a log.
 
     Args:
         log: the record.
@@ -154,7 +154,7 @@ class LogFeatures:
 
 
 def find_held_samples(values: Array) -> tuple[Counts, Counts]:
-    """Stretches of samples that repeat one value.
+    """Intervals in which a signal repeats one value.
 
     Args:
         values: (n,).
@@ -167,7 +167,7 @@ def find_held_samples(values: Array) -> tuple[Counts, Counts]:
 
 
 def majority_sign(values: Array) -> int:
-    """The sign that at least 4 of 5 values have: 1, -1, or 0 where it is unclear."""
+    """The sign of at least four fifths of the values: 1, -1, or 0 if there is none."""
     mean = float(np.sign(values).mean()) if values.size else 0.0
     return 0 if abs(mean) < AGREED else int(np.sign(mean))
 

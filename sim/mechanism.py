@@ -1,4 +1,4 @@
-"""The contract of a mechanism: what moves, what drives it, what reads it, and how far it may go.
+"""The contract of a mechanism: motor, gearing, load, sensor and travel.
 
 Its gains follow from its parts:
 

@@ -1,4 +1,4 @@
-"""A model: gains, and the effects that come on top of them.
+"""A model: gains plus effects.
 
     V = kS·sgn(v) + kV·v + kA·a + gravity + Σ effects
 

@@ -1,4 +1,4 @@
-"""DC motors as WPILib's ``DCMotor`` lists them, and the kV their free speed promises.
+"""DC motors as in WPILib's ``DCMotor``, and the kV that their free speed implies.
 
     R = 12 V / stall current            Kt = stall torque / stall current
     Ke = (12 V - R·free current) / free speed

@@ -1,4 +1,4 @@
-"""Text of strangers, made safe to be shown."""
+"""Make text from strangers safe to display."""
 
 import unicodedata
 

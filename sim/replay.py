@@ -1,4 +1,4 @@
-"""Replay a log's voltages through a model: what it would have done, from where each run began."""
+"""Simulate a model under a log's recorded voltage, from each run's start."""
 
 from sim.effects import EFFECTS
 from sim.engine import ORDER, State, Track, move
@@ -8,7 +8,7 @@ from sim.voltage_residual import run_start_times
 
 
 def replay(model: Model, log: Log, *, step: float | None = None) -> tuple[Track, ...]:
-    """Move a model as a log's mechanism was moved, open loop.
+    """Simulate a model under a log's voltages, open loop.
 
     Args:
         model: what moves.
@@ -29,7 +29,7 @@ def replay(model: Model, log: Log, *, step: float | None = None) -> tuple[Track,
 
 
 def let_cool(state: State, model: Model, pause: float) -> None:
-    """Let time pass without voltage or motion, so that what is warm cools.
+    """Let time pass without voltage or motion, so that the motor cools.
 
     Args:
         state: whose memory is brought up to date; its clock is left alone.

@@ -1,4 +1,4 @@
-"""What a team pastes into its robot code after a fit: constants, and WPILib's feedforward object.
+"""Robot code for a fit's gains: constants, and WPILib's feedforward object.
 
     from sim.robot_code_snippet import robot_code_snippet
     print(robot_code_snippet(found.in_log_units(), language="java", season=2026, name="left drive"))

@@ -1,4 +1,4 @@
-"""A list of people in a CSV file, as spreadsheets, Canvas and Gradescope write it."""
+"""Read a CSV roster as spreadsheets, Canvas and Gradescope write it."""
 
 import csv
 import io

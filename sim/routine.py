@@ -1,4 +1,4 @@
-"""SysIdRoutine: what WPILib commands during each test, loop by loop.
+"""The voltage that WPILib's SysIdRoutine commands in each test, loop by loop.
 
     quasistatic   V = ± ramp · t            dynamic   V = ± step
 

@@ -1,4 +1,4 @@
-"""What a sensor says of a motion: filtered, late, in frames, in steps, noisy unless at rest."""
+"""The sensor model: filter, latency, frames, resolution and noise."""
 
 from typing import NamedTuple
 
@@ -28,7 +28,7 @@ def read_sensor(
     rng: np.random.Generator,
     time: Array | None = None,
 ) -> Reading:
-    """What a sensor says of a motion.
+    """What a sensor reports of a motion.
 
     Args:
         sensor: the sensor.
@@ -64,7 +64,7 @@ def read_sensor(
 
 
 def interpolate_cubic(at: Array, time: Array, value: Array, slope: Array) -> Array:
-    """(m,) of a curve that is known, with its slope, at some times (n,).
+    """(m,) of a curve with known slopes, at some times (n,).
 
     Between two of them it is the cubic with both values and both slopes; before the first it is
     flat, since a test begins at rest.

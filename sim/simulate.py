@@ -1,4 +1,4 @@
-"""Run a mechanism under a routine and record what its sensor says.
+"""Simulate a mechanism under a routine and record what its sensor reports.
 
     kA·v' = u - kV·v - kS·sgn(v) - gravity - hidden effects
 

@@ -1,4 +1,4 @@
-"""A story for a terminal: plain lines of eighty columns, and a bar while it is being found."""
+"""Print a reconcile story on a terminal."""
 
 import sys
 from collections.abc import Callable, Iterator

@@ -1,4 +1,4 @@
-"""A story in plain sentences, for whoever tells it: a terminal, a page, a notebook."""
+"""Plain sentences for a reconcile story."""
 
 import math
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Who a student is: one form of a name for every system, and a folder's name made of it."""
+"""A student's name: its normalized form, and the folder named after it."""
 
 import hashlib
 import re

@@ -1,4 +1,4 @@
-"""From four recorded tests to the rows that a regression uses, step for step as WPILib SysId.
+"""Prepare the rows of SysId's regression, step for step as WPILib SysId does.
 
 Source: WPILib SysId 2026.2.2, ``analysis/FilteringUtils`` and ``analysis/AnalysisManager``. Where
 SysId goes on with samples that cannot give an answer, this refuses and says why; where SysId gives

@@ -1,4 +1,4 @@
-"""Units of position a log may be written in. Inside, all is SI: meters or radians, and seconds."""
+"""Units of position of a log. Inside, everything is SI: meters or radians, and seconds."""
 
 import math
 from collections.abc import Mapping

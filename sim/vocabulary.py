@@ -1,4 +1,4 @@
-"""The field's fixed words: tests, types of mechanism, methods of fitting."""
+"""Fixed names: tests, mechanism types, fitting methods."""
 
 KINDS = ("quasistatic", "dynamic", "coast", "triangle", "multistep", "chirp")
 DIRECTIONS = ("forward", "reverse")

@@ -1,4 +1,4 @@
-"""What a log shows beyond a model: the volts that the model cannot account for, sample by sample.
+"""The voltage residual of a model, sample by sample: what its terms do not account for.
 
     missing = V - (kS·sgn(v) + kV·v + kA·a + gravity)
 
@@ -27,7 +27,7 @@ MOVING = 0.03  # [share of the top speed] slower samples say nothing about a gai
 
 @dataclass(frozen=True, eq=False)
 class VoltageResidual:
-    """The samples at which a mechanism moved, run after run.
+    """The voltage residual at the samples at which a mechanism moved.
 
     Args:
         log: where they come from.
@@ -126,7 +126,7 @@ class VoltageResidual:
 
 
 def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - the field's own word
-    """Hold a log against gains.
+    """The voltage residual of a log under given gains.
 
     Args:
         log: any runs.
@@ -152,7 +152,7 @@ def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str)
 
 
 def run_start_times(log: Log) -> Array:
-    """(runs,) [s] when each run began, since the first did.
+    """(runs,) [s] start of each run, from the start of the first.
 
     Where the times of runs do not follow one another, as in a file in which each begins at zero,
     they are laid end to end.
@@ -165,7 +165,7 @@ def run_start_times(log: Log) -> Array:
 
 
 def share_a_clock(log: Log) -> bool:
-    """Whether the runs' times follow one another, so that the pauses between them are known.
+    """Whether the runs share one clock, so that the pauses between them are known.
 
     Where they do not, nobody knows how long a motor cooled: each run is taken to begin cold.
     """

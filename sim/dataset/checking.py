@@ -1,4 +1,4 @@
-"""Hold a finished dataset against its key and its spec: is it still what was made?"""
+"""Verify a finished dataset against its key and its spec."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The folder of a dataset: files come into it whole, and what is not its own is never touched."""
+"""The folder of a dataset: files are written atomically, and foreign files are left alone."""
 
 import hashlib
 import os

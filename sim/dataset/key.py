@@ -1,4 +1,4 @@
-"""The key of a dataset: what is true of each log, sealed so that nobody changes it unseen.
+"""The answer key of a dataset, sealed against unnoticed changes.
 
 While logs are being made, what is known of each finished one stands in a journal beside the key,
 a sealed line a log, so that a run that was killed can go on. The journal ends as the key.

@@ -1,4 +1,4 @@
-"""One ``[[logs]]`` of a spec: which mechanisms, how they are run, what is hidden and spoilt."""
+"""One ``[[logs]]`` table of a spec: mechanisms, routine, hidden effects and faults."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""One job, made: the bytes of its files and the truth about them. Runs on any process or machine.
+"""Make one job: the bytes of its files and their ground truth, on any process or machine.
 
 What comes back is plain data: machines need not share a disk, and one process alone writes.
 """

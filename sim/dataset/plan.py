@@ -1,4 +1,4 @@
-"""From a spec to jobs: each one log, with all that was drawn for it and a seed for the rest.
+"""Turn a spec into jobs: one log each, with all random choices and a seed for the rest.
 
 A job needs nothing but itself, so it gives the same bytes on any process of any machine, whatever
 else is made and in whatever order. Logs are numbered in an order that the secret decides: a number

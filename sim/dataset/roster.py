@@ -1,4 +1,4 @@
-"""The students of a dataset: a list in the spec, or a column of a CSV file beside it."""
+"""The students of a dataset: a list in the spec, or a column of a CSV file."""
 
 from collections.abc import Iterable
 from pathlib import Path

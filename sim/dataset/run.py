@@ -1,4 +1,4 @@
-"""Make a dataset to its end, or as far as it goes: the next run goes on from there."""
+"""Make a dataset, or continue one that was interrupted."""
 
 import hashlib
 from collections.abc import Callable, Iterator, Sequence

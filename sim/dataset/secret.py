@@ -1,4 +1,4 @@
-"""What a dataset is drawn from and sealed with: a secret in a file or the environment, or a seed.
+"""The secret or seed from which a dataset is drawn and with which its key is sealed.
 
     seed = HMAC-SHA256(secret, [dataset, student, which log])
 

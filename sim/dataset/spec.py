@@ -1,4 +1,4 @@
-"""The spec of a dataset: what an instructor writes in TOML, read and checked as a whole.
+"""The spec of a dataset: an instructor's TOML file, read and checked as a whole.
 
 ``example.toml`` beside this file is one with every key explained.
 """

@@ -1,4 +1,4 @@
-"""A table of a TOML file, read key by key; whatever is odd is refused by its name and place."""
+"""Read a TOML table key by key; an unknown or wrong key is refused by name and place."""
 
 import json
 import math

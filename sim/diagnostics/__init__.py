@@ -1,4 +1,4 @@
-"""What SysId never says about a log, and what is no fault of the record either.
+"""Warnings about a log that SysId does not give and that are no fault of the catalogue.
 
 Each look is a function of the clues and gives doubts: a cause, a number and what to look at. They
 are quiet about a log that is as it should be.

@@ -1,4 +1,4 @@
-"""A look at forward and reverse: whether one kS and one kV can serve both."""
+"""Compare forward and reverse: whether one kS and one kV describe both."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Looks at the motion: whether there is enough of it, and whether the gains reproduce it."""
+"""Check the motion: whether there is enough of it, and whether the gains reproduce it."""
 
 import numpy as np
 

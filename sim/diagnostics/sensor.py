@@ -1,4 +1,4 @@
-"""Looks at the sensor: how late, how noisy and how large its readings are."""
+"""Check the sensor: lag, noise and scale of its readings."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The stepping engine: one compiled kernel for the bench, the fit and the search.
+"""The simulation engine: one compiled kernel for simulation, fit and reconcile.
 
 It is composed from the effects of the catalogue when first used: about ten seconds once, from the
 cache on disk within a tenth of a second after that.

@@ -1,4 +1,4 @@
-"""Compose the engine: the effects' own small functions and the stepping, compiled as one.
+"""Compose the engine: the effects' functions and the integrator, compiled as one unit.
 
 The text of one module is written: functions that ask every effect that is on (in place of
 ``hooks.py``), then ``MODULES`` as they are. What is compiled of it stands in a

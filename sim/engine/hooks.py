@@ -1,4 +1,4 @@
-"""What the engine asks of the effects together; here, the answers where there are none.
+"""The functions that the engine asks of all effects together; here, their defaults.
 
 When the engine is composed (``sim/engine/compose.py``), these functions are replaced by others of
 the same names and arguments that ask each effect that is ``on``. ``p`` holds the parameters of all

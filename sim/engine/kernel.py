@@ -1,4 +1,4 @@
-"""The engine compiled: once by Numba, from then on loaded without it.
+"""The compiled engine: compiled by Numba once, then loaded without it.
 
 Numba takes half a second to start, even where all it does is to load what it compiled before. What
 it made is therefore kept as an object file, which LLVM loads by itself in 40 ms. A file that is

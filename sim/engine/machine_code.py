@@ -1,4 +1,4 @@
-"""Machine code outside Numba: made of what Numba compiled, loaded and linked by LLVM alone."""
+"""Machine code outside Numba: compiled by Numba, loaded and linked by LLVM alone."""
 
 import ctypes
 import hashlib

@@ -1,4 +1,4 @@
-"""A model as the stepping takes it: its gains and parameters in arrays, and the steps it needs."""
+"""A model as arrays for the engine: gains, parameters and step sizes."""
 
 import inspect
 import math

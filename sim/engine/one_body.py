@@ -1,4 +1,4 @@
-"""One body along one step: what both kinds of mechanism are made of.
+"""One step of a single inertia.
 
     kA·v' = u - kV·v - gravity - pull(x, v) - (kS + grip)·sgn(v)
 

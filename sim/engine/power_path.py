@@ -1,4 +1,4 @@
-"""What a battery, a motor controller and its limits let through of the voltage asked for.
+"""Battery, wiring and controller limits: the voltage that reaches the motor.
 
     I = (u - Ke·G/r·v) / R                  current of one motor at the voltage u
     bus = rest - Rb·n·I·u/bus               a controller turns u and I into the battery's

@@ -1,4 +1,4 @@
-"""Runs that a search follows again and again: what is the same for every model, in one piece."""
+"""The runs of a problem as contiguous arrays, simulated together for many models."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Move a mechanism along a voltage: the one engine of the bench.
+"""The integrator: move a model along a voltage, sample by sample.
 
 One body (``sim/engine/one_body.py``) or a motor and its load (``two_bodies.py``), step by step,
 with what changes on the way, what the sensor sees, and what a measurement corrects.

@@ -1,4 +1,4 @@
-"""Two bodies along one step: a motor with its share of the inertia, and the load it pushes.
+"""One step of two inertias, motor and load, coupled by a spring or backlash.
 
 It pushes through what joins them, free play first. A spring that joins them is part of the exact
 solution (``sim/engine/two_body_modes.py``), so a step in which nothing happens is gone in one; a

@@ -1,4 +1,4 @@
-"""Motor and load joined by a spring: where they are after a step, however fast they swing.
+"""Exact solution of two inertias joined by a spring (modal step).
 
     d' = v - w        own·v' = b - kV·v - push        other·w' = r + push        y' = w
     push = d·stiff + (v - w)·damp

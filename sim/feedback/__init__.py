@@ -1,4 +1,4 @@
-"""Feedback gains: what WPILib SysId suggests, and what a loop with some gains does to a step.
+"""Feedback gains: WPILib SysId's suggestions, and the step response of a loop.
 
     gains = position_loop(kv=2.5, ka=0.19)
     judged(step_response(plant, loop="position", feedback=gains, target=0.5)).words

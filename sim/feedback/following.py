@@ -1,4 +1,4 @@
-"""What a mechanism does under feedforward alone, with whatever gains: a profile, and what follows.
+"""Simulate a mechanism that follows a motion profile with feedforward only.
 
     volts = kS·sgn(v) + kV·v + kA·a + gravity       by the gains somebody believes in, at most 12 V
     kA·v' = volts - kS·sgn(v) - kV·v - gravity      by the gains the mechanism has

@@ -1,4 +1,4 @@
-"""A motion that is asked for: stretches of one acceleration each, strung together."""
+"""A motion profile made of legs of constant acceleration."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What a loop does when its target jumps: the fitted mechanism under its controller, simulated.
+"""Step response of the fitted mechanism under its motor controller, simulated.
 
     volts = feedforward + kP·(target - measured) - kD·(change of measured)/period,  at most ±12 V
 

@@ -1,4 +1,4 @@
-"""A step response in a few numbers, and in words that need no course in control."""
+"""A step response in a few numbers and in plain words."""
 
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""Gains from logs.
+"""Fit kS, kV, kA and kG to logs.
 
     from sim.fit import fit
     fit(sim.read("drive.wpilog")).gains

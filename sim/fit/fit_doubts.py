@@ -1,4 +1,4 @@
-"""What a fit by simulation tells beside its gains: opposed signs, lags, and a model that strays."""
+"""Warnings about an output-error fit: opposed signs, lags, and a model that does not fit."""
 
 from sim.doubt import Doubt
 from sim.fit.open_loop_fallback import OpenLoopReplay
@@ -8,7 +8,7 @@ SOON = 0.004  # [s] a later answer is worth a word
 
 
 def doubt_opposed_signs(way: float) -> tuple[Doubt, ...]:
-    """A doubt if plus is minus."""
+    """A warning if positive voltage drives the mechanism backward."""
     if way > 0.0:
         return ()
     return (
@@ -22,7 +22,7 @@ def doubt_opposed_signs(way: float) -> tuple[Doubt, ...]:
 
 
 def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
-    """Doubts about a velocity averaged over a window, and a late answer [s]."""
+    """Warnings about a filtered velocity and about a delay [s]."""
     said = []
     if window > 0.0:
         said.append(
@@ -45,7 +45,7 @@ def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
 
 
 def doubt_misfit(followed: OpenLoopReplay, *, hint: str = "") -> tuple[Doubt, ...]:
-    """A doubt if the simulation leaves the log by more than noise: the model lacks something.
+    """A warning if the simulation differs from the log by more than noise.
 
     Args:
         followed: how it follows.
@@ -68,7 +68,7 @@ def doubt_misfit(followed: OpenLoopReplay, *, hint: str = "") -> tuple[Doubt, ..
 
 
 def doubt_small_misfit(misfit: bool) -> tuple[Doubt, ...]:  # noqa: FBT001 - the one thing it tells
-    """A doubt if something is missing that noise drowns."""
+    """A warning if a small effect is hidden in the noise."""
     if not misfit:
         return ()
     return (

@@ -1,4 +1,4 @@
-"""Whether a log that was read as of type simple is plainly of another."""
+"""Suggest another mechanism type where gravity explains most of the residual."""
 
 from dataclasses import replace
 
@@ -19,7 +19,7 @@ ACTS = {
 
 
 def hint_gravity_type(log: Log, problem: PredictionErrorProblem, followed: OpenLoopReplay) -> str:
-    """What to say where gravity would explain most of what a simple model leaves.
+    """A hint where gravity would explain most of the residual of a simple model.
 
     Args:
         log: any runs.

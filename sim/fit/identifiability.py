@@ -1,4 +1,4 @@
-"""Gains that a log cannot tell: said by name, with the test that would."""
+"""Refuse gains that a log cannot identify, and name the test that would."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -27,7 +27,7 @@ TOGETHER = "Add the other direction: up they act together, down against each oth
 
 
 def moves_both_ways(seen: Sequence[RunMeasurements]) -> bool:
-    """Whether what moves does so in both directions, and not only as it rebounds from a stop."""
+    """Whether the mechanism is driven in both directions; a rebound does not count."""
     speeds = np.concatenate([run.measured[run.moving, 1] for run in seen])
     up, down = int(np.count_nonzero(speeds > 0.0)), int(np.count_nonzero(speeds < 0.0))
     return min(up, down) >= REBOUND * (up + down)
@@ -41,7 +41,7 @@ def refuse_unidentifiable(
     type: str,  # noqa: A002 - the field's own word
     hint: str = "",
 ) -> None:
-    """Refuse gains that the log leaves unknown.
+    """Refuse gains that the log does not determine.
 
     Args:
         gains: name -> value.

@@ -1,4 +1,4 @@
-"""What the rows of a log can tell of each gain, before anything is fitted to them.
+"""Fisher information of a log about each gain, before anything is fitted.
 
 Each row is one equation, V = kS·sgn(v) + kV·v + kA·a (+ kG·…): what stands beside a gain is its
 column. With X the columns and σ the noise of a row in volts, XᵀX/σ² is what the rows tell of all
@@ -25,7 +25,7 @@ TAKES_PART = 1e-5  # share of a gain in an unknown combination; below it, the ga
 
 @dataclass(frozen=True, eq=False)
 class InformationMatrix:
-    """What rows tell of gains.
+    """Fisher information about the gains.
 
     Args:
         names: of the gains.
@@ -68,7 +68,7 @@ class InformationMatrix:
 
 
 def information_matrix(rows: Mapping[str, Rows], *, type: str, noise: float) -> InformationMatrix:  # noqa: A002 - the field's word
-    """What rows tell of kS, kV, kA, and of kG where there is gravity.
+    """Information of rows about kS, kV, kA, and about kG where there is gravity.
 
     Args:
         rows: test -> its rows, such as ``sim.sysid_rows`` leaves; any tests, at least one.

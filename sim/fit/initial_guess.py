@@ -1,4 +1,4 @@
-"""A first guess at the gains, from sums instead of differences.
+"""A first estimate of the gains from integrals, without differentiation.
 
 Over a short while in which a mechanism moves one way,
 
@@ -24,7 +24,7 @@ LEAST_TIMESCALE, MOST_TIMESCALE = 1e-3, 10.0  # [s] of anything on a robot
 
 
 def first_guess(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the field's own word
-    """kS, kV, kA, and ``kG`` of an elevator or ``level`` and ``upright`` of an arm.
+    """First estimates of kS, kV, kA, and of ``kG`` (elevator) or ``level`` and ``upright`` (arm).
 
     Args:
         log: any runs.
@@ -55,7 +55,7 @@ def first_guess(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
 
 
 def orient_forward(log: Log, *, type: str) -> tuple[Log, dict[str, float], float]:  # noqa: A002 - as above
-    """A log whose plus drives it forward, and its first guess.
+    """The log with signs such that positive voltage drives forward, and its first guess.
 
     Args:
         log: any runs.
@@ -88,7 +88,7 @@ def _changes(paid: Array, ways: Array, *, where: str) -> None:
 
 
 def clamp_to_physical(gains: Mapping[str, float], *, period: float = 0.0) -> dict[str, float]:
-    """The same with gains that a simulation can begin from.
+    """The same gains, moved to values that a simulation can start from.
 
     Args:
         gains: a raw guess.

@@ -1,4 +1,4 @@
-"""What a model did not expect: a log's measurements against a simulation that they keep on course.
+"""Innovations of a log: one-step prediction errors of a steady-state Kalman filter.
 
 Each sample is first expected, from the last state and the voltage since; the difference to what was
 measured is the innovation; then the state is moved by a share K of it. K is the steady state of a
@@ -24,7 +24,7 @@ DOUBLINGS = 40  # rounds; 2⁴⁰ samples are for ever
 
 
 def model_from_values(type: str, values: Mapping[str, float]) -> Model:  # noqa: A002 - the field's own word
-    """The model that a search's values stand for.
+    """The model for given parameter values.
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
@@ -46,7 +46,7 @@ def model_from_values(type: str, values: Mapping[str, float]) -> Model:  # noqa:
 
 
 def steady_state_gain(model: Model, *, noise: SensorNoise, q: float, period: float) -> Array:
-    """(2, 2) gains K from the deviations of position and velocity to their corrections.
+    """(2, 2) steady-state Kalman gain for position and velocity.
 
     Args:
         model: whose kV/kA is the rate at which velocity forgets.
@@ -115,7 +115,7 @@ def _turned(a: _Four) -> _Four:
 
 
 def run_innovations(model: Model, run: RunMeasurements, *, start: float, trust: Array) -> Array:
-    """(n, 2) position and velocity of a run, measured less expected; nan where nothing is measured.
+    """(n, 2) innovations of one run: measured minus predicted; nan where nothing was measured.
 
     Args:
         model: what is believed.

@@ -1,4 +1,4 @@
-"""What the search of method output-error searches, and what a point of it costs.
+"""The likelihood of gains and process noise, given the measurements (prediction-error method).
 
 -2 log L = N·log det Σ        Σ the covariance (2, 2) of the innovations
 """
@@ -39,7 +39,7 @@ def _unasked() -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """Where a search stands.
+    """Values of the parameters, and how well they fit.
 
     Args:
         values: name -> value.
@@ -70,7 +70,7 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class PredictionErrorProblem:
-    """What is searched: measurements, and how they are compared.
+    """The measurements of a log, and the likelihood of parameters given them.
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
@@ -215,6 +215,6 @@ def _threads() -> ThreadPoolExecutor:
 
 
 def whiten(point: Estimate, table: Array) -> Array:
-    """(..., 2 n) of (..., n, 2) positions and velocities, independent and of size one."""
+    """(..., 2 n) of (..., n, 2): positions and velocities made independent, with unit variance."""
     inverse = np.linalg.inv(np.linalg.cholesky(point.innovation_cov))
     return np.asarray((np.nan_to_num(table) @ inverse.T).reshape(*table.shape[:-2], -1))

@@ -1,4 +1,4 @@
-"""What of a log is a measurement: fresh samples only, how noisy they are, where the test begins.
+"""The measurements of a log: fresh samples, their noise, and where each test begins.
 
 A reading that stands because no new frame has come is no measurement; noise is measured without a
 model, from third differences, which a smooth motion hardly has:
@@ -29,7 +29,7 @@ MOVING = 0.01  # [share of the top speed] slower counts as standing, if the posi
 
 @dataclass(frozen=True, eq=False)
 class RunMeasurements:
-    """One run as a fit uses it.
+    """The measurements of one run.
 
     Args:
         time: (n,) [s].
@@ -56,7 +56,7 @@ class RunMeasurements:
 
 @dataclass(frozen=True)
 class SensorNoise:
-    """Standard deviations of a sample, measured without a model.
+    """Standard deviations of single samples, estimated without a model.
 
     Args:
         position: [m or rad].
@@ -70,7 +70,7 @@ class SensorNoise:
 
 
 def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, ...]:
-    """The measurements of every run that has some.
+    """The measurements of every run that has enough fresh samples.
 
     Args:
         log: any runs.
@@ -82,7 +82,7 @@ def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, 
 
 
 def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
-    """How noisy fresh samples are while the mechanism moves."""
+    """Noise of fresh samples while the mechanism moves."""
     thirds: list[list[Array]] = [[], []]
     steps = [math.inf, math.inf]
     for run in seen:

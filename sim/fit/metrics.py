@@ -1,4 +1,4 @@
-"""SysId's simulation metrics: the fitted gains under the measured voltage, against what was seen.
+"""SysId's simulation metrics: R² and RMSE of the simulated velocity.
 
     RMSE = sqrt( Σ (v - v̂)² / N )        R² = 1 - RMSE / sqrt( Σ v² / N )
 
@@ -21,7 +21,7 @@ from sim.sysid_rows import Rows
 
 @dataclass(frozen=True)
 class SimulationScore:
-    """How well the gains reproduce the velocities, open loop.
+    """Goodness of fit of the simulated velocity, open loop.
 
     Args:
         r2: SysId's simulated velocity R².

@@ -1,4 +1,4 @@
-"""A model that strays: the gains whose simulation, left to itself, comes closest.
+"""Fit the open-loop velocity where the model does not follow the log.
 
 Where something is missing from a model, the likeliest innovations are those of a model that is
 corrected at every sample, and such a one says little about gains: inertia can pass for anything.
@@ -36,7 +36,7 @@ TOGETHER = 0.5  # [s] for which what is missing errs one way
 
 @dataclass(frozen=True, eq=False)
 class OpenLoopReplay:
-    """A simulation beside its log, sample by sample where there is a measurement.
+    """An open-loop simulation and its log, sample by sample.
 
     Args:
         velocity: (n,) measured [m/s or rad/s].
@@ -91,7 +91,7 @@ class OpenLoopReplay:
 def replay_open_loop(
     problem: PredictionErrorProblem, point: Estimate, *, astray: bool = False
 ) -> OpenLoopReplay:
-    """Simulate every run from where its first sample is seen, uncorrected.
+    """Simulate every run from its first sample, without correction.
 
     The starts of a point that is corrected as it goes may lie anywhere, and do not count here.
 
@@ -122,7 +122,7 @@ def replay_open_loop(
 def fit_velocity_only(
     problem: PredictionErrorProblem, point: Estimate, before: OpenLoopReplay
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """Where a model strays: velocities alone, and the point that simulates them best.
+    """Fit the open-loop velocity alone.
 
     Lags stay: how late a velocity is shows beside the position, and alone it passes for inertia.
 
@@ -154,14 +154,14 @@ def fit_velocity_only(
 def needs_large_process_noise(
     problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
 ) -> bool:
-    """Whether a model that does not stray needs more pardon than one that holds."""
+    """Whether a fit needs more process noise than a model that holds."""
     return not followed.strays and point.process_noise > HOLDS * problem.noise.velocity**2
 
 
 def correlated_error_covariance(
     problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
 ) -> Iterator[Array]:
-    """(values, values) covariances when errors come not sample by sample but for a while each.
+    """(values, values) covariance when errors are correlated in time.
 
     None where a model holds. What it lacks may be too small to be seen beside noise, and still be
     more than the errors that noise leaves: then it shows in what is pardoned, and in what a

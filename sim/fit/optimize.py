@@ -1,4 +1,4 @@
-"""The search of method output-error: gains whose innovations are as small as noise allows.
+"""Levenberg–Marquardt search for the most likely gains and process noise.
 
 Levenberg and Marquardt's steps on innovations made white by Σ, in turn with a line search for the
 size q of what pushes at random. Derivatives are differences of simulations.
@@ -39,7 +39,7 @@ NOTHING = 1e-20  # [1] what it says of the rest
 
 
 def fit_tracking(problem: PredictionErrorProblem, values: Mapping[str, float]) -> Estimate:
-    """The best point from a first guess, if each second may go its own way by as much as noise.
+    """Fit from a first guess, with process noise as large as the sensor noise each second.
 
     There the search looks only a little ahead at a time, and is not easily led astray. Where a run
     began is soon forgotten, so that is left as it is seen.
@@ -55,7 +55,7 @@ def fit_tracking(problem: PredictionErrorProblem, values: Mapping[str, float]) -
 
 
 def fit_open_loop(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The best point, from a near one.
+    """Fit with the likeliest process noise, from a tracking fit.
 
     Either a model holds, and is likeliest where next to nothing is pardoned, or something is
     missing from it. On the way from one to the other it may be less likely than at both ends, so
@@ -84,7 +84,7 @@ def fit_open_loop(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 def predicted_improvement(
     problem: PredictionErrorProblem, point: Estimate, more: Sequence[Mapping[str, float]]
 ) -> Array:
-    """(more,) [of -2 log L] what other values may gain once the point's own have adjusted to them.
+    """(more,) [of -2 log L] gain of further parameters, to second order, all others adjusted.
 
     Args:
         problem: what is searched.
@@ -110,12 +110,12 @@ def predicted_improvement(
 
 
 def refine(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The best point from one to which something was added; its q stays."""
+    """Fit again after a parameter was added, with unchanged process noise."""
     return levenberg_marquardt(problem, point, steps=STEPS, enough=0.05)
 
 
 def _with_best_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same values at the likeliest q, to a factor of ``FINE``."""
+    """The same values with the likeliest process noise, to a factor of ``FINE``."""
     for way in (FINE, 1.0 / FINE):
         other = problem.at(point.values, point.position_offsets, point.process_noise * way)
         while other.cost < point.cost - 0.5:
@@ -127,7 +127,7 @@ def _with_best_process_noise(problem: PredictionErrorProblem, point: Estimate) -
 def estimate_covariance(
     problem: PredictionErrorProblem, point: Estimate, *, starts: bool = False
 ) -> Array:
-    """(values, values) of the values, whatever the starts; with them, where asked for.
+    """(values, values) covariance of the parameters, with the start positions marginalized.
 
     Args:
         problem: what was searched.
@@ -148,7 +148,7 @@ def levenberg_marquardt(
     problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float,
     goal: float = math.inf, starts: bool = True,
 ) -> Estimate:  # fmt: skip
-    """The point after some steps of the values, fewer when one gains hardly anything.
+    """Levenberg–Marquardt steps until the gain per step is small.
 
     Args:
         problem: what is searched.
@@ -191,7 +191,7 @@ def levenberg_marquardt(
 
 
 def _try_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Estimate:
-    """The point after a step, if that is better; its slopes are still about right."""
+    """The estimate after a step, if it is better; its Jacobian is reused."""
     count = len(point.values)
     by = by * _step_limit(point.values, by)
     starts = point.position_offsets + by[count:] if by.size > count else point.position_offsets
@@ -202,7 +202,7 @@ def _try_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Es
 
 
 def _step_limit(values: Mapping[str, float], by: Array) -> float:
-    """The share of a step that changes what is positive by at most a factor of three."""
+    """The share of a step that changes positive parameters by at most a factor of three."""
     ratios = [
         change / value
         for (name, value), change in zip(values.items(), by.tolist(), strict=False)
@@ -212,7 +212,7 @@ def _step_limit(values: Mapping[str, float], by: Array) -> float:
 
 
 def _converged_far_from_goal(point: Estimate, foretold: float, rest: Array, goal: float) -> bool:
-    """Whether a point is all but the best there is, and still far from its goal.
+    """Whether an estimate has converged and is still far from its goal.
 
     While much of the squares would go at once, what is foretold is only the beginning.
     """
@@ -221,12 +221,12 @@ def _converged_far_from_goal(point: Estimate, foretold: float, rest: Array, goal
 
 
 def _prior_information(problem: PredictionErrorProblem, point: Estimate) -> Array:
-    """(values + runs,) what is known of each beside the measurements: 1/variance."""
+    """(values + runs,) prior information on each parameter: 1/variance."""
     return np.repeat([0.0, problem.aside**-2.0], [len(point.values), point.position_offsets.size])
 
 
 def _take_step(values: Mapping[str, float], by: Array) -> dict[str, float]:
-    """The values after a step, kept where they are physics."""
+    """The values after a step, kept physical."""
     after = {}
     for (name, value), change in zip(values.items(), by.tolist(), strict=False):
         low, high = FLOOR.get(name, -math.inf), CEILING.get(name, math.inf)

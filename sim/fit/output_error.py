@@ -1,4 +1,4 @@
-"""Method output-error: gains whose simulation, friction that holds included, follows the log.
+"""Output-error fit of kS, kV, kA (and kG), with static friction.
 
 Any runs will do, as many as there are. Where the velocity is averaged before it is logged, or the
 whole mechanism answers late, that is fitted along and told.

@@ -1,4 +1,4 @@
-"""Fit: gains with their errors, how well they explain the log, and what to doubt about them."""
+"""The result of a fit: gains with standard errors, goodness of fit, and warnings."""
 
 import math
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""What SysId leaves unsaid about a fit: repeated runs, stale velocities, opposed signs."""
+"""Warnings about a log that SysId's recipe does not give: repeats, stale samples, signs."""
 
 from collections.abc import Mapping
 

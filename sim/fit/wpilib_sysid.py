@@ -1,4 +1,4 @@
-"""Method ``sysid``: WPILib SysId's recipe from end to end, and what SysId leaves unsaid."""
+"""WPILib SysId's recipe from end to end (method ``sysid``)."""
 
 from sim.errors import BadRequest
 from sim.fit.metrics import score_simulated_velocity

@@ -1,4 +1,4 @@
-"""Where, and by how much, simulation and data disagree.
+"""The gap between simulation and measurement, by run, speed, position and time.
 
     found = gap_map(residuals, noise=noise)
     found.places(5)                     # in words, the surest first
@@ -26,7 +26,7 @@ OF_A_KIND = 2  # places of one kind among the first that are told: the others sa
 
 @dataclass(frozen=True, eq=False)
 class GapMap:
-    """Where they disagree.
+    """Where simulation and measurement disagree.
 
     Args:
         by_run: run × time.
@@ -64,7 +64,7 @@ class GapMap:
 
 
 def gap_map(runs: Sequence[Residuals], *, noise: SensorNoise) -> GapMap:
-    """Sort what a model leaves of some runs.
+    """Sort residuals by run, speed, position, time after a step, and voltage at rest.
 
     Args:
         runs: what it leaves of each.

@@ -1,4 +1,4 @@
-"""Residuals sorted into cells: their means, how sure those are, and how many samples say so.
+"""Residuals in bins: mean, standard error and count of each.
 
     mean = Σ r/n        error = s·√((1 + ρ)/(1 - ρ))/√n        of r in noises, along the motion
 
@@ -22,7 +22,7 @@ SURE = 4.0  # [standard errors] of 300 cells of pure noise, one in fifty logs ha
 
 @dataclass(frozen=True, eq=False)
 class BinnedResiduals:
-    """One way to sort what is left.
+    """Residuals in bins along one axis.
 
     Args:
         what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps``, ``at-rest``.
@@ -95,7 +95,7 @@ def _pair(low: float, high: float) -> str:
 
 @dataclass(frozen=True, eq=False)
 class SampleTable:
-    """All samples of all runs, one after another.
+    """All samples of all runs in one table.
 
     Args:
         table: (n, 2) [noises] positions and velocities missed; nan where not compared.

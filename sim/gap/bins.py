@@ -1,4 +1,4 @@
-"""All samples of all runs together, and the ways to sort them."""
+"""Ways to bin the residuals: by run, speed, position, time after a step, voltage at rest."""
 
 from collections.abc import Sequence
 from functools import cached_property
@@ -21,7 +21,7 @@ HELD = ("at rest under forward voltage", "at rest under reverse voltage")
 
 
 class ResidualBins:
-    """What a model leaves of some runs, with what it expected there.
+    """The residuals of some runs, and the ways to bin them.
 
     Args:
         runs: each with something to compare.

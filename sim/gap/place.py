@@ -1,4 +1,4 @@
-"""A place where simulation and measurement disagree, in words and numbers."""
+"""One bin in which simulation and measurement disagree, in words and numbers."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Whether what a model leaves comes again when a test is repeated, or is another each time.
+"""Whether the residual repeats when a test is repeated.
 
     share = 2·Σ a·b/Σ(a² + b² - noise)     of the means a, b of short stretches, at equal times
 

@@ -1,4 +1,4 @@
-"""What a model leaves of one run, and what it expected there."""
+"""The residuals of one run: measured minus predicted."""
 
 from dataclasses import dataclass
 from functools import cached_property

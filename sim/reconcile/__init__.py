@@ -1,4 +1,4 @@
-"""Reconcile: find where simulation and data disagree, name what is missing, add it, show the gap.
+"""Reconcile: find where model and log disagree, name the missing effects, add them.
 
     story = reconcile(log, validation=other, held_out=third, type="arm")
 
@@ -51,7 +51,7 @@ def reconcile(
     damages: Mapping[str, Sequence[DamagedInterval]] | None = None,
     progress: Callable[[str, float], None] = lambda _, __: None,
 ) -> Story:
-    """Hold logs of a mechanism against its model, and name what the model lacks.
+    """Compare logs with the model of their mechanism and name the effects that it lacks.
 
     Args:
         log: runs to fit, the four tests at least.
@@ -166,7 +166,7 @@ def _lost(problem: PredictionErrorProblem, base: Estimate) -> float:
 
 
 def _base(problem: PredictionErrorProblem, log: Log, *, type: str) -> Estimate:  # noqa: A002 - as above
-    """The best point without effects."""
+    """Fit the base model, without effects."""
     guess = clamp_to_physical(first_guess(log, type=type))
     structure = ModelStructure(type)
     values = {name: guess[name] for name in structure.names}

@@ -1,4 +1,4 @@
-"""Where in its free play each run began: nothing tells, but how it went on.
+"""Estimates where in its backlash each run started.
 
 Teeth that rest on one another push at once, others first cross the slack and then meet; which it
 is, is left from whatever was before the run.
@@ -23,7 +23,7 @@ BETWEEN = ASIDE + 2.0 * math.log(10.0)  # the same, between them, where only fri
 def estimate_backlash_phase(
     problem: PredictionErrorProblem, point: Estimate, *, aside: bool = False
 ) -> Estimate:
-    """The same values, each run begun where it follows best; the same point without free play.
+    """The same values with the likeliest backlash phase of each run; unchanged without backlash.
 
     Args:
         problem: the measurements.
@@ -59,7 +59,7 @@ def estimate_backlash_phase(
 
 
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """Half the play, and each run begun in it anew: as much of it may be crossed as before."""
+    """Half the backlash, with each run's phase estimated anew."""
     slacks = {name: 0.5 * point.values[name] for name in point.structure.slacks}
     values = {**point.values, **slacks}
     return estimate_backlash_phase(
@@ -75,7 +75,7 @@ def _costs(problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshe
 
 
 def backlash_phase_prior(point: Estimate) -> float:
-    """[of -2 log L] of what was told of where its runs began."""
+    """[of -2 log L] prior cost of the backlash phases."""
     return float(np.sum(_prices(point.nuisance.backlash_phase)))
 
 

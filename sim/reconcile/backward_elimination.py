@@ -1,4 +1,4 @@
-"""Second thoughts: what an earlier effect is worth beside the later ones, and what would do better.
+"""Backward elimination: replace or simplify effects that were added earlier.
 
 Of two effects that mask each other, the first that is found may be a third one that resembles both.
 """
@@ -29,7 +29,7 @@ ALIKE = 0.3  # [of the best score in its round] from which an effect looked alik
 def replace_effects(
     problem: PredictionErrorProblem, done: list[SelectionRound], log: Log, parts: Sequence[Fold]
 ) -> list[SelectionRound]:
-    """The same, with an earlier effect in another's place where that is likelier by now."""
+    """Replace an earlier effect by another where that is likelier now."""
     last = done[-1]
     for place in range(1, len(done) - 1):
         effect = done[place].candidate.effect
@@ -73,7 +73,7 @@ def _clear(effect: str, other: str) -> float:
 def simplify_effects(
     problem: PredictionErrorProblem, done: list[SelectionRound], log: Log, parts: Sequence[Fold]
 ) -> list[SelectionRound]:
-    """The same, each effect's simpler sister in its place where that explains as much by now.
+    """Replace effects by their simpler forms where these explain as much.
 
     What an effect had to explain before all was found may have needed its further parameters.
     """
@@ -124,7 +124,7 @@ def _replaced(
 def measure_removals(
     problem: PredictionErrorProblem, done: list[SelectionRound], parts: Sequence[Fold]
 ) -> list[SelectionRound]:
-    """The same, each with what the last model would be without its effect."""
+    """Each round with the estimate that lacks its effect."""
     last = done[-1].candidate
     if len(last.point.structure.effects) <= 1:  # what it brought is what it is worth
         return done
@@ -137,7 +137,7 @@ def measure_removals(
 
 
 def refit_without(problem: PredictionErrorProblem, candidate: Candidate, effect: str) -> Candidate:
-    """A model without one of its effects, fitted anew."""
+    """A model refitted without one of its effects."""
     point = candidate.point
     structure = point.structure - effect
     values = {name: point.values[name] for name in structure.names}
@@ -146,5 +146,5 @@ def refit_without(problem: PredictionErrorProblem, candidate: Candidate, effect:
 
 
 def separating_test(effect: str, other: str) -> str:
-    """The test that tells two effects apart; empty where none is known."""
+    """The test that separates two effects; empty if none is known."""
     return EFFECTS[effect].apart.get(other, "") or EFFECTS[other].apart.get(effect, "")

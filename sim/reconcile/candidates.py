@@ -1,4 +1,4 @@
-"""Candidates: every effect of the catalogue, tried on top of a point, the likeliest first.
+"""Candidate effects: each effect of the catalogue on top of a model, ranked by BIC.
 
 A start of each is drawn from what the log shows (``Effect.starts``) and simulated once; the most
 promising go downhill a little, the best of those to the end. What shakes only for a moment after
@@ -47,7 +47,7 @@ Seeds = Mapping[str, Mapping[str, float]]
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """An effect on top of a point.
+    """An effect, the estimate with it, and its score.
 
     Args:
         effect: its name; empty for the point itself.
@@ -62,7 +62,7 @@ class Candidate:
 
 
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
-    """A point with its score: -2 log L + k·ln N, as of Schwarz (1978)."""
+    """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
     values = point.structure.free * math.log(max(problem.count, 2))
     own = laplace_correction(point.values, problem.by_frictions(point))
     return Candidate(effect, point, point.cost + own + backlash_phase_prior(point) + values)
@@ -72,7 +72,7 @@ def rank_candidates(
     problem: PredictionErrorProblem, point: Estimate, evidence: VoltageResidual, *,
     only: Iterable[str] | None = None, seeds: Seeds | None = None,
 ) -> list[Candidate]:  # fmt: skip
-    """The effects that explain most of what a point leaves, the likeliest first.
+    """The effects that improve an estimate most, best first.
 
     Args:
         problem: the measurements.
@@ -112,7 +112,7 @@ def rank_candidates(
 def descend_candidate(
     problem: PredictionErrorProblem, point: Estimate, start: Estimate
 ) -> Estimate:
-    """A start of a candidate after some steps downhill, by which it is compared with others.
+    """A candidate after some optimizer steps, for comparison with others.
 
     Where in free play a run began is told before the gains have adjusted to it: if that leads to
     less than the point without the candidate, the start may do better untold.
@@ -154,7 +154,7 @@ def simplify_effect(
     *,
     effect: str = "",
 ) -> Estimate | None:
-    """A point with an effect of fewer parameters in place of one; None if there is none.
+    """An estimate with an effect replaced by its simpler form; None if it has none.
 
     A search that came far with more parameters is a good start for fewer: if it needs no more, the
     simpler one must not miss only because its own start was worse.

@@ -1,4 +1,4 @@
-"""The gap on runs that a fit has not seen: what a new effect has to narrow."""
+"""Cross-validation: the gap on runs to which the model was not fitted."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ EASED = (-1.0, -2 / 3, -1 / 3, 0.0, 1 / 3, 2 / 3, 1.0)
 
 @dataclass(frozen=True)
 class Gap:
-    """Simulation without correction against measurement.
+    """Open-loop simulation error, RMS.
 
     Args:
         velocity: [unit/s] root mean square.
@@ -46,7 +46,7 @@ class Fold:
 
 
 def make_folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
-    """What is fitted to predict what.
+    """Partition the runs into folds.
 
     With two logs the first predicts the second; with one, each run is predicted by the others.
 
@@ -66,7 +66,7 @@ def make_folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
 
 
 def validation_gap(problem: PredictionErrorProblem, point: Estimate, parts: Sequence[Fold]) -> Gap:
-    """The gap of a structure on runs that its values were not fitted to."""
+    """The gap on runs to which the values were not fitted."""
     errors = [np.empty((0, 2))]
     for part in parts:
         if not (_tells(problem, part.fitted) and _tells(problem, part.predicted)):
@@ -90,7 +90,7 @@ def _tells(problem: PredictionErrorProblem, chosen: Sequence[int]) -> bool:
 def open_loop_errors(
     problem: PredictionErrorProblem, point: Estimate, nuisance: RunNuisance, *, eased: bool = False
 ) -> Array:
-    """(n, 2) position and velocity, measured less simulated without correction, where it moves.
+    """(n, 2) measured minus simulated, position and velocity, without correction, while it moves.
 
     Args:
         problem: the runs.
@@ -141,7 +141,7 @@ def _with_run_friction(
 
 
 def parabola_minima(less: Array, here: Array, more: Array) -> Array:
-    """Where parabolas through values at -1, 0 and 1 are lowest; 0 where they nowhere are."""
+    """Minima of parabolas through values at -1, 0 and 1; 0 where there is none."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         aside = 0.5 * (less - more) / (less - 2.0 * here + more)
     return np.asarray(np.clip(np.nan_to_num(aside, posinf=0.0, neginf=0.0), -1.0, 1.0))
@@ -164,7 +164,7 @@ def _missed(problem: PredictionErrorProblem, track: Track) -> Array:
 
 
 def rms_gap(errors: Array) -> Gap:
-    """The gap of errors (n, 2); not a number where nothing was measured to compare with."""
+    """RMS of errors (n, 2); nan where nothing was measured."""
     if not errors.size:
         return Gap(0.0, 0.0)
     counts = np.count_nonzero(~np.isnan(errors), axis=0)
@@ -174,7 +174,7 @@ def rms_gap(errors: Array) -> Gap:
 
 
 def missed_motion(strays: float, problem: PredictionErrorProblem) -> float:
-    """[1] of the motion that a gap of so many noises misses."""
+    """[1] share of the motion that a gap of so many noise floors amounts to."""
     speeds = problem.measured[problem.moving, 1]
     size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
     return strays * problem.noise.velocity / max(size, 1e-300)

@@ -1,11 +1,11 @@
-"""Damage to a record, as whoever inspected it tells the solver: the solver knows no faults."""
+"""Damaged intervals of a log, as an inspection reports them to the solver."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class DamagedInterval:
-    """A stretch of a run that is not to be believed.
+    """An interval of a run that a fault has damaged.
 
     Args:
         run: which one, from 0; None concerns the whole log.

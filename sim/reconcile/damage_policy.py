@@ -1,4 +1,4 @@
-"""What an inspection found, judged: what is cut out, and what is reported."""
+"""Decide which detected damage is cut out and which is only reported."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -29,7 +29,7 @@ LONGEST = 0.3
 
 @dataclass(frozen=True)
 class DamageDecision:
-    """Damage, judged.
+    """Which damage is cut out, and which is reported.
 
     Args:
         cut: which log -> stretches that are left out.
@@ -45,7 +45,7 @@ class DamageDecision:
 
 
 def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDecision:
-    """Sort out what an inspection found in each log."""
+    """Decide about the damage that an inspection found in each log."""
     cut: dict[str, list[ExcludedInterval]] = {}
     found: dict[str, DamagedInterval] = {}
     for name, every in damages.items():

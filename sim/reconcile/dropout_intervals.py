@@ -1,4 +1,4 @@
-"""The moments within a stretch of drop-outs that are not to be believed.
+"""The intervals to exclude within a stretch of voltage dropouts.
 
 An inspection tells a series of drop-outs as one stretch. Where the motor really lost its voltage,
 the log between them is as good as any, and there may be no other: only the moments are damage.
@@ -20,7 +20,7 @@ ANSWERED = 0.9  # [share of the speed before] below which it has
 
 
 def dropout_intervals(run: Run, *, start: float, end: float) -> tuple[tuple[float, float], ...]:
-    """Beginnings and ends [s] of what to leave out; the whole stretch where motion took no notice.
+    """Start and end times [s] to exclude; the whole interval where the motion did not react.
 
     Args:
         run: that was inspected.

@@ -1,4 +1,4 @@
-"""Findings and a verdict, from what the rounds admitted and what they left."""
+"""Turn the selected effects and the residual tests into findings."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -45,7 +45,7 @@ def make_findings(
     damages: Sequence[DamagedInterval], chapters: Sequence[Chapter], *,
     left: ResidualSummary, per: Unit,
 ) -> tuple[Finding, ...]:  # fmt: skip
-    """What was missing or wrong: faults first, then effects, the major ones first.
+    """Findings: faults first, then effects, major ones first.
 
     What any robot has a little of stays in the model and is no finding, however much of a small gap
     it takes. A fault that is cut out for safety's sake, but may be physics, comes after the major
@@ -131,7 +131,7 @@ def _rank(one: Finding) -> int:
 def is_contradicted(
     effect: str, problem: PredictionErrorProblem, last: Estimate, left: ResidualSummary
 ) -> bool:
-    """Whether what came of it is what the model explains least.
+    """Whether the largest unexplained residual follows this effect's onset.
 
     A sensor that slips or a robot that is bumped loses speed as one does that takes up a load, but
     has it back at another pace. The knock itself is known to a sample, and never explained quite.
@@ -150,7 +150,7 @@ def list_remarks(
     findings: Sequence[Finding],
     left: ResidualSummary,
 ) -> tuple[str, ...]:
-    """What a person should know of the last model: what was not named, and what no run told."""
+    """Remarks: effects that were not reported, and what the data do not determine."""
     last = done[-1].candidate.point
     structure = last.structure
     named = {one.effect for one in findings}
@@ -215,7 +215,7 @@ def _effect(  # noqa: PLR0917 - two rounds, and what to call them
 
 
 def standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[str, float]:
-    """Value -> one standard error, from how the innovations change with each."""
+    """Parameter -> standard error, from the Jacobian of the innovations."""
     table, _ = append_prior_rows(problem, point)
     size = np.linalg.norm(table, axis=0)
     size[size == 0.0] = np.inf

@@ -1,4 +1,4 @@
-"""Round by round: try every candidate, admit one that narrows the gap, refit everything, go on."""
+"""Forward selection: try every candidate, add the best, refit, repeat."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -54,7 +54,7 @@ def select_effects(
     parts: Sequence[Fold],
     progress: Progress,
 ) -> list[SelectionRound]:
-    """The base, then a round for each effect that was added.
+    """The base model, then one round for each effect that was added.
 
     Args:
         problem: the measurements of all that may be fitted.
@@ -97,7 +97,7 @@ def add_pair(
     parts: Sequence[Fold],
     progress: Progress,
 ) -> list[SelectionRound]:
-    """The same; or with two effects of which one alone is far likelier, and yet widens the gap.
+    """Add two effects where one alone is likelier and yet widens the gap.
 
     What a spring gives back may be hidden by a limit that nobody has named, and misses more than no
     spring until that is there, too. Such a pair has to close much of the gap.
@@ -122,7 +122,7 @@ def choose_path(
     parts: Sequence[Fold],
     progress: Progress,
 ) -> list[SelectionRound]:
-    """The same; or, where that led astray, a path that turned off it and came nearer."""
+    """Try alternative paths where the greedy one led astray; the best is returned."""
     best = done
     if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
         return best
@@ -142,7 +142,7 @@ def choose_path(
 def alternative_paths(
     done: Sequence[SelectionRound], *, lost: bool
 ) -> list[tuple[int, WeighedCandidate]]:
-    """Rounds in which another effect came near, and that effect: the first ones first.
+    """Rounds in which another effect came close, and that effect.
 
     What is taken first masks what comes after it; later choices have their second thoughts. Where
     a path is lost, what was likeliest has led astray: the next one goes by the gap.
@@ -217,7 +217,7 @@ def _added(
 def admissible_candidates(
     weighed: Sequence[WeighedCandidate], *, most: int
 ) -> tuple[list[WeighedCandidate], list[WeighedCandidate]]:
-    """What may be added: what is admitted, and what is likely and hardly narrows the gap.
+    """Candidates that may be added next.
 
     What any robot has a little of goes first, and alone, if it is nearly the likeliest: beside it
     the others are seen as they are. A limit of the current resembles a late command and a weak
@@ -290,7 +290,7 @@ def _seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
 
 
 def _with_quiet(now: SelectionRound, best: WeighedCandidate) -> SelectionRound:
-    """A round whose model has one effect more, which nobody names."""
+    """Adds a nuisance effect that is modelled but not reported."""
     candidate = replace(best.candidate, effect=now.candidate.effect)
     plain = now.plain or now.candidate
     return replace(now, candidate=candidate, gap=best.gap, quiet=now.quiet + 1, plain=plain)

@@ -1,4 +1,4 @@
-"""The log on which the gap is shown, and each model's simulation of it."""
+"""The held-out log and each model's simulation of it."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -45,7 +45,7 @@ AGAIN: Mapping[str, str] = {
 
 @dataclass(frozen=True, eq=False)
 class HeldOutLog:
-    """A log that is shown.
+    """The log that is kept for showing the gap.
 
     Args:
         log: the runs.

@@ -1,4 +1,4 @@
-"""Whether logs can be reconciled at all; if not, what to record instead."""
+"""Check whether logs can be reconciled, and say what to record instead."""
 
 from dataclasses import replace
 

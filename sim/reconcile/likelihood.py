@@ -1,4 +1,4 @@
-"""How well values of a structure follow the measurements, run by run.
+"""The likelihood of a model structure's parameters, given the measurements of all runs.
 
     -2 log L = N·log det Σ + Σ (start/noise)² + Σ (δ/τ)²    Σ covariance (2, 2) of the innovations
 
@@ -35,7 +35,7 @@ FARTHEST = 1e100  # [1] that an innovation is off: the square of it is a number
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """Values of a structure, and how well they follow.
+    """Parameter values of a model structure, and how well they fit.
 
     Args:
         structure: what is believed.
@@ -65,7 +65,7 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class PredictionErrorProblem:
-    """The measurements of some runs.
+    """The measurements of some runs, and the likelihood of parameters given them.
 
     Args:
         records: the runs.

@@ -1,4 +1,4 @@
-"""Weighing: each candidate of a round against the gates, and the one that is taken."""
+"""Model selection: which candidate is added, by likelihood and by cross-validation."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -34,7 +34,7 @@ TINY = 1e-300  # no gap at all
 def weigh_candidates(
     problem: PredictionErrorProblem, now: SelectionRound, log: Log, parts: Sequence[Fold]
 ) -> list[WeighedCandidate]:
-    """The candidates of a round, each against the gates; the likeliest first."""
+    """All candidates of a round with their cross-validated gaps, likeliest first."""
     point = now.candidate.point
     model = point.structure.model(point.values)
     evidence = compute_voltage_residual(log, dict(model.gains), type=point.structure.type)
@@ -56,12 +56,12 @@ def weigh_candidates(
 
 
 def required_improvement(effect: str) -> float:
-    """[of -2 log L] by which it must make the model likelier."""
+    """[of -2 log L] by which a candidate has to improve the model."""
     return ONCE if EFFECTS[effect].happens else SURE
 
 
 def rejection_reason(gap: Gap, before: Gap, score: float) -> str:
-    """The gate that a candidate does not pass; empty if it passes all."""
+    """Why a candidate is not admitted; empty if it is."""
     if not math.isfinite(gap.velocity + gap.position):
         return WIDENS
     velocity = gap.velocity / max(before.velocity, TINY)
@@ -74,7 +74,7 @@ def rejection_reason(gap: Gap, before: Gap, score: float) -> str:
 
 
 def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
-    """The likeliest, or one about as likely with fewer parameters.
+    """The likeliest candidate, or one about as likely with fewer parameters.
 
     Of as many parameters each, about as likely, the one that the validation clearly prefers; or one
     half as likely, if that closes far more of its gap. What may be one run's accident has to be
@@ -107,7 +107,7 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
 def list_rivals(
     best: WeighedCandidate, weighed: Sequence[WeighedCandidate]
 ) -> list[WeighedCandidate]:
-    """The effects that explain about as much as the one that was taken."""
+    """Effects that explain about as much as the chosen one."""
     return [
         one
         for one in weighed
@@ -116,7 +116,7 @@ def list_rivals(
 
 
 def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
-    """What is far likelier than nothing, and yet widens the gap of other runs; the likeliest first.
+    """Candidates that improve the likelihood much and yet widen the gap of other runs.
 
     It is not what is missing, or not alone: something is. What happens once is left out, of which
     other runs know nothing, and so is what any robot has a little of.
@@ -132,7 +132,7 @@ def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
 
 
 def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
-    """Whether an effect of a model is as small as on any robot in good order."""
+    """Whether an effect is no larger than on any healthy robot."""
     known = EFFECTS[effect]
     return known.everyday({name: values[f"{effect}.{name}"] for name in known.names})
 
@@ -140,7 +140,7 @@ def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
 def is_significant(
     effect: str, values: Mapping[str, float], score: float, *, lone: bool = False
 ) -> bool:
-    """Whether an effect is there beyond doubt, and no robot has a little of it.
+    """Whether an effect is certain, and larger than on any healthy robot.
 
     Free play of a motor is lost in what a simulation misses after ten seconds, and yet is there.
 
@@ -162,7 +162,7 @@ def is_significant(
 
 
 def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
-    """Whether no other effect that lasts explained half as much.
+    """Whether no other permanent effect explained half as much.
 
     Args:
         effect: that was added.
@@ -177,6 +177,6 @@ def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
 
 
 def score_improvement(now: Candidate, other: Candidate) -> float:
-    """[of -2 log L] by which another model is likelier; one with fewer values wins when close."""
+    """[of -2 log L] by which one model is likelier than another."""
     fewer = now.point.structure.free - other.point.structure.free
     return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)

@@ -1,4 +1,4 @@
-"""A structure: the base model and some effects, as numbers that a search can move."""
+"""A model structure: the base model and a set of effects, with their parameters."""
 
 import math
 from collections.abc import Mapping
@@ -23,7 +23,7 @@ ORDINARY: Mapping[str, float] = {"V": 0.05, "s": 0.004, "1": 0.02}
 
 @dataclass(frozen=True)
 class ModelStructure:
-    """What is believed to be in the model.
+    """The base model and the effects that are assumed.
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.

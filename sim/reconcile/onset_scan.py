@@ -1,4 +1,4 @@
-"""When something happened that happens once: every moment of every run is tried.
+"""Scan all onset times of effects that happen once.
 
 What a little of it would change is simulated from each moment to the end of the run, in all runs at
 the same time; how much of it the innovations ask for, and what that explains, is then a matter of
@@ -65,7 +65,7 @@ class _Sums:
 def scan_onsets(
     problem: PredictionErrorProblem, point: Estimate, effect: Effect, *, kept: JointJacobian
 ) -> Iterator[dict[str, float]]:
-    """Values of its parameters at the moments that explain most.
+    """Parameter values at the onset times that explain most.
 
     Args:
         problem: the measurements.
@@ -81,7 +81,7 @@ def scan_onsets(
 
 
 def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[Estimate]:
-    """The same with what happened over by the end of its run where it was for good, and so on.
+    """The same with an effect for good made temporary, and the other way round.
 
     No search moves from one to the other, and what was likelier before another effect was added may
     not be likelier beside it.
@@ -104,7 +104,7 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
 
 
 def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same at the likeliest moment around, where something happens once.
+    """The same at the likeliest onset nearby.
 
     No search moves a moment: across a sample what is likely jumps.
     """
@@ -124,7 +124,7 @@ def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
 
 def fixed_parameter_choices(effect: Effect) -> Iterator[Mapping[str, float]]:
-    """Values of what a search does not move, and which is no moment: all ends of them."""
+    """Values of the parameters that the search keeps fixed, apart from onset times."""
     ends = {
         one.name: (one.least, one.most)
         for one in effect.parameters

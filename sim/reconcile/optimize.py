@@ -1,4 +1,4 @@
-"""Downhill: values whose innovations are as small as noise allows.
+"""Levenberg–Marquardt search over parameters, nuisance parameters and process noise.
 
 Levenberg and Marquardt's steps on white innovations, in turn with a search for the size q of what
 pushes at random.
@@ -40,7 +40,7 @@ NOTHING = 0.1  # [of -2 log L] a step that promises less is not taken
 
 @dataclass(frozen=True, eq=False)
 class JointJacobian:
-    """All that the values of a point, and what is each run's own, can make of white innovations.
+    """Jacobian of the whitened innovations with respect to parameters and nuisance parameters.
 
     Args:
         ways: (2 n, k) orthonormal with rows for the priors, which are left out here.
@@ -67,7 +67,7 @@ class JointJacobian:
 
 
 def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The best point near one: values, then q, until neither gains.
+    """Alternate between parameters and process noise until neither improves.
 
     Values go first: far from the best ones a large q is the likeliest, and hides what they miss.
     """
@@ -85,7 +85,7 @@ def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
 
 def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The best point near one, however long the way; and, where much pushes it, near a calmer one.
+    """The local minimum near an estimate, and with less process noise where that matters.
 
     A large q bears with anything: it is where a search for gains that are far off comes to rest.
     """
@@ -111,7 +111,7 @@ def _tight(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
 
 def total_cost(point: Estimate) -> float:
-    """[of -2 log L] of a point, and of what was told of where its runs began."""
+    """[of -2 log L] of an estimate, with the priors of its nuisance parameters."""
     return point.cost + backlash_phase_prior(point)
 
 
@@ -126,7 +126,7 @@ def _settled(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
 
 def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same values with the likeliest q: in steps of four, then by a parabola through three."""
+    """The same values with the likeliest process noise: factors of four, then a parabola."""
     least = LEAST_Q * problem.noise.velocity**2
 
     def at(part: float) -> Estimate:
@@ -151,7 +151,7 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
 def levenberg_marquardt(
     problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float = ENOUGH
 ) -> Estimate:
-    """The point after some steps, fewer when one gains hardly anything."""
+    """Levenberg–Marquardt steps until the gain per step is small."""
     if not math.isfinite(point.cost):
         return point
     damping = FIRST_DAMPING
@@ -182,7 +182,7 @@ def predicted_improvement(
     problem: PredictionErrorProblem, point: Estimate, structure: ModelStructure,
     more: Sequence[Mapping[str, float]], *, kept: JointJacobian, as_given: bool = False,
 ) -> list[Begun]:  # fmt: skip
-    """What each start of a candidate may gain once the gains have adjusted to it, and its point.
+    """What each start of a candidate may gain once the gains have adjusted, to second order.
 
     A start that goes too far, or the wrong way, as it may beside another effect that no start knows
     of, is tried again at the size that would gain most, if what it does were proportional to it;
@@ -270,7 +270,7 @@ def _sized(structure: ModelStructure, one: Mapping[str, float], part: float) -> 
 
 
 def joint_jacobian(problem: PredictionErrorProblem, point: Estimate) -> JointJacobian:
-    """All that the values of a point, and what is each run's own, can make of it."""
+    """The joint Jacobian at an estimate."""
     table, rest = append_prior_rows(problem, point)
     size = 2 * len(problem.measured)
     ways, _ = np.linalg.qr(table)
@@ -278,7 +278,7 @@ def joint_jacobian(problem: PredictionErrorProblem, point: Estimate) -> JointJac
 
 
 def append_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
-    """Columns and white innovations, with a row for what is each run's own: it is priced as noise.
+    """Jacobian and residual with a row for the prior of each nuisance parameter.
 
     Args:
         problem: the measurements.
@@ -309,7 +309,7 @@ def _moved(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Estim
 
 
 def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same values with the likeliest q of all sizes: there may be more than one valley."""
+    """The same values with the likeliest process noise of its whole range."""
     tried = [
         problem.at(
             point.structure, point.values, point.nuisance, point.process_noise * SOFTER**power

@@ -1,4 +1,4 @@
-"""Friction that is a little different in every run: a random effect, and no finding.
+"""Friction that differs from run to run, as a random effect.
 
 A gear warms up, a chain lies otherwise, a carpet has a seam: kS of a run is kS + δ, δ ~ N(0, τ²),
 and what is believed of δ goes into the search as what is believed of starts does:
@@ -21,17 +21,17 @@ LEAST_KS = 0.05  # [V] of which it is a share where kS is less
 
 
 def friction_sd(values: Mapping[str, float]) -> float:
-    """[V] τ, by which friction differs from run to run."""
+    """[V] τ, the standard deviation of friction between runs."""
     return VARIES * max(values["kS"], LEAST_KS)
 
 
 def friction_prior(values: Mapping[str, float], nuisance: RunNuisance) -> float:
-    """[of -2 log L] of frictions that are each run's own."""
+    """[of -2 log L] prior cost of the runs' own frictions."""
     return float(np.sum(np.square(nuisance.friction_offset / friction_sd(values))))
 
 
 def laplace_correction(values: Mapping[str, float], slopes: Array) -> float:
-    """[of -2 log L] what is lost by how little else each could have been.
+    """[of -2 log L] Laplace correction for integrating over the runs' own frictions.
 
     Args:
         values: of a point.

@@ -1,4 +1,4 @@
-"""Where a simulation and the log that is shown disagree: the samples of a story, sorted."""
+"""The gap on the held-out log, by run, speed, position and time."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The runs of a log as reconcile compares them: fresh samples, where they began, stops, clocks."""
+"""The runs of a log, prepared for fitting: fresh samples, start, travel and clock."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -20,7 +20,7 @@ AFTER = 1e-6  # [s] by which a log begins after another: nobody knows how long t
 
 @dataclass(frozen=True)
 class ExcludedInterval:
-    """A stretch of a run that is damage to the record, or no business of the model.
+    """An interval of a run that is not fitted: damaged, or outside the model.
 
     Args:
         run: which one, from 0.
@@ -37,7 +37,7 @@ class ExcludedInterval:
 
 @dataclass(frozen=True, eq=False)
 class RunRecord:
-    """One run.
+    """One run, prepared for fitting.
 
     Args:
         seen: its measurements.
@@ -100,7 +100,7 @@ def run_records(
 
 
 def session_length(*logs: Log) -> float:
-    """[s] on the clock of the first log when the last one ended; no pause between them."""
+    """[s] from the start of the first run to the end of the last, without the pauses."""
     lasted = (one.runs[-1].time[-1] - one.runs[-1].time[0] for one in logs)
     return float(
         sum(run_start_times(one)[-1] + last for one, last in zip(logs, lasted, strict=True))
@@ -108,7 +108,7 @@ def session_length(*logs: Log) -> float:
 
 
 def join_records(log: Log, later: Log) -> Log:
-    """The runs of both, on one clock if each has one: as ``records`` has them, with no pause."""
+    """The runs of two logs, on one clock where both have one."""
     runs = later.runs
     if share_a_clock(log) and share_a_clock(later):
         by = log.runs[0].time[0] + session_length(log) + AFTER - later.runs[0].time[0]

@@ -1,4 +1,4 @@
-"""A round: a model, and what was tried on top of it."""
+"""One round of the selection: a model, and the candidates tried on top of it."""
 
 import math
 from dataclasses import dataclass, field
@@ -11,7 +11,7 @@ from sim.reconcile.story import Tried
 
 @dataclass(frozen=True, eq=False)
 class WeighedCandidate:
-    """A candidate, and what the gates said.
+    """A candidate with its cross-validated gap.
 
     Args:
         candidate: the model with it.
@@ -26,7 +26,7 @@ class WeighedCandidate:
 
 @dataclass(frozen=True, eq=False)
 class SelectionRound:
-    """A model, and what was tried on top of it.
+    """A model, and the candidates tried on top of it.
 
     Args:
         candidate: the model, and the effect that made it of the one before; empty for the base.
@@ -56,6 +56,6 @@ class SelectionRound:
 
 
 def reported_estimate(one: SelectionRound) -> Estimate:
-    """The model of a round that is shown: of the base, the one without quiet effects."""
+    """The estimate of a round that is shown to people."""
     plain = one.plain if one.plain and not one.plain.effect else None
     return (plain or one.candidate).point

@@ -1,4 +1,4 @@
-"""An encoder that slips: a velocity that leaves for a moment and is back at once.
+"""Detect encoder slips: a velocity that jumps and returns faster than the mechanism could.
 
 What pushes a mechanism changes its velocity for as long as its time scale kA/kV. A sensor that
 loses a few teeth shows a velocity that is far off for some samples and right again in the next, and
@@ -79,7 +79,7 @@ class _Errors:
 def detect_slips(
     problem: PredictionErrorProblem, point: Estimate
 ) -> Iterator[tuple[int, DamagedInterval]]:
-    """Which run slipped, from 0, and when.
+    """The slips: index of the run, and time.
 
     Args:
         problem: the measurements.

@@ -1,4 +1,4 @@
-"""What reconcile found, told in order: what was missing, how sure, and what the gap did."""
+"""The result of reconcile: verdict, findings, and the gap at each step."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

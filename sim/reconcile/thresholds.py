@@ -1,4 +1,4 @@
-"""Every number that decides a verdict, with its reason."""
+"""Decision thresholds of reconcile, with their reasons."""
 
 SURE = 20.0
 """[of -2 log L] by which an effect must make the model likelier, prices paid: odds of e¹⁰, about

@@ -1,4 +1,4 @@
-"""What shakes: where a search for two bodies starts, from the runs in which the voltage jumps.
+"""Start values for backlash and compliance, from step tests.
 
 Free play and a soft joint show for a moment after each change of voltage, and a slow ramp says
 little of them. They have many valleys: a light motor, a heavy one, a swing that falls in step with
@@ -32,7 +32,7 @@ HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter mot
 
 
 class TwoBodyStarts:
-    """The runs in which the voltage jumps.
+    """The step tests, and the start values that they suggest.
 
     Args:
         problem: the measurements of all runs.

@@ -1,4 +1,4 @@
-"""The verdict: what the findings come to, and what remains."""
+"""The verdict: explained, ambiguous, unexplained or nothing missing."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""A fit for people: one page that holds everything and asks for nothing more, or one picture.
+"""A fit as one self-contained web page, or as one picture.
 
     write_page(report, "drive.html")
     write_picture(report, "drive.png")

@@ -1,4 +1,4 @@
-"""Pages: how they are filled in, and how they are written, whole or not at all."""
+"""Fill in page templates and write the file atomically."""
 
 import os
 from functools import cache

@@ -1,4 +1,4 @@
-"""What stands in the tables of a page, as text: gains, measures, feedback gains, code."""
+"""The rows of a report's tables: gains, measures, feedback gains, code."""
 
 import math
 import re

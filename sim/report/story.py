@@ -1,4 +1,4 @@
-"""A story on one page: verdict, findings, where simulation and log disagree, before and after.
+"""A reconcile story as one web page.
 
 write_story(story, "arm.html", title="arm.wpilog")
 """

@@ -1,1 +1,1 @@
-"""What only the lessons use: prediction widgets, the runway bench, cases that R2 hides."""
+"""What only the lessons use: predictions, the runway, and cases that R² hides."""

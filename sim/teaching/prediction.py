@@ -1,4 +1,4 @@
-"""A question before an experiment: what the learner predicts is kept, shown again, never graded."""
+"""A prediction before an experiment, kept and shown again, never graded."""
 
 from html import escape
 

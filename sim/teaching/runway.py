@@ -1,4 +1,4 @@
-"""One test on a floor with a mark on it: when somebody lets go, and where the robot stands.
+"""One test on a floor with a stop mark: when the driver lets go, and where the robot stops.
 
 The voltage of the routine is on until the mark has passed and a thumb has reacted, or until the
 timeout. Then the motors brake, as hard as their own back-EMF and the carpet allow:

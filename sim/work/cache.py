@@ -1,4 +1,4 @@
-"""Where is kept what is made once and can be made again: safe to delete."""
+"""The user's cache: files that can be made again."""
 
 import os
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""The machines of a Dask cluster, the extra ``cluster``.
+"""Run jobs on a Dask cluster (extra ``cluster``).
 
 A worker gets a job and gives back plain data, and this process writes it: machines need this
 package in the same version, and no disk in common. What a job holds does travel, be it a seed, the

@@ -1,4 +1,4 @@
-"""Ctrl+C where it must not come at any moment: within a file, or the start of a process."""
+"""Delay Ctrl+C where it must not interrupt."""
 
 import signal
 import threading

@@ -1,4 +1,4 @@
-"""The processes of this machine: jobs are done in this one, or in as many as there are cores."""
+"""Run jobs in worker processes of this machine."""
 
 import multiprocessing
 import os

@@ -1,4 +1,4 @@
-"""A bar that shows how far many jobs are."""
+"""A progress bar for many jobs."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

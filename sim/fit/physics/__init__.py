@@ -1,4 +1,4 @@
-"""Gains against physics: what the motor, the gears, the load and gravity allow them to be.
+"""Plausibility checks: gains against motor, gearing, load and gravity.
 
 kV = 12 V / free speed · G/r        a motor's own; drag adds, nothing takes away
 kA = R·r/(n·Kt·G) · load            rotors and wheels add, nothing takes away

@@ -1,4 +1,4 @@
-"""Two fits of what ought to be the same: left and right, forward and reverse."""
+"""Compare two fits that should agree: left and right, forward and reverse."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What a mechanism is built from, and the gains that its parts allow."""
+"""The parts of a mechanism, and the kV and kA that they imply."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What a fit says against itself: friction, weight over inertia, and how fast it answers."""
+"""Check a fit against itself: friction, weight against inertia, and time constant."""
 
 import math
 

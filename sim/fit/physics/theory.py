@@ -1,4 +1,4 @@
-"""kV and kA against what motor, gears and load promise, and the mistake that would explain them.
+"""Compare kV and kA with theory, and name the mistake that would explain a difference.
 
 An error in the log's unit changes kV and kA alike; one in the ratio or the radius changes them
 opposite ways: that tells the two apart.

@@ -1,1 +1,1 @@
-"""Tests of what a model leaves that is not noise."""
+"""Tests of the final model's residuals."""

@@ -1,4 +1,4 @@
-"""What runs that go the same way miss alike, at the same places or the same speeds.
+"""Residuals that runs of one direction share, by position or by speed.
 
     alike = Σ a·b/(√pairs · mean(a²))        a, b what two runs miss in the same cell
 
@@ -25,7 +25,7 @@ POSITION, SPEED = "position", "speed"
 
 @dataclass(frozen=True)
 class RepeatedResidual:
-    """What runs miss alike.
+    """A residual that several runs share.
 
     Args:
         size: [standard deviations of chance].
@@ -62,7 +62,7 @@ class _Cells:
 
 
 def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> RepeatedResidual:
-    """What runs miss alike: of places and of speeds, the one that chance would do less.
+    """Find the residual that runs share most, by position or by speed.
 
     Args:
         problem: the measurements.
@@ -88,7 +88,7 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
 
 
 def smooth_innovations(problem: PredictionErrorProblem, point: Estimate) -> Array:
-    """(n,) how much of a push within its period each white innovation has."""
+    """(n,) disturbance per sample, estimated from whitened innovations."""
     period = problem.period
     push = problem.white(point, np.array([[0.5 * period**2, period]]))
     white = problem.white(point, point.innovations).reshape(-1, 2)

@@ -1,4 +1,4 @@
-"""What comes back in time: a push that goes to and fro, whatever the mechanism does meanwhile.
+"""Periodic residuals: the largest peak in the spectrum of the disturbance.
 
     power(f) = Σ |Σ w·exp(-2πi·f·t)|²/(n·mean(w²))        w how much of a push each innovation has
 
@@ -25,7 +25,7 @@ SHORTEST = 20  # samples of a run
 
 @dataclass(frozen=True)
 class SpectralPeak:
-    """What comes back in time.
+    """A periodic residual.
 
     Args:
         size: [1] -log of the odds that noise has as much of it, at the frequency that has most.
@@ -37,7 +37,7 @@ class SpectralPeak:
 
 
 def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> SpectralPeak:
-    """The rhythm that noise would have least.
+    """Find the spectral peak that noise would be least likely to produce.
 
     Args:
         problem: the measurements.

@@ -1,4 +1,4 @@
-"""What a last model leaves that is not noise: at a moment, at one place, at one speed, in time."""
+"""Summary of the residual tests of the final model."""
 
 from dataclasses import dataclass, field
 
@@ -11,7 +11,7 @@ from sim.reconcile.thresholds import ALIKE, RHYTHM, SHAKEN
 
 @dataclass(frozen=True)
 class ResidualSummary:
-    """What is left.
+    """Results of the residual tests.
 
     Args:
         moment: that the model explains least.

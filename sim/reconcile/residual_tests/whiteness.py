@@ -1,4 +1,4 @@
-"""What a model leaves: whether its innovations are noise, or something nobody has named.
+"""Whiteness test: the least likely window of innovations.
 
 A window of innovations that is far from nothing, measured by how far all such windows are: a force
 at one place, a push at one moment, a voltage that was not there.
@@ -25,7 +25,7 @@ DELAY, LAG = "delay", "delay.lag"
 
 @dataclass(frozen=True)
 class WorstWindow:
-    """The moment that a model explains least.
+    """The window of innovations that is least likely.
 
     Args:
         size: [robust standard deviations of all windows as long].
@@ -45,7 +45,7 @@ CALM = WorstWindow(0.0, 0, 0.0, 0.0)
 
 
 def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> WorstWindow:
-    """The most unlikely window of innovations.
+    """Find the least likely window of innovations.
 
     What pushes moves position and velocity the same way: where both say so, they count together.
     """

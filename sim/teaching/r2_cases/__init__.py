@@ -1,4 +1,4 @@
-"""What R² hides: one drivetrain, logged soundly once and wrongly twenty times, each log fitted.
+"""What R² hides: one drivetrain, logged correctly once and wrongly twenty times.
 
     found = gains of SysId's recipe        off = found/true - 1
 

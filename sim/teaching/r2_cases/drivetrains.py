@@ -1,4 +1,4 @@
-"""The drivetrains and routines whose logs are compared: four motors, 60 kg, each set up its way."""
+"""The drivetrains and routines behind the cases: four motors, 60 kg."""
 
 import math
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""Harm to a log, as large as said: what turns a sound record into each of the other cases."""
+"""The damage that turns a sound log into each of the cases."""
 
 from collections.abc import Callable
 from dataclasses import replace
