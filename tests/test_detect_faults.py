@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import sim.detect_faults
@@ -218,6 +218,7 @@ SIGNALS = ("time", "voltage", "position", "velocity")
     hurts=st.lists(st.sampled_from(list(HURTS)), min_size=4, max_size=4),
     gone=st.integers(0, 4),
 )
+@example(name="elevator", hurts=["nothing", "steps", "nothing", "nothing"], gone=0)
 def test_no_run_is_too_badly_hurt_to_be_inspected(name, hurts, gone):
     log = bench(name)
     runs = [HURTS[hurt](run) for hurt, run in zip(hurts, log.runs, strict=True)]

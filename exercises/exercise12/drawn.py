@@ -20,7 +20,7 @@ HIDDEN = (
     ("drivetrain", (("velocity-filter", 1.5), ("drag", 0.8), ("stribeck", 0.6))),
     ("drivetrain", (("asymmetric-back-emf", 1.2), ("drag", 1.2), ("stribeck", 0.6))),
     ("shooter", (("velocity-filter", 2.0),)),
-    ("shooter", (("drag", 1.5), ("velocity-filter", 0.8))),
+    ("shooter", (("velocity-filter", 2.0), ("drag", 1.0))),
     ("shooter", (("asymmetric-back-emf", 1.2), ("drag", 0.8))),
 )
 """Mechanism, and its effects with their sizes. In each of them the first effect alone narrows the

@@ -82,6 +82,8 @@ def _line(clues: LogFeatures, way: str) -> _Line | None:
         load = load - load.mean()
     volts = (sign * (run.voltage - load - balance.ka * _acceleration(run, clues.period)))[fast]
     speed = np.abs(run.velocity[fast])
+    if not np.ptp(speed):  # readings so coarse that they know one speed only: no line
+        return None
     (kv, ks), covariance = np.polyfit(speed, volts, 1, cov=True)
     errors = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     return _Line(float(ks), float(kv), float(errors[1]), float(errors[0]))
