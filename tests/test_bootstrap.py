@@ -14,7 +14,7 @@ import pytest
 from grader import __main__ as bootstrap
 
 ROOT = Path(__file__).resolve().parents[1]
-STANDALONE = ("__init__.py", "__main__.py", "foreground.py")  # all that runs before the install
+STANDALONE = ("__init__.py", "__main__.py", "exec_process.py")  # all that runs before the install
 OLD = (3, 8)
 
 

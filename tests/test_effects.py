@@ -354,7 +354,7 @@ def test_starts_survive_a_log_in_which_nothing_moves():
     [
         (dict(kind="magic"), "kind is 'magic'; choose one of: term"),
         (dict(acts={}), "acts is empty"),
-        (dict(acts={"pulls": lambda v: v}), "'pulls', which is not one of: pull"),
+        (dict(acts={"forces": lambda v: v}), "'forces', which is not one of: force"),
         (dict(acts={"force": lambda speed: speed}), "force asks for 'speed'; it may ask for: x, v"),
         (dict(acts={"transform_voltage": lambda u: u}), "order is 0"),
     ],

@@ -184,7 +184,7 @@ def test_a_lesson_uses_only_public_names_and_short_functions(text):
         if isinstance(node, ast.ImportFrom):
             names = {name.name for name in node.names}
             assert not node.module.startswith("grader.")
-            assert node.module != "grader" or names <= {"Quick", "QuickNumber", "submit"}
+            assert node.module != "grader" or names <= {"QuickCheck", "QuickNumberCheck", "submit"}
             assert not [name.name for name in node.names if name.name.startswith("_")]
         if isinstance(node, ast.Attribute):
             assert not node.attr.startswith("_")

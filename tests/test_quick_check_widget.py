@@ -78,5 +78,5 @@ def test_every_lesson_has_a_quick_check_and_says_how_to_answer_without_buttons(l
     text = lesson.read_text(encoding="utf-8")
     part = text.partition("Knowledge check")[2]
 
-    assert re.search(r"^\w+ = Quick(Number)?\(", part, re.MULTILINE)
+    assert re.search(r"^\w+ = Quick(Number)?Check\(", part, re.MULTILINE)
     assert re.search(r"\.answer\(", part.partition("Quick")[0])

@@ -169,11 +169,17 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
         ]
 
     room = sys.modules["sim.reconcile.forward_selection"]
-    monkeypatch.setattr(room, "weigh", weighed)
-    monkeypatch.setattr(room, "outside", lambda *_: sizes[0])
-    monkeypatch.setattr(room, "ended", lambda _, point: point)
+    monkeypatch.setattr(room, "weigh_candidates", weighed)
+    monkeypatch.setattr(room, "validation_gap", lambda *_: sizes[0])
+    monkeypatch.setattr(room, "minimize_fully", lambda _, point: point)
     monkeypatch.setattr(room, "_seeds", lambda _: {})
-    for name in ("reconsidered", "simplified", "missed_by", "best_path", "paired"):
+    for name in (
+        "replace_effects",
+        "simplify_effects",
+        "measure_removals",
+        "choose_path",
+        "add_pair",
+    ):
         monkeypatch.setattr(room, name, lambda _, done, *__: done)
 
     done = select_effects(problem, base, log, [], lambda *_: None)

@@ -247,10 +247,12 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     last = SelectionRound(Candidate("stribeck", point, 500.0), one_gap, one_gap)
     done = [base, model("battery-sag", 600.0, gap=1.1), last]
     path = sys.modules["sim.reconcile.backward_elimination"]
-    monkeypatch.setattr(path, "gather", lambda *_, **__: None)
-    monkeypatch.setattr(path, "without", lambda *_: Candidate("", point, 900.0))
-    monkeypatch.setattr(path, "suspects", lambda *_, **__: [Candidate(other, point, 500.0 - gains)])
-    monkeypatch.setattr(path, "outside", lambda *_: one_gap)
+    monkeypatch.setattr(path, "compute_voltage_residual", lambda *_, **__: None)
+    monkeypatch.setattr(path, "refit_without", lambda *_: Candidate("", point, 900.0))
+    monkeypatch.setattr(
+        path, "rank_candidates", lambda *_, **__: [Candidate(other, point, 500.0 - gains)]
+    )
+    monkeypatch.setattr(path, "validation_gap", lambda *_: one_gap)
 
     found = replace_effects(ONE_NOISE, done, None, ())
 

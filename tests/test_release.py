@@ -16,7 +16,7 @@ from grader.variant import class_secret
 from sim.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
-PRIVATE = ("solutions/", "tests/", ".git", ".ci/", ".course", "__pycache__", "/data/")
+PRIVATE = ("course/solutions/", "course/tests/", ".git", ".ci/", ".course", "__pycache__", "/data/")
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ from pathlib import Path
 from grader.isolation import sandbox_parent
 from grader.isolation.sandbox_parent import Limits
 
-START = sandbox_parent.START.replace("isolation.child", "isolation.inside")
+START = sandbox_parent.START.replace("sandbox_child", "sandbox_program_child")
 
 
 def run_program(

@@ -36,7 +36,9 @@ CALLED = ctypes.CFUNCTYPE(  # as `_entry` in sim/engine/compose.py says it
 NO_USE = b""  # what is kept where object files were tried, and do not work
 PATIENCE = 60  # [s] for one that takes a tenth
 ROOM = 1000  # numbers, more than any array of fixed length has
-TRIAL = "import sys, pathlib, sim.engine.kernel as it; it.tried(pathlib.Path(sys.argv[1]))"
+TRIAL = (
+    "import sys, pathlib, sim.engine.kernel as it; it.try_kernel_file(pathlib.Path(sys.argv[1]))"
+)
 
 
 class Kernel:

@@ -237,7 +237,7 @@ def _drop(hidden: Hidden, run: Run) -> np.ndarray:
     kv = hidden.mechanism.gains["kV"]
     volts = run.voltage
     for part in sorted(hidden.parts, key=lambda one: find(one.effect).order):
-        act = find(part.effect).acts.get("passes")
+        act = find(part.effect).acts.get("transform_voltage")
         if act is None:
             continue
         asked = inspect.signature(act).parameters

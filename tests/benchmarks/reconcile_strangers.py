@@ -149,7 +149,7 @@ def _stranger(
     """
     return Effect(
         name=name,
-        kind="path" if "passes" in acts else "term",
+        kind="path" if "transform_voltage" in acts else "term",
         summary="outside of the catalogue",
         formula="",
         parameters=tuple(
@@ -163,7 +163,7 @@ def _stranger(
         starts=no_starts,
         acts=acts,
         pace=pace,
-        order=99 if "passes" in acts else 0,
+        order=99 if "transform_voltage" in acts else 0,
         cannot=cannot,
     )
 
@@ -177,24 +177,24 @@ STRANGERS: Mapping[str, Effect] = {
     one.name: one
     for one in (
         _stranger(
-            "bump", {"height": 0.0, "place": 0.0, "width": 1.0}, {"pull": bump},
+            "bump", {"height": 0.0, "place": 0.0, "width": 1.0}, {"force": bump},
             ordinary_bump, pace=bump_pace, cannot=_only_with_places,
         ),
-        _stranger("band", {"volts": 0.0, "at": 1.0, "width": 1.0}, {"pull": band}, ordinary_band),
+        _stranger("band", {"volts": 0.0, "at": 1.0, "width": 1.0}, {"force": band}, ordinary_band),
         _stranger(
-            "swing", {"volts": 0.0, "rate": 1.0}, {"passes": swing, "remembers": clock},
+            "swing", {"volts": 0.0, "rate": 1.0}, {"transform_voltage": swing, "remembers": clock},
             ordinary_swing, pace=swing_pace,
         ),
         _stranger(
             "push", {"volts": 0.0, "onset": 0.0, "lasts": 1.0},
-            {"passes": push, "remembers": clock}, ordinary_push, pace=push_pace,
+            {"transform_voltage": push, "remembers": clock}, ordinary_push, pace=push_pace,
         ),
         _stranger(
             "dip", {"depth": 0.0, "every": 1.0, "lasts": 0.1},
-            {"passes": dip, "remembers": clock}, ordinary_dip, pace=dip_pace,
+            {"transform_voltage": dip, "remembers": clock}, ordinary_dip, pace=dip_pace,
         ),
         _stranger(
-            "cling", {"volts": 0.0, "way": 1.0}, {"passes": clings, "remembers": drawn},
+            "cling", {"volts": 0.0, "way": 1.0}, {"transform_voltage": clings, "remembers": drawn},
             ordinary_cling,
         ),
     )
@@ -203,7 +203,10 @@ STRANGERS: Mapping[str, Effect] = {
 
 
 SHAKES = _stranger(
-    "shakes", {"volts": 0.0, "seed": 0.0}, {"passes": shaken, "remembers": thrown}, ordinary_shakes
+    "shakes",
+    {"volts": 0.0, "seed": 0.0},
+    {"transform_voltage": shaken, "remembers": thrown},
+    ordinary_shakes,
 )
 """What is in every case and nobody has to flag: it is another in every run."""
 
