@@ -172,7 +172,7 @@ def test_what_the_lesson_is_said_to_say_it_says(text, shared):
 @each_lesson
 def test_a_prediction_is_shown_again(text):
     source = text.read_text(encoding="utf-8")
-    guesses = re.findall(r"^(guess_\w+) = Guess\(", source, re.MULTILINE)
+    guesses = re.findall(r"^(guess_\w+) = Prediction\(", source, re.MULTILINE)
     assert guesses
     for guess in guesses:
         assert f"{{{guess}}}" in source

@@ -27,7 +27,7 @@ def test_plain_code_can_choose(guess):
 def test_buttons_choose_the_same(guess):
     guess._buttons.value = "kS"
     assert guess.value == "kS"
-    assert repr(guess) == "Guess('Which gain is <off>?': kS)"
+    assert repr(guess) == "Prediction('Which gain is <off>?': kS)"
 
 
 def test_an_answer_that_is_not_there_is_refused(guess):

@@ -45,7 +45,7 @@ class Prediction:
         return self.value or "nothing yet"
 
     def __repr__(self) -> str:
-        return f"Guess({self.question!r}: {self})"
+        return f"Prediction({self.question!r}: {self})"
 
     def _repr_mimebundle_(self, **how: object) -> object:
         return self._box._repr_mimebundle_(**how)
