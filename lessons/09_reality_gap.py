@@ -75,6 +75,7 @@ from sim.plot import (
     residual_views,
     time_series,
 )
+from sim.plot.story import findings_table, gap_by_round, residual_maps
 from sim.reconcile import reconcile
 from sim.replay import replay
 from sim.simulate import simulate
@@ -598,17 +599,17 @@ Table(
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
 print(f"Verdict: {story.verdict}.")
-story.table()
+findings_table(story)
 
 # %%
-story.plot_shrinking()
+gap_by_round(story)
 
 # %% [markdown]
 # Where simulation and log disagree, before (left) and after (right). It is a microscope, too: blue
 # where the robot is slower than the model says, orange where it is faster.
 
 # %%
-story.plot_gap()
+residual_maps(story)
 
 # %% [markdown]
 # ### Compare with yours

@@ -35,6 +35,13 @@ from sim.cli_support import run
 from sim.effects import EFFECTS
 from sim.errors import BadRequest
 from sim.mechanisms import MECHANISMS
+from sim.plot.story import (
+    candidate_bars,
+    findings_table,
+    gap_by_round,
+    plot_overlays,
+    residual_maps,
+)
 from sim.report.story import story_page, write_story
 from sim.routine import Routine
 from sim.simulate import simulate
@@ -290,7 +297,7 @@ def test_a_page_that_cannot_be_written_is_refused(tmp_path, name, said):
 
 
 def test_an_overlay_has_each_run_before_and_after():
-    picture = EXPLAINED.plot_overlay()
+    picture = plot_overlays(EXPLAINED)
 
     assert [row[0] for row in picture.table.rows] == [f"{i}: {t}" for i, t in enumerate(TESTS, 1)]
     for i, (_, before, after) in enumerate(picture.table.rows):
@@ -306,13 +313,13 @@ def test_an_overlay_has_each_run_before_and_after():
 
 
 def test_the_base_has_no_before():
-    picture = EXPLAINED.plot_overlay(0)
+    picture = plot_overlays(EXPLAINED, 0)
 
     assert picture.table.header == ("run", "base model, off by [noises]")
 
 
 def test_the_map_shows_where_before_and_nowhere_after():
-    picture = EXPLAINED.plot_gap()
+    picture = residual_maps(EXPLAINED)
 
     models = [row[-1] for row in picture.table.rows]
     assert set(models) == {"base"}
@@ -323,24 +330,24 @@ def test_the_map_shows_where_before_and_nowhere_after():
 def test_samples_that_do_not_count_are_not_on_the_map():
     ramp_only = tuple(np.full(150, test.startswith("quasistatic")) for test in TESTS)
 
-    picture = replace(EXPLAINED, compared=ramp_only).plot_gap()
+    picture = residual_maps(replace(EXPLAINED, compared=ramp_only))
 
     assert "quasistatic-forward" in picture.alt
     assert "dynamic" not in picture.alt
-    assert "dynamic" in EXPLAINED.plot_gap().alt
+    assert "dynamic" in residual_maps(EXPLAINED).alt
 
 
 def test_a_map_of_nothing_is_refused_and_said_on_the_page():
     none = replace(EXPLAINED, compared=tuple(np.zeros(150, dtype=bool) for _ in TESTS))
 
     with pytest.raises(BadRequest, match="Give longer runs"):
-        none.plot_gap()
+        residual_maps(none)
     assert "there is too little to compare" in story_page(none, title="drive.csv")
 
 
 def test_suspects_and_the_gap_are_told_in_numbers():
-    lineup = EXPLAINED.plot_suspects()
-    shrinking = EXPLAINED.plot_shrinking()
+    lineup = candidate_bars(EXPLAINED)
+    shrinking = gap_by_round(EXPLAINED)
 
     assert [row[0] for row in lineup.table.rows] == ["drag", "stribeck", "battery-sag", "delay"]
     assert [row[1] for row in lineup.table.rows] == ["812", "400", "120", "−9"]
@@ -353,7 +360,7 @@ def test_suspects_and_the_gap_are_told_in_numbers():
 
 
 def test_the_table_has_a_row_for_each_finding():
-    rows = STORIES["damage and drag"].table().rows
+    rows = findings_table(STORIES["damage and drag"]).rows
 
     assert [row[:2] for row in rows] == [
         ("encoder-slip", "damage to the record"), ("drag", "major"), ("battery-sag", "minor"),
@@ -365,7 +372,7 @@ def test_the_table_has_a_row_for_each_finding():
 @pytest.mark.parametrize("chapter", [2, -3])
 def test_a_chapter_that_there_is_not_is_refused(chapter):
     with pytest.raises(BadRequest, match="Choose one of 0 to 1."):
-        EXPLAINED.plot_overlay(chapter)
+        plot_overlays(EXPLAINED, chapter)
 
 
 def test_a_round_without_suspects_is_refused():
@@ -374,9 +381,9 @@ def test_a_round_without_suspects_is_refused():
     none = replace(EXPLAINED, chapters=tuple(replace(one, tried=()) for one in (base, last)))
 
     with pytest.raises(BadRequest, match="No effect was tried on any model: read the verdict."):
-        none.plot_suspects(0)
+        candidate_bars(none, 0)
     with pytest.raises(BadRequest, match="in chapter 1. Choose one of: 0."):
-        bare.plot_suspects(1)
+        candidate_bars(bare, 1)
     assert all(page_flaws(story_page(one, title="drive.csv")) == [] for one in (bare, none))
 
 

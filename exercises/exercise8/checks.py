@@ -117,7 +117,8 @@ def _left(answers: Answers) -> tuple[Left, ...]:
     preparation = _preparation(answers)
     if preparation == NOTHING:
         raise NotReached("looked at once you cut or filter something")
-    return left(answers.variant, preparation)
+    variant = answers.variant
+    return left(variant.log, preparation, valid=variant.valid, clean=variant.clean)
 
 
 def _gain(name: str, answers: Answers) -> None:

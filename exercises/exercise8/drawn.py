@@ -122,8 +122,9 @@ def _solvable(variant: Variant) -> bool:
     if points(log, reference, asked, wider=SNUG) < full or points(log, NOTHING, asked) >= full / 2:
         return False
     by_eye = [_cut(reference, early, times) for early in EARLIER for times in ROUGHLY]
+    remaining = left(log, by_eye[-1], valid=variant.valid, clean=variant.clean)
     return (
-        all(part.enough and part.reaches for part in left(variant, by_eye[-1]))
+        all(part.enough and part.reaches for part in remaining)
         and all(points(log, one, asked) == full for one in by_eye)
         and all(
             points(log, replace(one, **part), {gain: asked[gain]}, wider=SURELY) < POINTS

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 from .preparation import Preparation
 
 if TYPE_CHECKING:
-    from sim.log import Run
+    from collections.abc import Mapping
 
-    from .drawn import Variant
+    from sim.log import Array, Log, Run
+    from sim.log_features import Flags
 
 ENOUGH = 0.6  # [share] of a test's valid samples that has to be kept
 FAST_END = 0.8  # [share] of a ramp's fastest valid speed that has to be among them
@@ -35,15 +36,28 @@ class Left:
         return self.share >= ENOUGH
 
 
-def left(variant: "Variant", preparation: Preparation) -> tuple[Left, ...]:
-    """What is left of each test."""
-    return tuple(_of(run, variant, preparation) for run in variant.log.runs)
+def left(
+    log: "Log",
+    preparation: Preparation,
+    *,
+    valid: "Mapping[str, Flags]",
+    clean: "Mapping[str, Array]",
+) -> tuple[Left, ...]:
+    """What is left of each test.
+
+    Args:
+        log: damaged.
+        preparation: what the learner does with it.
+        valid: test -> (n,) which samples tell of the mechanism.
+        clean: test -> (n,) [m/s or rad/s] its velocity without the damage.
+    """
+    return tuple(_of(run, valid[run.test], clean[run.test], preparation) for run in log.runs)
 
 
-def _of(run: "Run", variant: "Variant", preparation: Preparation) -> Left:
+def _of(run: "Run", valid: "Flags", clean: "Array", preparation: Preparation) -> Left:
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
-    valid, speed = variant.valid[run.test], np.abs(variant.clean[run.test])
+    speed = np.abs(clean)
     trimmed = preparation.kept(run).time
     kept = valid & np.isin(run.time, trimmed)
     if run.kind == "quasistatic":

@@ -1,4 +1,4 @@
-"""A story in pictures and a table: what ``Story.plot_gap()`` and its like return."""
+"""A reconcile story in pictures and a table."""
 
 from sim.plot.story_bars import candidate_bars, gap_by_round
 from sim.plot.story_gap import residual_maps

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
 
 from numpy import bool_
@@ -139,26 +138,6 @@ class Story:
         """The last model."""
         return self.chapters[-1].model
 
-    def plot_gap(self) -> Any:  # noqa: ANN401 - a picture, whose type draws and so stands above
-        """A ``sim.plot.Picture`` of where simulation and measurement disagree, before and after."""
-        return _pictures().residual_maps(self)
-
-    def plot_overlay(self, chapter: int = -1) -> Any:  # noqa: ANN401 - as above
-        """A ``sim.plot.Picture`` of the shown runs, simulated before and after a chapter."""
-        return _pictures().plot_overlays(self, chapter)
-
-    def plot_suspects(self, chapter: int = 0) -> Any:  # noqa: ANN401 - as above
-        """A ``sim.plot.Picture`` of what was tried on top of a chapter's model."""
-        return _pictures().candidate_bars(self, chapter)
-
-    def plot_shrinking(self) -> Any:  # noqa: ANN401 - as above
-        """A ``sim.plot.Picture`` of the gap, chapter by chapter."""
-        return _pictures().gap_by_round(self)
-
-    def table(self) -> Any:  # noqa: ANN401 - as above
-        """A ``sim.plot.Table`` of what was found."""
-        return _pictures().findings_table(self)
-
     def to_json(self) -> dict[str, Any]:
         """As ``sysid reconcile --json`` prints it."""
         return {
@@ -181,11 +160,6 @@ class Story:
             "how": self.how,
             "notes": [*self.notes, *([self.remains] if self.remains else [])],
         }
-
-
-def _pictures() -> Any:  # noqa: ANN401 - a module
-    """What draws, found by name: a solver that nobody looks at never loads it."""
-    return import_module("sim.plot.story")
 
 
 def _finding(one: Finding) -> dict[str, Any]:
