@@ -2,7 +2,8 @@
 
 import os
 import time
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from uuid import uuid4
 
@@ -25,13 +26,32 @@ def write_atomically(path: Path, content: str | bytes, *, private: bool = False)
         OSError: it cannot be written; nothing is left behind.
     """
     raw = content.encode("utf-8") if isinstance(content, str) else content
-    part = path.with_name(f".{uuid4().hex}.part")
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    rights = OWNER_ONLY if private else USUAL
+    with (
+        atomic_path(path) as part,
+        os.fdopen(os.open(part, flags, rights), "wb") as stream,
+    ):
+        stream.write(raw)
+        stream.flush()
+        os.fsync(stream.fileno())
+
+
+@contextmanager
+def atomic_path(path: Path) -> Iterator[Path]:
+    """A path in the same folder, with the same suffix, for a file's new content.
+
+    The new file takes the old one's place when the block ends, and is removed if the block fails.
+
+    Args:
+        path: of the file; its folder has to be there.
+
+    Raises:
+        OSError: the old file cannot be replaced.
+    """
+    part = path.with_name(f".{uuid4().hex}.part{path.suffix}")
     try:
-        with os.fdopen(os.open(part, flags, OWNER_ONLY if private else USUAL), "wb") as stream:
-            stream.write(raw)
-            stream.flush()
-            os.fsync(stream.fileno())
+        yield part
         _replace(part, path)
     finally:
         with suppress(OSError):  # nothing is left to remove when all went well

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 
 OPEN_FILES = 64
 PARENT_DEATH_SIGNAL = 1  # prctl's number of it: <linux/prctl.h>
-MILLION = 1_000_000
 
 
 def end_with_parent() -> None:

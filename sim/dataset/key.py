@@ -13,6 +13,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from sim.atomic_file import write_atomically
 from sim.dataset.secret import Secret
 from sim.errors import BadRequest
 
@@ -78,15 +79,8 @@ def write_key(path: Path, entries: Iterable[Entry], *, dataset: str, secret: Sec
         "logs": sorted(entries, key=lambda entry: str(min(entry["files"]))),
     }
     content[SEAL] = secret.seal(_plain(content))
-    part = path.with_name(f".{path.name}.new")
-    try:
-        with os.fdopen(os.open(part, _ANEW, PRIVATE), "w", encoding="utf-8") as stream:
-            json.dump(content, stream, ensure_ascii=False, allow_nan=False, indent=1)
-            stream.write("\n")
-        part.replace(path)
-    finally:
-        with suppress(OSError):  # it is there only if something went wrong
-            part.unlink()
+    text = json.dumps(content, ensure_ascii=False, allow_nan=False, indent=1)
+    write_atomically(path, f"{text}\n", private=True)
 
 
 class Journal:

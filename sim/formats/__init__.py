@@ -15,8 +15,8 @@ from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 from typing import NamedTuple, Protocol, cast
-from uuid import uuid4
 
+from sim.atomic_file import atomic_path
 from sim.doubt import Doubt
 from sim.errors import BadRequest, Refusal, UnreadableFile
 from sim.format import HEAD, Format, Reading
@@ -148,14 +148,13 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
         raise BadRequest("a path cannot hold a zero byte", advice="Give another path.")
     writer = _writer(given)
     target = Path(os.path.realpath(given))
-    part = target.with_name(f".{uuid4().hex}.part")
     try:
         if target.exists() and not (target.is_file() and os.access(target, os.W_OK)):
             raise BadRequest(
                 "is there already and cannot be replaced", where=given, advice="Choose another."
             )
-        writer.write(log, part)
-        part.replace(target)
+        with atomic_path(target) as part:
+            writer.write(log, part)
     except OSError as error:
         raise BadRequest(
             f"cannot be written ({error.strerror or error})",
@@ -163,9 +162,6 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
             advice="Choose a folder that exists and that you may write to, and close the file if "
             "another program has it open.",
         ) from None
-    finally:
-        with suppress(OSError):  # nothing is left to remove when all went well
-            part.unlink()
 
 
 def _typed(log: Log, wanted: str | None) -> Log:

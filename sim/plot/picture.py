@@ -4,18 +4,17 @@ import base64
 import io
 import os
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 from typing import TypeAlias
-from uuid import uuid4
 
 from matplotlib import rc_context
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from sim.atomic_file import atomic_path
 from sim.errors import BadRequest
 from sim.plot.table import Table
 
@@ -82,23 +81,22 @@ class Picture:
                 where=str(target),
                 advice=f"End its name in one of: {', '.join(SUFFIXES)}.",
             )
-        part = target.with_name(f".{uuid4().hex}.part")
+        extra: dict[str, object] = {} if kind == ".png" else {_DATE[kind]: None}
         try:
-            with rc_context({"svg.hashsalt": "picture"}), part.open("wb") as stream:
-                extra: dict[str, object] = {} if kind == ".png" else {_DATE[kind]: None}
+            with (
+                atomic_path(target) as part,
+                rc_context({"svg.hashsalt": "picture"}),
+                part.open("wb") as stream,
+            ):
                 self.figure.savefig(
                     stream, format=kind[1:], dpi=200, metadata={"Title": self.alt, **extra}
                 )
-            part.replace(target)
         except OSError as error:
             raise BadRequest(
                 f"cannot be written ({error.strerror or error})",
                 where=str(target),
                 advice="Choose a folder that exists and that you may write to.",
             ) from None
-        finally:
-            with suppress(OSError):  # nothing is left to remove when all went well
-                part.unlink()
 
     def __str__(self) -> str:
         """The words and the numbers, for a terminal."""
