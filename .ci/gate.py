@@ -1,4 +1,4 @@
-"""The gate: the README's two commands as printed there, then lint, types and import contracts.
+"""The gate: the README's two commands as printed there, then slow tests, lint, types, contracts.
 
 Everything runs in a virtual environment made for this run, so nothing that happens to be installed
 on the machine can help.
@@ -24,6 +24,7 @@ ROOT = Path(__file__).resolve().parents[1]
 SCREEN = 10.0  # [s] from the end of the install to the first useful screen
 PATIENCE = 1080.0  # [s] for one command: the tests have to leave time for the rest
 SCREEN_SAYS = "Next:"  # how the line begins that says what to do
+EVERYTHING = ("-n", "logical", "--dist", "loadscope", "--no-loadscope-reorder")
 INSTALLED_SAYS = "Installed"  # how the line begins that ends the install
 OK = 200  # HTTP's word for it
 
@@ -41,6 +42,8 @@ def main() -> None:
         watch(start, environment)
         say(f"README, second command: {test}")
         run(shlex.split(test), environment)
+        say("the slow tests")
+        run(["python", "-m", "pytest", *EVERYTHING, "-m", "slow"], environment)
         for step in (
             "ruff check .",
             "ruff format --check .",

@@ -1,7 +1,8 @@
 """``python -m grader``: works in a fresh clone. It installs what is missing, and then is ``grade``.
 
     python -m grader start             once, to begin
-    python -m grader test [...]        the course's own tests
+    python -m grader test              the course's own tests, but for the slow ones
+    python -m grader test --all        all of them; other options are pytest's
     python -m grader exercise4         the same as: grade exercise4
 
 This file uses nothing but Python's own library, and even an old Python can read it far enough to
@@ -104,7 +105,9 @@ def in_environment() -> bool:
 def _go(arguments: list[str]) -> int:
     """Everything is there: run the command itself."""
     if arguments[:1] == ["test"]:
-        command = [sys.executable, "-m", "pytest", *(arguments[1:] or EVERYTHING)]
+        chosen = {(): (*EVERYTHING, "-m", "not slow"), ("--all",): EVERYTHING}
+        options = chosen.get(tuple(arguments[1:]), arguments[1:])
+        command = [sys.executable, "-m", "pytest", *options]
         return run(command, cwd=ROOT)
     from grader.cli import run as grade  # noqa: PLC0415 - needs what may not be installed yet
 

@@ -12,7 +12,7 @@ settings.register_profile("course", deadline=None)
 settings.load_profile("course")
 
 ROOT = Path(__file__).resolve().parents[1]
-LONGEST = (  # files that take minutes; begun first, they keep no core waiting at the end
+SLOW = (  # files that take long; begun first, they keep no core waiting at the end
     "test_lessons_in_browser",
     "test_instructors_day",
     "test_reconcile_real",
@@ -24,13 +24,31 @@ LONGEST = (  # files that take minutes; begun first, they keep no core waiting a
     "test_hostile_answers",
     "test_adding_an_effect",
     "test_mutation",
+    "test_serve",
+    "test_autograder",
+    "test_sysid",
+    "test_robotcode_bench_sandboxed_run",
+    "test_report",
+    "test_exercise7",
+    "test_by_mujoco",
+    "test_story",
+    "test_robotcode_bench",
+    "test_package_files",
+    "test_reconcile_in_browser",
+    "test_robotcode_fuzz",
+    "test_release",
+    "test_workers",
 )
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Put the tests of the files that take longest before all others."""
-    place = {name: number for number, name in enumerate(LONGEST)}
-    items.sort(key=lambda one: place.get(one.path.stem, len(LONGEST)))
+    """Mark the tests of slow files, and put them before all others."""
+    place = {name: number for number, name in enumerate(SLOW)}
+    for one in items:
+        if one.path.stem in place:
+            one.add_marker(pytest.mark.slow)
+    items.sort(key=lambda one: place.get(one.path.stem, len(SLOW)))
 
 
 @pytest.fixture(scope="session")

@@ -106,8 +106,10 @@ def test_all_tests_run_on_all_cores(world):
 
     assert bootstrap.main(["test"]) == 0
     (command, *_), *_ = world.foreground
-    assert command[2:4] == ["pytest", "-n"]
-    assert command[4:] == ["logical", "--dist", "loadscope", "--no-loadscope-reorder"]
+    everywhere = ["pytest", "-n", "logical", "--dist", "loadscope", "--no-loadscope-reorder"]
+    assert command[2:] == [*everywhere, "-m", "not slow"]
+    assert bootstrap.main(["test", "--all"]) == 0
+    assert world.foreground[-1][0][2:] == everywhere
 
 
 def test_a_fresh_clone_gets_an_environment_and_goes_on_in_it(world, capsys):
