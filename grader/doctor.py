@@ -16,7 +16,7 @@ ROBOT = ("wpilib", "robotpy-commands-v2")
 
 
 @dataclass(frozen=True)
-class Finding:
+class MachineFinding:
     """One thing that was looked at.
 
     Args:
@@ -34,7 +34,7 @@ class Finding:
     advice: str = ""
 
 
-def examine(course: Path) -> Iterator[Finding]:
+def examine(course: Path) -> Iterator[MachineFinding]:
     """Look at this machine, one thing after another.
 
     Args:
@@ -51,18 +51,18 @@ def examine(course: Path) -> Iterator[Finding]:
     yield _dask()
 
 
-def _python() -> Finding:
+def _python() -> MachineFinding:
     said = ".".join(map(str, sys.version_info[:3]))
     least = ".".join(map(str, OLDEST))
     right = sys.version_info[:2] >= OLDEST
-    return Finding("Python", said, right, advice=f"Install Python {least} or newer.")
+    return MachineFinding("Python", said, right, advice=f"Install Python {least} or newer.")
 
 
-def _packages() -> Finding:
+def _packages() -> MachineFinding:
     lacking = [name for name in NEEDED if _version(name) is None]
     found = f"{', '.join(lacking)} missing" if lacking else "all there"
     advice = "In the course folder: python -m pip install -e ."
-    return Finding("packages", found, not lacking, advice=advice)
+    return MachineFinding("packages", found, not lacking, advice=advice)
 
 
 def _version(name: str) -> str | None:
@@ -72,38 +72,40 @@ def _version(name: str) -> str | None:
         return None
 
 
-def _engine() -> Finding:
+def _engine() -> MachineFinding:
     from sim.engine import engine_is_cached  # noqa: PLC0415 - it needs what may be missing
 
     ready = engine_is_cached()
     found = "compiled" if ready else "not compiled yet; the first simulation takes ten seconds"
-    return Finding("simulation", found, ready, needed=False, advice="grade start compiles it.")
+    return MachineFinding(
+        "simulation", found, ready, needed=False, advice="grade start compiles it."
+    )
 
 
-def _writing(course: Path) -> Finding:
+def _writing(course: Path) -> MachineFinding:
     right = all(os.access(place, os.W_OK) for place in (course, course / "exercises"))
     found = f"{course}, {'which may be written' if right else 'which may not be written'}"
-    return Finding("course", found, right, advice="Copy the course to a folder of your own.")
+    return MachineFinding("course", found, right, advice="Copy the course to a folder of your own.")
 
 
-def _terminal() -> Finding:
+def _terminal() -> MachineFinding:
     encoding = (sys.stdout.encoding or "ascii").lower()
     right = encoding.replace("-", "") == "utf8"
     advice = "Signs such as ✓ are shown as letters; set PYTHONUTF8=1 to see them."
-    return Finding("terminal", encoding, right, needed=False, advice=advice)
+    return MachineFinding("terminal", encoding, right, needed=False, advice=advice)
 
 
-def _isolation() -> Finding:
+def _isolation() -> MachineFinding:
     found = isolation_level()
     right = found.startswith("isolated")
     advice = (
         "Fine for your own answers. Grade a class's code on Linux, where it can be shut in, or in "
         "a container: grade class --in docker. Else it is not run."
     )
-    return Finding("learners' code", found, right, needed=False, advice=advice)
+    return MachineFinding("learners' code", found, right, needed=False, advice=advice)
 
 
-def _container() -> Finding:
+def _container() -> MachineFinding:
     from grader.classroom.container import BUILD, answering_engines  # noqa: PLC0415 - beside its use
 
     there = answering_engines()
@@ -112,20 +114,20 @@ def _container() -> Finding:
         "For grade class --in docker: install Docker or Podman, start it, and in the course "
         f"folder: {BUILD.format(engine='docker')}"
     )
-    return Finding("container", found, bool(there), needed=False, advice=advice)
+    return MachineFinding("container", found, bool(there), needed=False, advice=advice)
 
 
-def _robot() -> Finding:
+def _robot() -> MachineFinding:
     there = [f"{name} {_version(name)}" for name in ROBOT if _version(name)]
     right = len(there) == len(ROBOT)
     advice = 'To run RobotPy answers in simulation, too: python -m pip install -e ".[robot]"'
-    return Finding(
+    return MachineFinding(
         "RobotPy", ", ".join(there) or "not installed", right, needed=False, advice=advice
     )
 
 
-def _dask() -> Finding:
+def _dask() -> MachineFinding:
     right = importlib.util.find_spec("distributed") is not None
     found = f"distributed {_version('distributed')}" if right else "not installed"
     advice = 'To grade on more than one machine: python -m pip install -e ".[cluster]"'
-    return Finding("cluster", found, right, needed=False, advice=advice)
+    return MachineFinding("cluster", found, right, needed=False, advice=advice)

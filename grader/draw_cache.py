@@ -85,4 +85,4 @@ def write_draw(place: Path, content: bytes) -> None:
     """Keep it, if there is a place for it; the oldest of many are forgotten."""
     with suppress(OSError):
         kept_files.write_cached(place, content)
-        kept_files.remove_files(kept_files.oldest_files(place.parent.iterdir(), than=MOST))
+        kept_files.remove_files(kept_files.all_but_newest(place.parent.iterdir(), than=MOST))

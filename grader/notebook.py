@@ -34,7 +34,7 @@ STYLE = {  # of the line that leads a check; colors that are legible on light an
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownGrade:
     """What became of an answer, as a cell shows it.
 
     Args:
@@ -63,7 +63,7 @@ def submit(
     *,
     course: Path | None = None,
     **answers: object,
-) -> Shown:
+) -> ShownGrade:
     """Write answers into an exercise's file and grade it, as ``grade`` does on a terminal.
 
     Args:
@@ -104,7 +104,7 @@ def submit(
         solution=one.solution,
         then=then.words if then else "",
     )
-    return Shown(tuple(lines), _html(grade) + _then(then), grade)
+    return ShownGrade(tuple(lines), _html(grade) + _then(then), grade)
 
 
 def write(exercise: Exercise, answers: Mapping[str, object]) -> None:
@@ -153,15 +153,15 @@ def _plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
     return value
 
 
-def _refused(said: str) -> Shown:
-    return Shown((line(f"! {said}"),), f"<p><b>!</b> {escape(said)}</p>")
+def _refused(said: str) -> ShownGrade:
+    return ShownGrade((line(f"! {said}"),), f"<p><b>!</b> {escape(said)}</p>")
 
 
-def _received(exercise: Exercise, said: Refusal) -> Shown:
+def _received(exercise: Exercise, said: Refusal) -> ShownGrade:
     rows = to_receipt(exercise, None)
     text = "\n".join("".join(span.text for span in row) for row in rows)
     html = f"<pre>{escape(text)}</pre><p>{escape(str(said))}</p>"
-    return Shown((*rows, line(str(said))), html)
+    return ShownGrade((*rows, line(str(said))), html)
 
 
 def _html(grade: Grade) -> str:

@@ -9,7 +9,7 @@ from grader.course import Progress
 from grader.exercise import HINTS, Exercise, Grade
 from grader.misconception import MISCONCEPTIONS
 from grader.submission import find_files, read_answers, read_text
-from grader.terminal import Line, Span, line, width, wrapped
+from grader.terminal import Line, StyledText, line, width, wrapped
 
 MARKS = {
     Status.PASSED: ("✓", "green"),
@@ -65,7 +65,7 @@ def to_lines(
 def _spoken(lines: list[Line]) -> list[Line]:
     """The same with a word for each sign that leads a line."""
     return [
-        (Span(f"{SPOKEN[row[0].text[0]]}:{row[0].text[1:]}", row[0].style), *row[1:])
+        (StyledText(f"{SPOKEN[row[0].text[0]]}:{row[0].text[1:]}", row[0].style), *row[1:])
         if row and row[0].text[:2].rstrip() in SPOKEN
         else row
         for row in lines
@@ -96,7 +96,7 @@ def _verdict(grade: Grade) -> Line:
     score = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points"
     said = "all right" if passed else "not all right yet"
     file = f"  ({grade.file.name})" if grade.file else ""
-    return (Span(f"{mark} {score}, {said}", f"bold {style}"), Span(file, "dim"))
+    return (StyledText(f"{mark} {score}, {said}", f"bold {style}"), StyledText(file, "dim"))
 
 
 def _result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
@@ -118,7 +118,11 @@ def _row(description: str, points: str, mark: str, style: str) -> list[Line]:
     rows = wrapped(description, lead="  ", spare=len(points) + 1)
     _, first = rows[0]
     room = width() - len(points) - 2
-    rows[0] = (Span(f"{mark} ", style), Span(first.text.ljust(room)), Span(points, style))
+    rows[0] = (
+        StyledText(f"{mark} ", style),
+        StyledText(first.text.ljust(room)),
+        StyledText(points, style),
+    )
     return rows
 
 
@@ -181,7 +185,13 @@ def overview(
         if plain:
             lines.append(line(f"{one.name}, {one.title}: {score}"))
             continue
-        lines.append((Span(f"{mark} ", style), Span(said.ljust(room - 1)), Span(score, style)))
+        lines.append(
+            (
+                StyledText(f"{mark} ", style),
+                StyledText(said.ljust(room - 1)),
+                StyledText(score, style),
+            )
+        )
     open_ones = [one for one, how in zip(found, standings, strict=True) if not how.done]
     return [*lines, line(), *_next_step(open_ones)]
 

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from grader.check import NotReached, Wrong
 from grader.robotcode.facts import (
     Certainty,
+    ConfigQuantity,
     DriveCall,
     LoggedSignal,
     Output,
-    Problem,
-    Quantity,
+    ParseProblem,
     RoutineFacts,
     Source,
 )
@@ -59,7 +59,7 @@ class Setting:
     python: str
 
     def compare(
-        self, facts: RoutineFacts, got: Quantity, *, advice: Advice = no_advice
+        self, facts: RoutineFacts, got: ConfigQuantity, *, advice: Advice = no_advice
     ) -> str | None:
         """Compare with what the code says.
 
@@ -107,7 +107,7 @@ class Setting:
         example = self.python if facts.language == "python" else self.java
         return f"{self.value:g} {self.unit}: {example}"
 
-    def _check_dimension(self, got: Quantity, facts: RoutineFacts) -> None:
+    def _check_dimension(self, got: ConfigQuantity, facts: RoutineFacts) -> None:
         plain = got.dimension == "number" and facts.language == "python"
         if got.dimension == self.dimension or plain:
             return
@@ -266,7 +266,7 @@ def motion_family(name: str) -> str:
     return "linear" if linear else "angular"
 
 
-def check_compiles(errors: Sequence[Problem], *, language: str, earned: float = 0.0) -> None:
+def check_compiles(errors: Sequence[ParseProblem], *, language: str, earned: float = 0.0) -> None:
     """Whether reading finds nothing that a compiler, or Python itself, would stop at.
 
     Args:
@@ -294,7 +294,7 @@ READ = {  # what is said of code that nobody compiled
 }
 
 
-def quote_code(what: Quantity | DriveCall | LoggedSignal) -> str:
+def quote_code(what: ConfigQuantity | DriveCall | LoggedSignal) -> str:
     """The code in question and its line."""
     return f"{what.text} in line {what.line}"
 

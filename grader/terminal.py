@@ -15,19 +15,19 @@ NARROWEST = 40  # [columns] below this, words would stand alone
 
 
 @dataclass(frozen=True)
-class Span:
+class StyledText:
     """A piece of a line in one style, as rich names it: ``bold green``."""
 
     text: str
     style: str = ""
 
 
-Line = tuple[Span, ...]
+Line = tuple[StyledText, ...]
 
 
 def line(text: str = "", style: str = "") -> Line:
     """A line in one style."""
-    return (Span(text, style),)
+    return (StyledText(text, style),)
 
 
 def wrapped(text: str, *, lead: str, style: str = "", spare: int = 0) -> list[Line]:
@@ -46,7 +46,9 @@ def wrapped(text: str, *, lead: str, style: str = "", spare: int = 0) -> list[Li
         for row in textwrap.wrap(paragraph, room, break_long_words=False) or [""]
     ]
     leads = [lead] + [" " * len(lead)] * (len(rows) - 1)
-    return [(Span(head), Span(row, style)) for head, row in zip(leads, rows, strict=True)]
+    return [
+        (StyledText(head), StyledText(row, style)) for head, row in zip(leads, rows, strict=True)
+    ]
 
 
 def width() -> int:

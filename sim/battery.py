@@ -14,7 +14,7 @@ WORST = 0.1  # [Ω] of a battery that still turns a motor
 
 
 @dataclass(frozen=True)
-class Controller:
+class RobotController:
     """A robot controller's thresholds.
 
     Args:
@@ -30,12 +30,14 @@ class Controller:
     source: str
 
 
-CONTROLLERS: Mapping[str, Controller] = {
+CONTROLLERS: Mapping[str, RobotController] = {
     found.name: found
     for found in (
-        Controller("roborio1", 6.3, 7.5, "frc-docs, roboRIO brownouts: fixed"),
-        Controller("roborio2", 6.75, 7.5, "frc-docs: default of RobotController's setting"),
-        Controller("systemcore", 6.75, 7.25, "WPILib 2027's simulation: defaults of both settings"),
+        RobotController("roborio1", 6.3, 7.5, "frc-docs, roboRIO brownouts: fixed"),
+        RobotController("roborio2", 6.75, 7.5, "frc-docs: default of RobotController's setting"),
+        RobotController(
+            "systemcore", 6.75, 7.25, "WPILib 2027's simulation: defaults of both settings"
+        ),
     )
 }
 

@@ -25,7 +25,7 @@ HEAD = 4096  # [bytes] how much of a file `knows` is shown
 
 
 @dataclass(frozen=True)
-class Reading:
+class ReadOptions:
     """What the person who reads a file knows about it; None where the file shall say.
 
     Args:
@@ -55,11 +55,11 @@ class Format(Protocol):
     def knows(self, head: bytes) -> bool:
         """Whether a file whose first bytes are ``head`` is of this format."""
 
-    def read(self, path: Path, asked: Reading) -> Log:
+    def read(self, path: Path, asked: ReadOptions) -> Log:
         """Read a file."""
 
 
-def lone_motor(asked: Reading, *, where: str) -> tuple[Doubt, ...]:
+def lone_motor(asked: ReadOptions, *, where: str) -> tuple[Doubt, ...]:
     """A doubt if a motor was asked for in a file that holds the signals of one only."""
     if asked.motor is None:
         return ()

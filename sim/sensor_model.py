@@ -8,7 +8,7 @@ from sim.log import Array
 from sim.mechanism import Sensor
 
 
-class Reading(NamedTuple):
+class SensorReading(NamedTuple):
     """What the robot program reads.
 
     Args:
@@ -27,7 +27,7 @@ def read_sensor(
     velocity: Array,
     rng: np.random.Generator,
     time: Array | None = None,
-) -> Reading:
+) -> SensorReading:
     """What a sensor reports of a motion.
 
     Args:
@@ -58,7 +58,7 @@ def read_sensor(
             velocity = np.interp(at, time, velocity)
         position = interpolate_cubic(at, time, position, np.gradient(position, time))
     spread = sensor.velocity_noise * -np.expm1(-np.abs(velocity) / sensor.noise_speed)
-    return Reading(
+    return SensorReading(
         np.round(position / sensor.resolution) * sensor.resolution, velocity + spread * noise
     )
 

@@ -13,7 +13,7 @@ import pytest
 from small_course import HALF, RIGHT, lay_out
 
 from grader.classroom.roster import read_members
-from grader.classroom.run import Class, grade_all, plan_grading
+from grader.classroom.run import GradedClass, grade_all, plan_grading
 from grader.classroom.store import Store
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run
@@ -117,7 +117,9 @@ def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_
     store = Store(tmp_path / "out")
 
     def left(*, secret=None, again=False):
-        work = Class(find_submissions(there, exercises(course)), exercises(course), course, secret)
+        work = GradedClass(
+            find_submissions(there, exercises(course)), exercises(course), course, secret
+        )
         todo = plan_grading(work, store, travel=False, again=again)
         grade_all(work, todo, store, processes=1, cluster=None, say=lambda: None)
         return [job.student for job in todo.todo]

@@ -8,7 +8,7 @@ from robot_mistakes import RIGHT, ROOT, changed, needs_robot
 from small_course import lay_out
 
 import grader.isolation
-from grader.classroom.run import Class
+from grader.classroom.run import GradedClass
 from grader.classroom.submissions import find_submissions
 from grader.cli import run
 from grader.exercise import Exercise, exercises
@@ -89,7 +89,7 @@ def test_results_of_running_are_not_taken_for_results_of_reading(tmp_path):
 def test_the_digest_says_whether_code_was_run_and_by_which_robotpy(course, tmp_path, monkeypatch):
     def digest(*, run):
         there = exercises(course)
-        work = Class(find_submissions(tmp_path / "in", there), there, course, run=run)
+        work = GradedClass(find_submissions(tmp_path / "in", there), there, course, run=run)
         return work.jobs(travel=False)[0].digest
 
     found = {digest(run=True), digest(run=False)}

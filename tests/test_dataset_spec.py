@@ -4,7 +4,7 @@ import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, spec, sysid
 
 from sim.dataset.spec import read_spec
-from sim.dataset.table import Span
+from sim.dataset.table import NumberRange
 from sim.errors import BadRequest
 
 FAULT = '[[logs.faults]]\nname = "loop-overrun"\n'
@@ -267,4 +267,4 @@ def test_a_number_is_fixed_or_drawn_between_two(tmp_path):
 
     (fault,) = read_spec(path).logs[0].faults
 
-    assert (fault.severity, fault.at) == (Span(0.5, 2.0), Span(0.25, 0.25))
+    assert (fault.severity, fault.at) == (NumberRange(0.5, 2.0), NumberRange(0.25, 0.25))

@@ -5,7 +5,7 @@ from robot_mistakes import RIGHT, ROOT, changed, needs_robot
 
 from grader.exercise import Exercise
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, RunFacts
+from grader.robotcode.bench import RunFacts, RunOutcome
 
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 
@@ -126,13 +126,13 @@ def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
     assert {one.status for one in checks.values()} == {"passed"}
     assert checks["routine"].hint.startswith("Read, not compiled, not run")
     assert bench.run(tmp_path / "mine.py", "ExampleSubsystem") == RunFacts(
-        Outcome.CANNOT, "RobotPy is not installed here"
+        RunOutcome.CANNOT, "RobotPy is not installed here"
     )
 
 
 def test_a_vendors_file_is_graded_by_reading_and_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr(bench, "installed", lambda: True)
-    unable = RunFacts(Outcome.CANNOT, "it imports phoenix6, which is not here")
+    unable = RunFacts(RunOutcome.CANNOT, "it imports phoenix6, which is not here")
     monkeypatch.setattr(bench, "run", lambda *_: unable)
     checks = graded(tmp_path, RIGHT)
 

@@ -5,7 +5,7 @@ from robot_mistakes import ROOT, needs_robot
 
 from grader.exercise import Exercise
 from grader.robotcode import bench
-from grader.robotcode.bench import ButtonPress, Outcome
+from grader.robotcode.bench import ButtonPress, RunOutcome
 
 EXERCISE = Exercise("exercise5", ROOT / "exercises" / "exercise5")
 RIGHT = (ROOT / "solutions" / "exercise5" / "robotcontainer.py").read_text("utf-8")
@@ -33,7 +33,7 @@ def test_each_button_runs_its_test_in_test_mode_while_it_is_held(tmp_path):
     path.write_text(RIGHT, "utf-8")
     ran = bench.press(path, "RobotContainer")
 
-    assert ran.outcome is Outcome.RAN, ran.said
+    assert ran.outcome is RunOutcome.RAN, ran.said
     assert ran.presses == tuple(  # A, B, X and Y are 1 to 4
         ButtonPress(test_mode=True, port=0, button=str(number), tests=(test,), stayed=False)
         for number, test in enumerate(TESTS, start=1)

@@ -6,7 +6,7 @@ import pytest
 from robot_mistakes import RIGHT, ROOT, changed, needs_robot, ran
 
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, findings
+from grader.robotcode.bench import RunOutcome, findings
 
 FOUR = {f"{kind}-{way}" for kind in ("quasistatic", "dynamic") for way in ("forward", "reverse")}
 BATTERY = 11.0  # [V] the bench's, as written in on_bench
@@ -16,7 +16,7 @@ BATTERY = 11.0  # [V] the bench's, as written in on_bench
 def test_the_solution_shows_the_numbers_it_was_written_with(tmp_path):
     run = ran(tmp_path, RIGHT)
 
-    assert run.outcome is Outcome.RAN
+    assert run.outcome is RunOutcome.RAN
     assert (run.ramp, run.step, run.timeout) == pytest.approx((0.5, 3.5, 10.0), abs=1e-6)
     assert {*run.tests} == FOUR
     assert [(one.name, one.share) for one in run.motors] == [
@@ -136,7 +136,7 @@ def test_a_mistake_shows_with_its_figures(tmp_path, look, changes, seen, misconc
     run = ran(tmp_path, changed(*changes))
     fault = look(run)
 
-    assert run.outcome is Outcome.RAN, run.said
+    assert run.outcome is RunOutcome.RAN, run.said
     assert fault is not None
     assert seen in fault.seen
     assert fault.misconception == misconception
@@ -199,7 +199,7 @@ def test_a_program_that_names_its_tests_elsewhere_is_not_blamed_for_its_log(tmp_
     states = ("timeout=10.0", "timeout=10.0, recordState=lambda state: None")
     run = ran(tmp_path, changed(states))
 
-    assert (run.outcome, run.tests, run.recorded, run.lacking) == (Outcome.RAN, (), (), "")
+    assert (run.outcome, run.tests, run.recorded, run.lacking) == (RunOutcome.RAN, (), (), "")
     assert (run.ramp, run.step) == pytest.approx((0.5, 3.5))
 
 
@@ -217,7 +217,7 @@ def test_tests_that_do_not_require_their_subsystem_are_seen(tmp_path):
 def test_tests_too_short_to_tell_anything_are_no_ground_for_blame(tmp_path, short):
     run = ran(tmp_path, changed(("timeout=10.0", short)))
 
-    assert (run.outcome, run.ramp) == (Outcome.RAN, pytest.approx(0.5))
+    assert (run.outcome, run.ramp) == (RunOutcome.RAN, pytest.approx(0.5))
     for look in (
         findings.check_driven_motors,
         findings.check_logged_motors,

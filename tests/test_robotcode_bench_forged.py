@@ -8,7 +8,7 @@ from robot_mistakes import ROOT, changed, needs_robot
 from grader.exercise import Exercise
 from grader.isolation import sandbox_parent
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome
+from grader.robotcode.bench import RunOutcome
 
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 HALVED = (  # half of each voltage, hidden from whoever only reads
@@ -66,7 +66,7 @@ def each_level(request, monkeypatch):
 def test_what_a_program_wrote_that_left_early_is_not_believed(mine):
     run = bench.run(mine(WRITE + LEAVE), "ExampleSubsystem")
 
-    assert run.outcome is Outcome.CRASHED
+    assert run.outcome is RunOutcome.CRASHED
     assert run.said == "your code ended the robot program in the middle of a test"
 
 
@@ -76,7 +76,7 @@ def test_a_file_that_was_changed_after_the_tests_is_not_believed(mine):
     late = "import atexit\natexit.register(lambda: open('seen.json', 'w').write(FORGED))\n"
     run = bench.run(mine(WRITE + late), "ExampleSubsystem")
 
-    assert run.outcome is Outcome.CRASHED
+    assert run.outcome is RunOutcome.CRASHED
 
 
 @needs_robot

@@ -13,7 +13,7 @@ from grader.exercise import Exercise
 from grader.isolation import isolation_level
 from grader.isolation import sandbox_parent as isolation
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome
+from grader.robotcode.bench import RunOutcome
 from grader.robotcode.bench.log_facts import read_facts
 from grader.robotcode.bench.sandbox_files import MOST, copy_program
 from grader.robotcode.bench.sandboxed_run import LARGEST, run_confined
@@ -91,7 +91,7 @@ def test_a_trick_is_refused_and_the_run_is_what_it_was(tried, tmp_path, statemen
         }
         run = tried(quietly(statement.format(**names)))
 
-    assert run.outcome is Outcome.RAN, run.said
+    assert run.outcome is RunOutcome.RAN, run.said
     assert (round(run.ramp, 4), run.step, run.timeout) == (0.5, 3.5, 10.0)
     assert not (tmp_path / "planted").exists()
 
@@ -102,7 +102,7 @@ def test_the_same_tricks_succeed_where_nothing_is_shut_in(tried, tmp_path, monke
     monkeypatch.setattr(isolation, "CONFINED", False)
     run = tried(quietly(f"open({str(tmp_path / 'key.txt')!r}).read()"))
 
-    assert run.outcome is Outcome.CRASHED
+    assert run.outcome is RunOutcome.CRASHED
     assert "REACHED" in run.said
 
 
@@ -111,7 +111,7 @@ def test_the_same_tricks_succeed_where_nothing_is_shut_in(tried, tmp_path, monke
 def test_vendor_code_that_needs_the_network_cannot_be_run_and_is_not_blamed(tried):
     run = tried("import socket; socket.socket()")
 
-    assert run.outcome is Outcome.CANNOT
+    assert run.outcome is RunOutcome.CANNOT
     assert run.said.startswith("it asks for what it cannot have here: PermissionError")
 
 
@@ -120,31 +120,31 @@ def test_vendor_code_that_needs_the_network_cannot_be_run_and_is_not_blamed(trie
 @pytest.mark.parametrize(
     ("trick", "outcome"),
     [
-        pytest.param("import os; os._exit(0)", Outcome.CRASHED, id="a sudden end"),
-        pytest.param("import os; os.abort()", Outcome.CRASHED, id="a crash of Python's"),
-        pytest.param("while True: pass", Outcome.ENDLESS, id="an endless loop"),
+        pytest.param("import os; os._exit(0)", RunOutcome.CRASHED, id="a sudden end"),
+        pytest.param("import os; os.abort()", RunOutcome.CRASHED, id="a crash of Python's"),
+        pytest.param("while True: pass", RunOutcome.ENDLESS, id="an endless loop"),
         pytest.param(
             "import faulthandler\nfaulthandler.cancel_dump_traceback_later()\nwhile True: pass",
-            Outcome.ENDLESS,
+            RunOutcome.ENDLESS,
             id="an endless loop that hides",
         ),
-        pytest.param("x = bytearray(8 * 1024**3)", Outcome.CRASHED, id="memory"),
-        pytest.param("print('flood ' * 5_000_000)", Outcome.RAN, id="an output flood"),
+        pytest.param("x = bytearray(8 * 1024**3)", RunOutcome.CRASHED, id="memory"),
+        pytest.param("print('flood ' * 5_000_000)", RunOutcome.RAN, id="an output flood"),
         pytest.param(
             "with open('flood', 'wb') as f:\n    for _ in range(99): f.write(bytes(10**6))",
-            Outcome.CRASHED,
+            RunOutcome.CRASHED,
             id="a file flood",
         ),
         pytest.param(
             "import os\nfor _ in range(1500):\n    os.mkdir('d'); os.chdir('d')",
-            Outcome.RAN,
+            RunOutcome.RAN,
             id="a deep folder",
         ),
     ],
 )
 def test_what_takes_too_much_is_ended_and_stops_nobody(tried, trick, outcome):
     begin = time.monotonic()
-    run = tried(trick, seconds=2.0 if outcome is Outcome.ENDLESS else bench.SECONDS)
+    run = tried(trick, seconds=2.0 if outcome is RunOutcome.ENDLESS else bench.SECONDS)
 
     assert run.outcome is outcome, run.said
     assert time.monotonic() - begin < bench.SECONDS + 5.0
@@ -179,7 +179,7 @@ def test_environment_and_arguments_hold_no_secret(tried, monkeypatch):
     monkeypatch.setenv("SYSID_SECRET", "of the class")
     run = tried("import os, sys; raise KeyError(str(dict(os.environ)) + str(sys.argv)[:60])")
 
-    assert run.outcome is Outcome.CRASHED
+    assert run.outcome is RunOutcome.CRASHED
     assert "HOME" in run.said
     assert "SYSID_SECRET" not in run.said
     assert "of the class" not in run.said
@@ -225,7 +225,7 @@ def test_results_made_to_hurt_are_only_results_that_cannot_be_read(tmp_path, lef
     found = read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1)
 
     assert (found.outcome, found.said) == (
-        Outcome.CANNOT, "the run left nothing that can be read",
+        RunOutcome.CANNOT, "the run left nothing that can be read",
     )  # fmt: skip
 
 

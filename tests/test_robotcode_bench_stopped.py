@@ -6,7 +6,7 @@ import pytest
 from robot_mistakes import changed, needs_robot, ran
 
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, sandboxed_run
+from grader.robotcode.bench import RunOutcome, sandboxed_run
 from grader.robotcode.bench.log_facts import read_facts
 
 
@@ -16,21 +16,21 @@ from grader.robotcode.bench.log_facts import read_facts
     [
         pytest.param(
             [("self.right_encoder.getRate()", "self.right_encoder.getSpeed()")],
-            Outcome.CRASHED,
+            RunOutcome.CRASHED,
             "mine.py, line 50: AttributeError: 'wpilib._wpilib.Encoder' object has no",
             "log",
             id="a crash",
         ),
         pytest.param(
             [("METERS_PER_PULSE = 0.000156", "METERS_PER_PULSE = 1 / 0")],
-            Outcome.CRASHED,
+            RunOutcome.CRASHED,
             "mine.py, line 12: ZeroDivisionError: division by zero",
             "",
             id="a crash on import",
         ),
         pytest.param(
             [("Config(rampRate", "Mechanism(rampRate")],
-            Outcome.CRASHED,
+            RunOutcome.CRASHED,
             "TypeError: SysIdRoutine.Mechanism.__init__() got an unexpected keyword",
             "",
             id="arguments of another",
@@ -42,42 +42,42 @@ from grader.robotcode.bench.log_facts import read_facts
                 ("A,", "SysIdRoutine.Mechanism(self.drive, self.record, self),"),
                 ("            B,", "            SysIdRoutine.Config(0.5, 3.5, 10.0),"),
             ],
-            Outcome.CRASHED,
+            RunOutcome.CRASHED,
             "AttributeError: 'Config' object has no attribute 'name'",
             "",
             id="arguments swapped",
         ),
         pytest.param(
             [("super().__init__()", "super().__init__(); raise SystemExit")],
-            Outcome.CRASHED,
+            RunOutcome.CRASHED,
             "mine.py, line 19: SystemExit",
             "",
             id="an exit",
         ),
         pytest.param(
             [("self.left.setVoltage(voltage)", "import os; os._exit(0)")],
-            Outcome.CRASHED,
+            RunOutcome.CRASHED,
             "your code ended the robot program in the middle of a test",
             "",
             id="a sudden end",
         ),
         pytest.param(
             [("from commands2 import", "import phoenix_7\nfrom commands2 import")],
-            Outcome.CANNOT,
+            RunOutcome.CANNOT,
             "it imports phoenix_7, which is not here",
             "",
             id="a vendor's library",
         ),
         pytest.param(
             [("def __init__(self)", "def __init__(self, port)")],
-            Outcome.CANNOT,
+            RunOutcome.CANNOT,
             "ExampleSubsystem() has to be given port",
             "",
             id="an argument",
         ),
         pytest.param(
             [("self.left.setVoltage", "self.left.set_voltage")],
-            Outcome.CANNOT,
+            RunOutcome.CANNOT,
             "set_voltage is a name of 2027, and the RobotPy installed here is 2026",
             "",
             id="another season",
@@ -101,7 +101,7 @@ def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
     )
     run = ran(tmp_path, changed(endless), seconds=4)
 
-    assert run.outcome is Outcome.ENDLESS
+    assert run.outcome is RunOutcome.ENDLESS
     assert (run.where, run.line) in {("drive", 38), ("drive", 39)}
     assert "did not come to an end within 4 s" in run.said
 
@@ -121,7 +121,9 @@ def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
 def test_whatever_a_child_leaves_behind_is_an_answer(tmp_path, left):
     (tmp_path / "seen.json").write_text(left, "utf-8")
 
-    assert read_facts(tmp_path, tmp_path / "a.py", ended=True, seconds=1).outcome is Outcome.CANNOT
+    assert (
+        read_facts(tmp_path, tmp_path / "a.py", ended=True, seconds=1).outcome is RunOutcome.CANNOT
+    )
 
 
 def test_a_child_that_does_not_end_is_ended(tmp_path):
@@ -129,15 +131,16 @@ def test_a_child_that_does_not_end_is_ended(tmp_path):
 
     assert sandboxed_run.run_limited(program, tmp_path, 0.5) is False
     assert (
-        read_facts(tmp_path, tmp_path / "a.py", ended=False, seconds=0.5).outcome is Outcome.ENDLESS
+        read_facts(tmp_path, tmp_path / "a.py", ended=False, seconds=0.5).outcome
+        is RunOutcome.ENDLESS
     )
 
 
 @pytest.mark.parametrize(
     ("stack", "outcome"),
     [
-        ('  File "/class/mine.py", line 7 in drive\n', Outcome.ENDLESS),
-        ('  File "/lib/wpilib/__init__.py", line 7 in run\n', Outcome.CANNOT),
+        ('  File "/class/mine.py", line 7 in drive\n', RunOutcome.ENDLESS),
+        ('  File "/lib/wpilib/__init__.py", line 7 in run\n', RunOutcome.CANNOT),
     ],
     ids=["in the learner's code", "on a machine that is too busy"],
 )
@@ -158,5 +161,5 @@ def test_whoever_confines_the_child_starts_it(tmp_path):
     path = tmp_path / "mine.py"
     path.write_text(changed(), "utf-8")
 
-    assert bench.run(path, "ExampleSubsystem", start=start, seconds=8).outcome is Outcome.RAN
+    assert bench.run(path, "ExampleSubsystem", start=start, seconds=8).outcome is RunOutcome.RAN
     assert started == [(sys.executable, True, [], 8 + sandboxed_run.GRACE)]

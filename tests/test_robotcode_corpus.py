@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from grader.robotcode import read
-from grader.robotcode.facts import Certainty, DriveCall, LoggedSignal, Quantity, RoutineFacts
+from grader.robotcode.facts import Certainty, ConfigQuantity, DriveCall, LoggedSignal, RoutineFacts
 from sim.errors import UnreadableFile
 
 CORPUS = Path(__file__).with_name("robotcode")
@@ -34,7 +34,7 @@ PASSED = {True: "self", False: "no", None: "other"}
 CONSTANT = {True: "parameter", False: "constant", None: "untold"}
 
 
-def number(quantity: Quantity) -> str:
+def number(quantity: ConfigQuantity) -> str:
     if quantity.known is Certainty.STATED:
         return f"{quantity.value:g} {quantity.dimension}"
     return quantity.known.value

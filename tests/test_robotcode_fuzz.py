@@ -10,7 +10,7 @@ import pytest
 from robotcode_mutants import CHANGES, SUFFIXES, Mutant, mutant, sources
 from robotcode_readings import READERS, Reading, among_neighbors, faults, flaws
 
-from grader.robotcode.facts import Certainty, Problem, Quantity, RoutineFacts
+from grader.robotcode.facts import Certainty, ConfigQuantity, ParseProblem, RoutineFacts
 from sim.errors import Refusal
 
 MUTANTS = 300
@@ -82,9 +82,11 @@ def test_a_slow_reading_is_noticed() -> None:
 
 FLAWED = {
     "a line that the file does not have": RoutineFacts("java", routine_line=9),
-    "a problem without a line": RoutineFacts("java", problems=(Problem("a ')' is missing", 0),)),
-    "a problem of several lines": RoutineFacts("java", problems=(Problem("a\nb", 1),)),
-    "a number known and unknown": RoutineFacts("java", step=Quantity(Certainty.STATED)),
+    "a problem without a line": RoutineFacts(
+        "java", problems=(ParseProblem("a ')' is missing", 0),)
+    ),
+    "a problem of several lines": RoutineFacts("java", problems=(ParseProblem("a\nb", 1),)),
+    "a number known and unknown": RoutineFacts("java", step=ConfigQuantity(Certainty.STATED)),
     "a place where no argument is": RoutineFacts("java", mechanism_argument=-2),
 }
 

@@ -7,7 +7,7 @@ import pytest
 from small_course import RIGHT, lay_out
 
 from grader.classroom import workers
-from grader.classroom.run import Class, grade_all, plan_grading
+from grader.classroom.run import GradedClass, grade_all, plan_grading
 from grader.classroom.store import Store
 from grader.classroom.submissions import find_submissions
 from grader.cli import run
@@ -56,7 +56,7 @@ def hand_in(place, **does):
 
 def graded(course, there, out, *, seconds):
     """Student -> score and reason, and who was graded in this run."""
-    work = Class(find_submissions(there, exercises(course)), exercises(course), course)
+    work = GradedClass(find_submissions(there, exercises(course)), exercises(course), course)
     store = Store(out)
     left = plan_grading(work, store, travel=False, again=False)
     store.open()
@@ -85,7 +85,7 @@ def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_pa
 
 def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):
     there = hand_in(tmp_path / "in", ben="hang")
-    work = Class(find_submissions(there, exercises(course)), exercises(course), course)
+    work = GradedClass(find_submissions(there, exercises(course)), exercises(course), course)
     store = Store(tmp_path / "out")
     looks = []
 

@@ -16,8 +16,8 @@ from grader.logged_numbers import (
     check_sources,
 )
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, RunFacts, findings
-from grader.robotcode.bench.findings import Fault, find_stop
+from grader.robotcode.bench import RunFacts, RunOutcome, findings
+from grader.robotcode.bench.findings import RunFault, find_stop
 from grader.robotcode.facts import RoutineFacts
 from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
@@ -107,7 +107,7 @@ def _number(code: Code, wanted: Setting, said: str, *, advice: Advice = no_advic
     name = wanted.name.split()[0]
     got = getattr(code.facts, name)
 
-    def running(ran: RunFacts) -> Fault | None:
+    def running(ran: RunFacts) -> RunFault | None:
         return findings.check_setting(
             getattr(ran, name),
             wanted.value,
@@ -121,9 +121,11 @@ def _number(code: Code, wanted: Setting, said: str, *, advice: Advice = no_advic
     return settle(code, reading, _when_done(running), points=1)
 
 
-def _when_done(running: Callable[[RunFacts], Fault | None]) -> Callable[[RunFacts], Fault | None]:
+def _when_done(
+    running: Callable[[RunFacts], RunFault | None],
+) -> Callable[[RunFacts], RunFault | None]:
     """Only a run that came to its end shows figures."""
-    return lambda ran: running(ran) if ran.outcome is Outcome.RAN else None
+    return lambda ran: running(ran) if ran.outcome is RunOutcome.RAN else None
 
 
 @check(points=1, after=routine)
@@ -166,8 +168,8 @@ def drive(code: Code) -> str | None:
 
 
 def _either(
-    where: str, running: Callable[[RunFacts], Fault | None]
-) -> Callable[[RunFacts], Fault | None]:
+    where: str, running: Callable[[RunFacts], RunFault | None]
+) -> Callable[[RunFacts], RunFault | None]:
     """What a run shows, or where it stopped."""
     return lambda ran: find_stop(ran, where=where) or _when_done(running)(ran)
 
@@ -315,7 +317,7 @@ def open_loop(code: Code) -> str | None:
     return settle(code, partial(_open_loop, code.facts), running, points=2, answered=_undivided)
 
 
-def _as_a_share(ran: RunFacts) -> Fault | None:
+def _as_a_share(ran: RunFacts) -> RunFault | None:
     fault = findings.check_driven_motors(ran)
     return fault if fault and fault.misconception else None
 

@@ -8,13 +8,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from grader.check import NotReached, Wrong
-from grader.robotcode.bench import Outcome, RunFacts
-from grader.robotcode.bench.findings import IN, Fault
+from grader.robotcode.bench import RunFacts, RunOutcome
+from grader.robotcode.bench.findings import IN, RunFault
 from grader.robotcode.facts import RoutineFacts
 from grader.sysid_routine_checks import cannot_tell
 
 QUESTION = cannot_tell("", "").split(" by ")[0].strip()  # how everything begins that is asked
-STOPPED = {Outcome.CRASHED, Outcome.ENDLESS}
+STOPPED = {RunOutcome.CRASHED, RunOutcome.ENDLESS}
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ def asks(seen: str) -> bool:
 def settle(
     code: Code,
     reading: Callable[[], str | None],
-    running: Callable[[RunFacts], Fault | None],
+    running: Callable[[RunFacts], RunFault | None],
     *,
     points: float,
     answered: Callable[[RunFacts], bool] = lambda _: True,
@@ -67,7 +67,7 @@ def settle(
             raise
         if ran is not None and ran.outcome in STOPPED and isinstance(open_still, Wrong):
             _unsettled(open_still, ran.said)
-        if ran is None or ran.outcome is not Outcome.RAN:
+        if ran is None or ran.outcome is not RunOutcome.RAN:
             raise
         _fail(running(ran), points)
         if isinstance(open_still, Wrong) and ran.aware:
@@ -91,7 +91,7 @@ def _unsettled(question: Wrong, said: str) -> None:
     ) from None
 
 
-def _fail(fault: Fault | None, points: float) -> None:
+def _fail(fault: RunFault | None, points: float) -> None:
     if fault is not None:
         raise Wrong(
             fault.seen,
@@ -105,6 +105,6 @@ def noted(ran: RunFacts | None, figures: Callable[[RunFacts], str]) -> str | Non
     """Which way the file was looked at, where that is not reading alone."""
     if ran is None or ran.outcome in STOPPED:
         return None
-    if ran.outcome is Outcome.CANNOT:
+    if ran.outcome is RunOutcome.CANNOT:
         return f"Only read, not run {IN}: {ran.said}."
     return f"Also run {IN}: {figures(ran)}."

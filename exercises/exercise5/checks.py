@@ -5,7 +5,7 @@ from pathlib import Path
 from grader.check import NotReached, Status, Wrong, check, run_all
 from grader.robotcode import bench
 from grader.robotcode.bench import RunFacts, findings
-from grader.robotcode.bench.findings import Fault, find_stop
+from grader.robotcode.bench.findings import RunFault, find_stop
 from grader.robotcode.binding_facts import BindingFacts
 from grader.robotcode.bindings import bindings_of
 from grader.submission import read_text
@@ -105,7 +105,7 @@ def held(facts: BindingFacts) -> str | None:
     raise Wrong(f"no button runs {named(missing(facts))}", hint=hint, earned=earned)
 
 
-def _stops(ran: RunFacts) -> Fault | None:
+def _stops(ran: RunFacts) -> RunFault | None:
     """Where the run stopped, or a test that did not."""
     return find_stop(ran, where="") or findings.check_release(ran)
 

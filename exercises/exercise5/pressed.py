@@ -6,8 +6,8 @@ from pathlib import Path
 
 from grader.check import Wrong
 from grader.robotcode import bench
-from grader.robotcode.bench import Outcome, RunFacts
-from grader.robotcode.bench.findings import IN, Fault
+from grader.robotcode.bench import RunFacts, RunOutcome
+from grader.robotcode.bench.findings import IN, RunFault
 from grader.robotcode.binding_facts import BindingFacts
 
 CONTAINER = "RobotContainer"  # what a robot's program makes first, by WPILib's own template
@@ -30,7 +30,9 @@ def press(path: Path, facts: BindingFacts) -> Pressed:
     return Pressed(**vars(facts), ran=bench.press(path, CONTAINER))
 
 
-def agreed(facts: BindingFacts, look: Callable[[RunFacts], Fault | None], *, points: float) -> str:
+def agreed(
+    facts: BindingFacts, look: Callable[[RunFacts], RunFault | None], *, points: float
+) -> str:
     """Hold a check that passed by reading against the run.
 
     Args:
@@ -47,7 +49,7 @@ def agreed(facts: BindingFacts, look: Callable[[RunFacts], Fault | None], *, poi
     ran = facts.ran if isinstance(facts, Pressed) else None
     if ran is None:
         return ""
-    if ran.outcome is Outcome.CANNOT:
+    if ran.outcome is RunOutcome.CANNOT:
         return f"Only read, not run {IN}: {ran.said}."
     fault = look(ran)
     if fault:

@@ -17,7 +17,7 @@ from grader.variant import student_rng, student_seed
 from .scene import ASSUMED, USUAL, columns, scene
 
 if TYPE_CHECKING:
-    from grader.isolation import Answer, Outcome
+    from grader.isolation import Answer, SandboxOutcome
     from sim.log import Array, Log
 
 NAME, FUNCTION = "fit.py", "fit"
@@ -149,7 +149,7 @@ def _table(log: "Log", *, si: float) -> dict[str, "Array"]:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _outcome(text: bytes, student: str, of: int) -> "Outcome":
+def _outcome(text: bytes, student: str, of: int) -> "SandboxOutcome":
     """Run a function on all five logs; the same text gives the same numbers."""
     import tempfile  # noqa: PLC0415 - only where there is something to run
 

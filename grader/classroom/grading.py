@@ -23,7 +23,7 @@ Record = dict[str, object]
 
 
 @dataclass(frozen=True)
-class Job:
+class GradingJob:
     """One student to grade.
 
     Args:
@@ -68,7 +68,7 @@ class Graded:
     records: tuple[Record, ...]
 
 
-def grade_one(job: Job) -> Graded:
+def grade_one(job: GradingJob) -> Graded:
     """Grade everything one student handed in; whatever happens is a result."""
     there = {one.name: one for one in exercises(unpack_course(job.course))}
     with (
@@ -79,7 +79,7 @@ def grade_one(job: Job) -> Graded:
     return Graded(job.student, job.digest, records)
 
 
-def _grade(exercise: Exercise, job: Job, folder: Path) -> Record:
+def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Record:
     files, student = job.files.get(exercise.name, {}), job.student
     if exercise.name in job.problems:
         return missing_record(
@@ -101,7 +101,7 @@ def _grade(exercise: Exercise, job: Job, folder: Path) -> Record:
         return missing_record(exercise, student, status="ungradable", reason=broken)
 
 
-def not_graded(job: Job, name: str, reason: str) -> Record:
+def not_graded(job: GradingJob, name: str, reason: str) -> Record:
     """The record of an exercise whose grading came to no end.
 
     Args:

@@ -6,7 +6,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from grader.classroom.bundle import pack_course
-from grader.classroom.grading import Graded, Job, grade_one, ungraded_student
+from grader.classroom.grading import Graded, GradingJob, grade_one, ungraded_student
 from grader.classroom.store import Store, digest_job
 from grader.classroom.submissions import Submission
 from grader.classroom.workers import grade_in_workers
@@ -16,7 +16,7 @@ from sim.work.cluster import run_jobs_on_cluster
 
 
 @dataclass(frozen=True)
-class Class:
+class GradedClass:
     """What is graded, and by what.
 
     Args:
@@ -33,7 +33,7 @@ class Class:
     secret: bytes | None = None
     run: bool = False
 
-    def jobs(self, *, travel: bool) -> tuple[Job, ...]:
+    def jobs(self, *, travel: bool) -> tuple[GradingJob, ...]:
         """One for each student whose files could be read.
 
         Args:
@@ -43,7 +43,7 @@ class Class:
         names = tuple(one.name for one in self.exercises)
         course = pack_course(self.course) if travel else self.course
         return tuple(
-            Job(
+            GradingJob(
                 one.student,
                 digest_job(one, names=names, made_by=made_by, secret=self.secret),
                 one.files,
@@ -82,10 +82,10 @@ class Plan:
     """
 
     kept: tuple[Graded, ...]
-    todo: tuple[Job, ...]
+    todo: tuple[GradingJob, ...]
 
 
-def plan_grading(asked: Class, store: Store, *, travel: bool, again: bool) -> Plan:
+def plan_grading(asked: GradedClass, store: Store, *, travel: bool, again: bool) -> Plan:
     """Look what is known already.
 
     Args:
@@ -105,7 +105,7 @@ def plan_grading(asked: Class, store: Store, *, travel: bool, again: bool) -> Pl
 
 
 def grade_all(
-    asked: Class,
+    asked: GradedClass,
     plan: Plan,
     store: Store,
     *,

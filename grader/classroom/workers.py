@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 
 from pebble import ProcessExpired, ProcessPool
 
-from grader.classroom.grading import Graded, Job, Record, grade_one, not_graded
+from grader.classroom.grading import Graded, GradingJob, Record, grade_one, not_graded
 from grader.classroom.submissions import Files
 from sim.work.interrupt import interrupts_blocked_for_children
 from sim.work.process_pool import serve_quietly
@@ -27,14 +27,14 @@ LOOK = 0.2  # [s] between two looks at whether somebody wants to stop
 TOO_LONG = f"grading it took more than {SECONDS:g} s and was stopped"
 ENDED = "the process that graded it came to an end, perhaps for want of memory"
 
-Task = tuple[Job, str]  # a student, and one of their exercises
+Task = tuple[GradingJob, str]  # a student, and one of their exercises
 
 
 @dataclass
 class _Open:
     """A student of whom some exercises are graded."""
 
-    job: Job
+    job: GradingJob
     records: dict[str, Record] = field(default_factory=dict)
 
     def graded(self) -> Graded | None:
@@ -46,7 +46,7 @@ class _Open:
 
 
 def grade_in_workers(
-    jobs: Sequence[Job],
+    jobs: Sequence[GradingJob],
     *,
     processes: int,
     stop_if_asked: Callable[[], None] = lambda: None,
@@ -108,7 +108,7 @@ def _grade(
         hand_out()
 
 
-def _record(future: Future[Graded], job: Job, name: str) -> Record:
+def _record(future: Future[Graded], job: GradingJob, name: str) -> Record:
     """The result of one exercise, or why there is none."""
     try:
         (record,) = future.result().records
@@ -119,7 +119,7 @@ def _record(future: Future[Graded], job: Job, name: str) -> Record:
     return record
 
 
-def _only(job: Job, name: str) -> Mapping[str, Files]:
+def _only(job: GradingJob, name: str) -> Mapping[str, Files]:
     """What was handed in for one exercise."""
     return {name: job.files[name]} if name in job.files else {}
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from grader.classroom.grading import Graded
     from grader.classroom.results import Results
     from grader.classroom.roster import Members
-    from grader.classroom.run import Class
+    from grader.classroom.run import GradedClass
     from grader.classroom.submissions import Submission
     from grader.exercise import Exercise
 
@@ -75,7 +75,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
     from grader.classroom.identity import check_identities  # noqa: PLC0415 - the same
     from grader.classroom.results import Results  # noqa: PLC0415 - the same
     from grader.classroom.roster import read_members  # noqa: PLC0415 - the same
-    from grader.classroom.run import Class  # noqa: PLC0415 - the same
+    from grader.classroom.run import GradedClass  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.course import find_course, other_code  # noqa: PLC0415 - the same
 
@@ -96,7 +96,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
     there = check_identities(there, secret=value)
     _tell_problems(there)
     run = _shut_in(asked, run=run, cluster=cluster)
-    work = Class(there, asked, course, value, run)
+    work = GradedClass(there, asked, course, value, run)
     graded = _run(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
         return INTERRUPTED
@@ -188,7 +188,7 @@ def _shut_in(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | No
 
 
 def _run(
-    work: "Class", out: Path, *, processes: int | None, cluster: str | None, again: bool
+    work: "GradedClass", out: Path, *, processes: int | None, cluster: str | None, again: bool
 ) -> "tuple[Graded, ...] | None":
     """Grade what is left; None where it was stopped."""
     from grader.classroom.run import grade_all, plan_grading  # noqa: PLC0415 - --help must not wait

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from grader.terminal import Span, show, wrapped
+from grader.terminal import StyledText, show, wrapped
 from sim.cli_support import DONE, NOT_RIGHT
 
 
@@ -21,7 +21,7 @@ def doctor() -> int:
     for one in examine(find_course(Path.cwd())):
         mark, style = ("✓", "green") if one.right else ("✗", "red") if one.needed else ("–", "dim")
         rows = wrapped(one.found, lead=f"  {one.what:<16}")
-        rows[0] = (Span(f"{mark} ", style), Span(f"{one.what:<16}"), *rows[0][1:])
+        rows[0] = (StyledText(f"{mark} ", style), StyledText(f"{one.what:<16}"), *rows[0][1:])
         show(rows)
         if not one.right:
             show(wrapped(one.advice, lead="    ", style="cyan"))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
 from grader.edition.executed import execute
-from grader.edition.rendered import Part, split_notebook
+from grader.edition.rendered import LessonPart, split_notebook
 from sim.errors import BadRequest
 from sim.report.page_file import load_templates
 
@@ -24,7 +24,7 @@ class Lesson:
     """
 
     name: str
-    parts: tuple[Part, ...]
+    parts: tuple[LessonPart, ...]
 
     @property
     def title(self) -> str:

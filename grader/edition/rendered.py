@@ -12,7 +12,7 @@ NOTE = "<p class='quiet'>In the notebook this can be turned and clicked; here is
 
 
 @dataclass(frozen=True)
-class Part:
+class LessonPart:
     """What stands under one heading.
 
     Args:
@@ -31,7 +31,7 @@ class Part:
         return re.sub(r"[^a-z0-9]+", "-", self.heading.lower()).strip("-")
 
 
-def split_notebook(notebook: Any) -> tuple[Part, ...]:  # noqa: ANN401 - nbformat has no types
+def split_notebook(notebook: Any) -> tuple[LessonPart, ...]:  # noqa: ANN401 - nbformat has no types
     """An executed notebook, cut at its title and its sections."""
     widgets = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
     found: list[tuple[str, int, list[str]]] = []
@@ -43,7 +43,7 @@ def split_notebook(notebook: Any) -> tuple[Part, ...]:  # noqa: ANN401 - nbforma
             if level:
                 found.append((heading, level, []))
             found[-1][2].append(_markdown(text))
-    return tuple(Part(heading, level, "\n".join(html)) for heading, level, html in found)
+    return tuple(LessonPart(heading, level, "\n".join(html)) for heading, level, html in found)
 
 
 def _cut(source: str) -> Iterator[tuple[int, str, str]]:

@@ -14,7 +14,13 @@ others to judge.
 """
 
 from grader.isolation.result_parsing import Answer, one_line
-from grader.isolation.sandbox_parent import Call, Limits, Outcome, isolation_level, run_functions
+from grader.isolation.sandbox_parent import (
+    Call,
+    Limits,
+    SandboxOutcome,
+    isolation_level,
+    run_functions,
+)
 from grader.isolation.sandbox_program import run_program
 from grader.isolation.scratch import scratch_folder
 
@@ -22,7 +28,7 @@ __all__ = [
     "Answer",
     "Call",
     "Limits",
-    "Outcome",
+    "SandboxOutcome",
     "isolation_level",
     "one_line",
     "run_functions",

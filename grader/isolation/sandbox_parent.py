@@ -73,7 +73,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class SandboxOutcome:
     """What became of a learner's code.
 
     Args:
@@ -97,7 +97,7 @@ def run_functions(
     calls: Sequence[Call],
     limits: Limits = Limits(),
     packages: Sequence[str] = ("numpy",),
-) -> Outcome:
+) -> SandboxOutcome:
     """Run functions of a learner's file in a process of their own.
 
     Args:
@@ -269,7 +269,7 @@ def _why(code: int) -> str:
 
 def _outcome(
     received: ParsedResults, calls: Sequence[Call], ended: str, child: _Child, seconds: float
-) -> Outcome:
+) -> SandboxOutcome:
     missing = received.crash or ended or "it ended itself before it had answered"
     answers = tuple(
         received.answers.get(number, Answer(reason=missing)) for number in range(len(calls))
@@ -279,7 +279,7 @@ def _outcome(
     if child.printed.dropped:
         printed += f"\n… and {child.printed.dropped:,} bytes more, which were dropped"
     said = "" if whole else missing
-    return Outcome(answers, said, printed, _level(received.force), seconds)
+    return SandboxOutcome(answers, said, printed, _level(received.force), seconds)
 
 
 def _level(force: Mapping[str, object] | None) -> str:

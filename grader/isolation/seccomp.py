@@ -31,7 +31,7 @@ IOCTL_OWNER = (0x8901, 0x8902)  # FIOSETOWN SIOCSPGRP
 
 
 @dataclass(frozen=True)
-class Table:
+class SyscallTable:
     """A processor's numbers of system calls.
 
     Args:
@@ -58,13 +58,13 @@ class Table:
 # fsetxattr utime utimes utimensat setpriority ioprio_set pidfd_getfd. (ARM has no fork, vfork,
 # chmod, chown, lchown, utime, utimes.)
 TABLES = {
-    "x86_64": Table(
+    "x86_64": SyscallTable(
         0xC000003E, 56, 435, 126, 72, 16, (62, 234, 302, 203),
         (57, 58, 59, 322, 41, 112, 109, 200, 129, 297, 424, 101, 310, 311, 425, 272, 308, 250,
          321, 298, 29, 68, 64, 240, 76, 90, 91, 268, 452, 92, 93, 94, 260, 188, 189, 190, 132,
          235, 280, 141, 251, 438),
     ),
-    "aarch64": Table(
+    "aarch64": SyscallTable(
         0xC00000B7, 220, 435, 91, 25, 29, (129, 131, 261, 122),
         (221, 281, 198, 157, 154, 130, 138, 240, 424, 117, 270, 271, 425, 97, 268, 219, 280, 241,
          194, 186, 190, 180, 45, 52, 53, 452, 55, 54, 5, 6, 7, 88, 140, 30, 438),
@@ -88,7 +88,7 @@ def forbid() -> bool:
     return bool(system.prctl(SET_SECCOMP, FILTER, program, 0, 0) == 0)
 
 
-def _steps(table: Table) -> Iterator[tuple[int, int, int, int]]:
+def _steps(table: SyscallTable) -> Iterator[tuple[int, int, int, int]]:
     """The filter: code, steps to skip if so, steps to skip if not, number."""
     yield LOAD, 0, 0, ARCHITECTURE
     yield EQUAL, 1, 0, table.architecture

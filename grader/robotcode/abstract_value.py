@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from grader.robotcode.ir import Node
-from grader.robotcode.readings import Reading
+from grader.robotcode.readings import DeviceReading
 from grader.robotcode.scope import Scope
 
 CHANGED = math.nan  # a factor that is not one, and no constant either: 1 / battery voltage
@@ -55,7 +55,7 @@ class Value:
     factor: float | None = 1.0
     closed: bool = False
     marks: frozenset[Mark] = frozenset()
-    readings: frozenset[Reading] = frozenset()
+    readings: frozenset[DeviceReading] = frozenset()
     scale: float | None = 1.0
     unit: str = ""
     log: MotorLog | None = None

@@ -6,7 +6,7 @@ As in ``facts``: what cannot be decided by reading is empty or in ``unread``, an
 from dataclasses import dataclass
 from enum import Enum
 
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 
 KINDS = ("quasistatic", "dynamic")
 DIRECTIONS = ("forward", "reverse")
@@ -131,6 +131,6 @@ class BindingFacts:
     controllers: tuple[Controller, ...] = ()
     elsewhere: tuple[tuple[str, int], ...] = ()
     uncalled: tuple[tuple[str, int], ...] = ()
-    unread: tuple[Problem, ...] = ()
-    problems: tuple[Problem, ...] = ()
-    compile_errors: tuple[Problem, ...] = ()
+    unread: tuple[ParseProblem, ...] = ()
+    problems: tuple[ParseProblem, ...] = ()
+    compile_errors: tuple[ParseProblem, ...] = ()

@@ -27,13 +27,13 @@ from grader.robotcode.compiling import compile_errors
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.controllers import controllers
 from grader.robotcode.factories import factories, is_private
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
-from grader.robotcode.ir import Branch, Call, Class, Function, Items, Loop, Member, Node, Place
+from grader.robotcode.ir import Branch, Call, Class, Function, Items, Loop, Member, Node, SourceSpan
 from grader.robotcode.name_resolution import last_name
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.triggers import Asks, Part, Triggers
+from grader.robotcode.triggers import Asks, TriggerPart, Triggers
 from grader.robotcode.vocabulary import java_spelling
 
 DEEPEST = 120  # pieces of code one inside the other
@@ -59,7 +59,7 @@ class _Way:
     """
 
     conditions: tuple[BoundNode, ...] = ()
-    places: tuple[Place, ...] = ()
+    places: tuple[SourceSpan, ...] = ()
     functions: tuple[Function, ...] = ()
     depth: int = 0
 
@@ -90,7 +90,7 @@ class _Reader:
         self._comments = comments(names.main)
         self._bindings: list[Binding] = []
         self._elsewhere: dict[str, int] = {}
-        self._unread: list[Problem] = []
+        self._unread: list[ParseProblem] = []
         self._steps = 0
 
     def facts(self) -> BindingFacts:
@@ -217,7 +217,7 @@ class _Reader:
         line = call.target.place.line
         said = f"{last_name(call.target)}({command.node.place.text})"
         if runs.either or (runs.unclear is not None and not runs.tests):
-            self._unread.append(Problem(f"I cannot tell which test {said} runs", line))
+            self._unread.append(ParseProblem(f"I cannot tell which test {said} runs", line))
         if runs.either or not runs.tests or not isinstance(call.target, Member):
             return
         parts = self._triggers.parts(seen.at(call.target.owner))
@@ -239,7 +239,7 @@ class _Reader:
             )
         )
 
-    def _guards(self, parts: tuple[Part, ...], runs: Runs, way: _Way) -> tuple[Guard, ...]:
+    def _guards(self, parts: tuple[TriggerPart, ...], runs: Runs, way: _Way) -> tuple[Guard, ...]:
         """What has to be true beside the button."""
         asked = [*parts]
         for condition in runs.conditions:
@@ -257,7 +257,7 @@ class _Reader:
                     found.append(Guard.ASKED_ONCE if once else Guard.TOGGLE)
         return tuple(dict.fromkeys(found))
 
-    def _said(self, places: tuple[Place, ...]) -> str:
+    def _said(self, places: tuple[SourceSpan, ...]) -> str:
         """The comments beside the places that led to a binding."""
         found = dict.fromkeys(
             comments_near(self._comments, place.line, _last(place))
@@ -267,6 +267,6 @@ class _Reader:
         return " ".join(filter(None, found))
 
 
-def _last(place: Place) -> int:
+def _last(place: SourceSpan) -> int:
     """The line a piece of code ends on."""
     return place.line + place.source.count(b"\n", place.start, place.end)

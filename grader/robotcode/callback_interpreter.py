@@ -10,7 +10,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from grader.robotcode.abstract_value import Value, join_values
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import Call, Function, Member, Node, Reference, Self
 from grader.robotcode.motors import motor_label
 from grader.robotcode.name_resolution import (
@@ -81,7 +81,7 @@ class CallbackInterpreter(StatementInterpreter):
     def cannot_read(self, node: Node) -> None:
         """Say that the way leads out of these files."""
         said = f"`{node.place.text}` leads to code that is not in this file or those beside it"
-        self.unread.setdefault(said, Problem(said, self.line_of(node)))
+        self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
 
     def call(self, node: Call, frame: Frame) -> Value:
         """The value of a call, its arguments first."""

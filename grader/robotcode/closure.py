@@ -10,10 +10,10 @@ from grader.robotcode.ir import (
     Class,
     Element,
     Function,
+    FunctionParameter,
     Member,
     Name,
     Node,
-    Parameter,
     Reference,
     Return,
     Self,
@@ -61,7 +61,7 @@ def resolve_bound(seen: BoundNode, names: SymbolTable) -> BoundNode:
 def _value(seen: BoundNode, names: SymbolTable) -> BoundNode | None:
     """The one value of a variable; None if it has none or several, or is a parameter."""
     valued = [one for one in definitions(seen, names) if one.value is not None]
-    if len(valued) != 1 or isinstance(valued[0].value, Parameter | Element | Function):
+    if len(valued) != 1 or isinstance(valued[0].value, FunctionParameter | Element | Function):
         return None
     one = valued[0]
     here, there = seen.scope.functions[:1], one.scope.functions[:1]

@@ -19,12 +19,12 @@ from grader.robotcode.ir import (
     Choice,
     Element,
     Function,
+    FunctionParameter,
     Items,
     Member,
     Name,
     Node,
     Opaque,
-    Parameter,
     Reference,
     Return,
 )
@@ -87,7 +87,7 @@ class Commands:
         if isinstance(node, Reference | Member) and self._is_method(seen, node):
             call = Call(node.place, Member(node.place, node.owner, node.name), ())
             return self._call(seen.at(call), call, depth + 1)
-        if isinstance(node, Name | Member | Parameter | Element):
+        if isinstance(node, Name | Member | FunctionParameter | Element):
             return Runs(unclear=node)
         return self._parts(seen, node, depth + 1)
 
@@ -204,7 +204,7 @@ class Commands:
         if not isinstance(seen.node, Name):
             return False
         found = self._names.local(seen.node.name, seen.scope)
-        return any(isinstance(one.value, Parameter) for one in found)
+        return any(isinstance(one.value, FunctionParameter) for one in found)
 
 
 def join_runs(several: Iterable[Runs]) -> Runs:

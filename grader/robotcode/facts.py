@@ -18,7 +18,7 @@ class Certainty(Enum):
 
 
 @dataclass(frozen=True)
-class Quantity:
+class ConfigQuantity:
     """A number with a dimension, in SI: V/s for the ramp, V for the step, s for the timeout.
 
     Args:
@@ -115,7 +115,7 @@ class LoggedSignal:
 
 
 @dataclass(frozen=True)
-class Problem:
+class ParseProblem:
     """A place the parser stumbled over.
 
     Args:
@@ -163,9 +163,9 @@ class RoutineFacts:
     class_name: str = ""
     is_subsystem: bool = False
     routine_line: int = 0
-    ramp: Quantity = Quantity(Certainty.UNKNOWN)
-    step: Quantity = Quantity(Certainty.UNKNOWN)
-    timeout: Quantity = Quantity(Certainty.UNKNOWN)
+    ramp: ConfigQuantity = ConfigQuantity(Certainty.UNKNOWN)
+    step: ConfigQuantity = ConfigQuantity(Certainty.UNKNOWN)
+    timeout: ConfigQuantity = ConfigQuantity(Certainty.UNKNOWN)
     motors: tuple[str, ...] = ()
     drive_found: bool = False
     log_found: bool = False
@@ -177,9 +177,9 @@ class RoutineFacts:
     subsystem_passed: bool | None = None
     config_argument: int = -1
     mechanism_argument: int = -1
-    problems: tuple[Problem, ...] = ()
-    unread: tuple[Problem, ...] = ()
-    compile_errors: tuple[Problem, ...] = ()
+    problems: tuple[ParseProblem, ...] = ()
+    unread: tuple[ParseProblem, ...] = ()
+    compile_errors: tuple[ParseProblem, ...] = ()
     inverted: frozenset[str] = frozenset()
     geared: frozenset[str] = frozenset()
     impossible_numbers: tuple[tuple[str, float], ...] = ()

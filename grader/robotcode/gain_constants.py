@@ -9,7 +9,7 @@ from grader.robotcode.closure import BoundNode, definitions, resolve_bound
 from grader.robotcode.comments import Comment, comments, comments_near
 from grader.robotcode.compiling import compile_errors
 from grader.robotcode.constant_folding import ConstantFolder
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Cast, Member, Module, Name, Node, Self, iter_nodes
 from grader.robotcode.name_resolution import MOST_STEPS, constructed_class, last_name
@@ -106,8 +106,8 @@ class DeployFacts:
     general: str = ""
     feedforwards: tuple[Feedforward, ...] = ()
     feedback: Argument | None = None
-    problems: tuple[Problem, ...] = ()
-    compile_errors: tuple[Problem, ...] = ()
+    problems: tuple[ParseProblem, ...] = ()
+    compile_errors: tuple[ParseProblem, ...] = ()
 
     def constant(self, gain: str) -> GainConstant | None:
         """A gain's constant, if it is there."""

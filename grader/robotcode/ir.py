@@ -10,13 +10,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 
 LONGEST = 200  # [characters] of source text shown to a learner
 
 
 @dataclass(frozen=True, eq=False)
-class Place:
+class SourceSpan:
     """A stretch of one file.
 
     Args:
@@ -43,7 +43,7 @@ class Place:
 class Node:
     """A piece of code. Nodes are equal only to themselves."""
 
-    place: Place
+    place: SourceSpan
 
     @property
     def parts(self) -> tuple["Node", ...]:
@@ -210,7 +210,7 @@ class Loop(Node):
 
 
 @dataclass(frozen=True, eq=False)
-class Parameter(Node):
+class FunctionParameter(Node):
     """One parameter of a function; ``type`` as written, empty if not; ``default`` if it has one."""
 
     name: str
@@ -231,7 +231,7 @@ class Function(Node):
     """
 
     name: str
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[FunctionParameter, ...]
     body: tuple[Node, ...]
     property: bool = False
     type: str = ""
@@ -281,7 +281,7 @@ class Module:
     body: tuple[Node, ...]
     imports: tuple[Import, ...] = ()
     package: str = ""
-    problems: tuple[Problem, ...] = ()
+    problems: tuple[ParseProblem, ...] = ()
 
 
 def iter_nodes(*nodes: Node, but: tuple[type[Node], ...] = ()) -> Iterator[Node]:

@@ -7,9 +7,9 @@ from grader.robotcode.abstract_value import Mark, MotorLog, Value, join_values
 from grader.robotcode.callback_interpreter import CallbackInterpreter
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.facts import LoggedSignal, Source
-from grader.robotcode.ir import Call, Function, Member, Name, Parameter
+from grader.robotcode.ir import Call, Function, FunctionParameter, Member, Name
 from grader.robotcode.name_resolution import last_name, text_of
-from grader.robotcode.readings import Reading, Settings, native_unit
+from grader.robotcode.readings import DeviceReading, DeviceSettings, native_unit
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.statement_interpreter import Frame
 from grader.robotcode.symbol_table import SymbolTable
@@ -34,7 +34,7 @@ class LogTrace(CallbackInterpreter):
         measures: ConstantFolder,
         *,
         commanded: Collection[str],
-        settings: Settings,
+        settings: DeviceSettings,
     ) -> None:
         super().__init__(names, measures)
         self._settings = settings
@@ -79,7 +79,7 @@ class LogTrace(CallbackInterpreter):
         several = [
             self.evaluate(d.value, Frame(d.scope, frame.me, around=frame.around))
             for d in self.names.definitions(node, frame.scope)
-            if d.value is not None and not isinstance(d.value, Function | Parameter)
+            if d.value is not None and not isinstance(d.value, Function | FunctionParameter)
         ]
         for call, scope in self._changes_of(key.removeprefix(frame.me), frame.scope.home):
             inner = Frame(scope, frame.me, around=frame.around)
@@ -109,7 +109,7 @@ class LogTrace(CallbackInterpreter):
             unit = UNITS.get(value.unit)
             family = LINEAR if python else unit.family if unit else ""
         told = [one for one in value.readings if one.quantity != "bus"] or [*value.readings]
-        reading = told[0] if len(told) == 1 else Reading("", "", "")
+        reading = told[0] if len(told) == 1 else DeviceReading("", "", "")
         native, factor = native_unit(reading, self._settings)
         scale = None if factor is None else value.times(factor).scale
         self.signals.append(

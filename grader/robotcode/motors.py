@@ -7,12 +7,12 @@ from grader.robotcode.ir import (
     Assign,
     Call,
     Element,
+    FunctionParameter,
     Items,
     Member,
     Name,
     Node,
     Opaque,
-    Parameter,
     Reference,
     Self,
     iter_nodes,
@@ -203,7 +203,7 @@ class _Followers:
     def _called_with(self, motor: Node, scope: Scope, home: Scope) -> Iterator[str]:
         """The motor's name; where it is a method's parameter, the motors it is called with."""
         local = self._names.local(motor.name, scope) if isinstance(motor, Name) else ()
-        if not local or not isinstance(local[0].value, Parameter):
+        if not local or not isinstance(local[0].value, FunctionParameter):
             yield from motor_names(motor, scope, self._names)
             return
         function = local[0].scope.functions[-1]

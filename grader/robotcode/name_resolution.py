@@ -9,13 +9,13 @@ from grader.robotcode.ir import (
     Class,
     Element,
     Function,
+    FunctionParameter,
     Items,
     Loop,
     Member,
     Name,
     Node,
     Operation,
-    Parameter,
     Reference,
     Return,
     Text,
@@ -82,7 +82,7 @@ def only_return(function: Function) -> Node | None:
 
 def type_of(node: Node, scope: Scope, names: SymbolTable) -> str:
     """The type of a variable, declared or seen from what it is made with; empty if unknown."""
-    if isinstance(node, Parameter):
+    if isinstance(node, FunctionParameter):
         return node.type
     node = _without_settings(node)
     made = _made(node, scope)

@@ -50,7 +50,7 @@ ANY = "*"  # a setting of a device that cannot be told apart
 
 
 @dataclass(frozen=True)
-class Reading:
+class DeviceReading:
     """One number asked of a device.
 
     Args:
@@ -67,7 +67,7 @@ class Reading:
 
 
 @dataclass
-class Settings:
+class DeviceSettings:
     """What the program sets its devices to.
 
     Args:
@@ -111,7 +111,7 @@ def device_of(node: Node, scope: Scope, names: SymbolTable) -> tuple[str, str]:
     return (motor_label(node), type_) if known else ("", "")
 
 
-def native_unit(reading: Reading, settings: Settings) -> tuple[str, float | None]:
+def native_unit(reading: DeviceReading, settings: DeviceSettings) -> tuple[str, float | None]:
     """The unit in which a device reports a position or a velocity, and a factor it is set to.
 
     Returns:
@@ -143,7 +143,7 @@ def native_unit(reading: Reading, settings: Settings) -> tuple[str, float | None
     return found
 
 
-def settings_of(home: Scope, names: SymbolTable, measures: ConstantFolder) -> Settings:
+def settings_of(home: Scope, names: SymbolTable, measures: ConstantFolder) -> DeviceSettings:
     """What a class, and the file it is in, sets its devices to."""
     return _SettingsReader(names, measures).read(home)
 
@@ -154,9 +154,9 @@ class _SettingsReader:
     def __init__(self, names: SymbolTable, measures: ConstantFolder) -> None:
         self._names = names
         self._measures = measures
-        self._found = Settings()
+        self._found = DeviceSettings()
 
-    def read(self, home: Scope) -> Settings:
+    def read(self, home: Scope) -> DeviceSettings:
         """All settings in the files of a class and of those above it."""
         above = self._names.lineage(home) if home.classes else []
         for module in dict.fromkeys((self._names.main, *(place.module for place in above))):

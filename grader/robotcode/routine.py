@@ -7,7 +7,7 @@ from grader.robotcode.abstract_value import MotorLog, Value
 from grader.robotcode.compiling import compile_errors
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.drive_callback import DriveTrace
-from grader.robotcode.facts import Certainty, Problem, Quantity, RoutineFacts
+from grader.robotcode.facts import Certainty, ConfigQuantity, ParseProblem, RoutineFacts
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Function, Member, Node, Null, Number, Self, Text
 from grader.robotcode.log_callback import LogTrace
@@ -152,12 +152,12 @@ def _with_config(
         return facts
     call, scope = resolve(*config, names)
     if not isinstance(call, Call) or constructed_class(call, scope, names) != "Config":
-        untold = Quantity(
+        untold = ConfigQuantity(
             Certainty.UNKNOWN, text=config[0].place.text, line=_line(config[0], names)
         )
         return replace(facts, ramp=untold, step=untold, timeout=untold)
     given = _arguments(call, CONFIG)
-    found = dict.fromkeys(DEFAULTS, Quantity(Certainty.UNKNOWN))
+    found = dict.fromkeys(DEFAULTS, ConfigQuantity(Certainty.UNKNOWN))
     for at, (name, default) in enumerate(DEFAULTS.items()):
         if at in given:
             found[name] = _quantity(given[at], scope, default, names, measures)
@@ -165,7 +165,7 @@ def _with_config(
             found[name] = default
     for name, change in _changes(config[0], names).items():
         line = _line(change, names)
-        found[name] = Quantity(Certainty.UNKNOWN, text=change.place.text, line=line)
+        found[name] = ConfigQuantity(Certainty.UNKNOWN, text=change.place.text, line=line)
     return replace(facts, ramp=found["ramp"], step=found["step"], timeout=found["timeout"])
 
 
@@ -187,19 +187,19 @@ def _line(node: Node, names: SymbolTable) -> int:
 
 
 def _quantity(
-    node: Node, scope: Scope, default: Quantity, names: SymbolTable, measures: ConstantFolder
-) -> Quantity:
+    node: Node, scope: Scope, default: ConfigQuantity, names: SymbolTable, measures: ConstantFolder
+) -> ConfigQuantity:
     """One number of a Config that was given something."""
     place, line = node.place, _line(node, names)
     resolved, where = resolve(node, scope, names)
     if isinstance(resolved, Null):  # only Java takes null for "your own"; Python stumbles over it
         known = Certainty.DEFAULT if where.module.language == "java" else Certainty.UNKNOWN
-        stated = default if known is Certainty.DEFAULT else Quantity(known)
+        stated = default if known is Certainty.DEFAULT else ConfigQuantity(known)
         return replace(stated, text=place.text, line=line)
     measure = measures.of(node, scope)
     if measure is None or measure.unit:
-        return Quantity(Certainty.UNKNOWN, text=place.text, line=line)
-    return Quantity(Certainty.STATED, measure.value, measure.dimension, place.text, line)
+        return ConfigQuantity(Certainty.UNKNOWN, text=place.text, line=line)
+    return ConfigQuantity(Certainty.STATED, measure.value, measure.dimension, place.text, line)
 
 
 def _with_mechanism(
@@ -210,7 +210,7 @@ def _with_mechanism(
     call, scope = resolve(*mechanism, names)
     if not isinstance(call, Call) or constructed_class(call, scope, names) != "Mechanism":
         said = f"`{mechanism[0].place.text}` is made in code that is not in these files"
-        return replace(facts, unread=(Problem(said, _line(mechanism[0], names)),))
+        return replace(facts, unread=(ParseProblem(said, _line(mechanism[0], names)),))
     given = _arguments(call, MECHANISM)
     facts = replace(facts, subsystem_passed=_passed(given.get(2), call, scope, names))
     drive = DriveTrace(names, measures)

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from grader.robotcode.abstract_value import Value, join_values
 from grader.robotcode.constant_folding import ConstantFolder
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import (
     Assign,
     Branch,
@@ -73,7 +73,7 @@ class StatementInterpreter(ABC):
     def __init__(self, names: SymbolTable, measures: ConstantFolder) -> None:
         self.names = names
         self.stored: dict[str, Value] = {}  # fields, by what they were given on the way
-        self.unread: dict[str, Problem] = {}
+        self.unread: dict[str, ParseProblem] = {}
         self.flow = TransferFunctions(names, measures)
         self._steps = 0
         self._depth = 0
@@ -127,7 +127,7 @@ class StatementInterpreter(ABC):
     def too_deep(self, node: Node, frame: Frame) -> Value:
         """Stop where no person's code leads, and say so."""
         said = "the code goes deeper here than it was followed"
-        self.unread.setdefault(said, Problem(said, self.line_of(node)))
+        self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
         return replace(frame.value(node), carries=None)
 
     def _name(self, node: Name | Member, frame: Frame) -> Value:

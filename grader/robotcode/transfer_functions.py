@@ -8,7 +8,7 @@ from grader.robotcode.constant_folding import ConstantFolder, FoldedConstant
 from grader.robotcode.conversions import FACTORS
 from grader.robotcode.ir import Call, Member, Node, Operation
 from grader.robotcode.name_resolution import last_name, simple_type_name, type_of
-from grader.robotcode.readings import COUNTS, PULSE_COUNT, Reading, device_of, quantity_of
+from grader.robotcode.readings import COUNTS, PULSE_COUNT, DeviceReading, device_of, quantity_of
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
@@ -105,7 +105,7 @@ class TransferFunctions:
             return made
         return replace(made, factor=self._factor_of_call(call, name, made, at.scope))
 
-    def _reading(self, name: str, receiver: Value | None) -> Reading | None:
+    def _reading(self, name: str, receiver: Value | None) -> DeviceReading | None:
         """The number that a method of a device reports; None if it is no such method."""
         if receiver is None or receiver.readings:
             return None
@@ -113,7 +113,7 @@ class TransferFunctions:
         quantity = quantity_of(name, motor=is_motor(type_)) if device else ""
         if PULSES.fullmatch(type_) and name in COUNTS:
             type_ = PULSE_COUNT
-        return Reading(f"{receiver.me}{device}", type_, quantity) if quantity else None
+        return DeviceReading(f"{receiver.me}{device}", type_, quantity) if quantity else None
 
     def _scale_of_call(self, call: Call, name: str, made: Value, scope: Scope) -> float | None:
         """The scale after a call that a reading goes into or is asked."""

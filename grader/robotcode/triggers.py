@@ -31,12 +31,12 @@ from grader.robotcode.ir import (
     Call,
     Choice,
     Function,
+    FunctionParameter,
     Member,
     Name,
     Node,
     Opaque,
     Operation,
-    Parameter,
     Return,
 )
 from grader.robotcode.name_resolution import last_name, simple_type_name, type_from, type_of
@@ -64,7 +64,7 @@ class Asks(Enum):
 
 
 @dataclass(frozen=True)
-class Part:
+class TriggerPart:
     """One part of a trigger; all parts have to hold.
 
     Args:
@@ -91,13 +91,13 @@ class Triggers:
         self._measures = measures
         self.asked: set[Node] = set()  # calls that were looked at as part of some trigger
 
-    def parts(self, seen: BoundNode, *, depth: int = 0) -> tuple[Part, ...]:
+    def parts(self, seen: BoundNode, *, depth: int = 0) -> tuple[TriggerPart, ...]:
         """The parts of a trigger, or of a condition."""
         before = seen
         seen = resolve_bound(seen, self._names)
         node = seen.node
         if depth > DEEPEST:
-            return (Part(Asks.UNKNOWN, ""),)
+            return (TriggerPart(Asks.UNKNOWN, ""),)
         if isinstance(node, Call):
             found = self._call(seen, node, depth + 1)
             kept = node is not before.node and isinstance(before.node, Name | Member)
@@ -109,10 +109,10 @@ class Triggers:
             return self._operation(seen, node, depth + 1, named=node is not before.node)
         if isinstance(node, Name | Member):
             return self._named(seen, node, depth + 1)
-        unknown = isinstance(node, Parameter)
-        return (Part(Asks.UNKNOWN if unknown else Asks.SWITCH, node.place.text),)
+        unknown = isinstance(node, FunctionParameter)
+        return (TriggerPart(Asks.UNKNOWN if unknown else Asks.SWITCH, node.place.text),)
 
-    def opposite(self, seen: BoundNode) -> tuple[Part, ...]:
+    def opposite(self, seen: BoundNode) -> tuple[TriggerPart, ...]:
         """The parts of a condition that must not hold."""
         return (self._mixed(seen, [seen.node], "not", 1),)
 
@@ -144,14 +144,14 @@ class Triggers:
             found or type_from(tuple(definitions(seen, self._names)), self._names)
         )
 
-    def _function(self, seen: BoundNode, function: Function, depth: int) -> tuple[Part, ...]:
+    def _function(self, seen: BoundNode, function: Function, depth: int) -> tuple[TriggerPart, ...]:
         """A supplier: what it returns."""
         results = returned_nodes(function)
         if len(results) == 1:
             return self.parts(seen.at(results[0]), depth=depth)
-        return (Part(Asks.SWITCH, function.place.text),)
+        return (TriggerPart(Asks.SWITCH, function.place.text),)
 
-    def _call(self, seen: BoundNode, call: Call, depth: int) -> tuple[Part, ...]:
+    def _call(self, seen: BoundNode, call: Call, depth: int) -> tuple[TriggerPart, ...]:
         self.asked.add(call)
         name, args = java_spelling(last_name(call.target)), list(call.args)
         args += [node for _, node in call.named]
@@ -161,7 +161,7 @@ class Triggers:
             results = returned_nodes(functions[0][0])
             if len(results) == 1:
                 return self.parts(enter_call(seen, functions[0]).at(results[0]), depth=depth)
-            return (Part(Asks.SWITCH, call.place.text),)
+            return (TriggerPart(Asks.SWITCH, call.place.text),)
         if name in WRAPPERS and args:
             return self.parts(seen.at(args[-1]), depth=depth)
         if name in BUTTONS and args:
@@ -176,7 +176,7 @@ class Triggers:
 
     def _method(
         self, seen: BoundNode, owner: Node, name: str, args: list[Node], depth: int
-    ) -> tuple[Part, ...]:
+    ) -> tuple[TriggerPart, ...]:
         """What a library's method of a trigger or a controller asks; nothing if it is neither."""
         if name in BOTH:
             both = (owner, *args)
@@ -189,21 +189,23 @@ class Triggers:
 
     def _on_controller(
         self, seen: BoundNode, owner: Node, name: str, args: list[Node], depth: int
-    ) -> tuple[Part, ...]:
+    ) -> tuple[TriggerPart, ...]:
         """A button of a controller; one that is only polled in a loop of its own has a switch."""
         loops = [arg for arg in args if self._type(seen.at(arg)) == "EventLoop"]
         rest = [self._argument(seen.at(arg)) for arg in args if arg not in loops]
         switches = tuple(part for arg in loops for part in self.parts(seen.at(arg), depth=depth))
         return (*self._button(seen.at(owner), name, rest), *switches)
 
-    def _button(self, owner: BoundNode, method: str, args: list[str]) -> tuple[Part, ...]:
+    def _button(self, owner: BoundNode, method: str, args: list[str]) -> tuple[TriggerPart, ...]:
         controller = self.controller(owner)
         word = button(method)
         if word in {"button", "raw"} and args:
             word = self._numbered(args[0], owner)
             args = []
         key = f"{controller} {word} {' '.join(args)}".strip()
-        return (Part(Asks.BUTTON if all([controller, *args]) else Asks.UNKNOWN, key, controller),)
+        return (
+            TriggerPart(Asks.BUTTON if all([controller, *args]) else Asks.UNKNOWN, key, controller),
+        )
 
     def _numbered(self, text: str, owner: BoundNode) -> str:
         """A button given by its number, or by a name of the Button enum."""
@@ -230,7 +232,7 @@ class Triggers:
 
     def _operation(
         self, seen: BoundNode, node: Operation | Opaque | Choice, depth: int, *, named: bool
-    ) -> tuple[Part, ...]:
+    ) -> tuple[TriggerPart, ...]:
         if isinstance(node, Choice):
             return self._choice(seen, node, depth)
         inside = [part for part in node.parts if not isinstance(part, Return)]
@@ -247,23 +249,23 @@ class Triggers:
             return self.parts(seen.at(inside[0]), depth=depth)
         if not inside:
             always = node.place.text.lower() == "true" and not named
-            return (Part(Asks.NOTHING if always else Asks.SWITCH, node.place.text),)
+            return (TriggerPart(Asks.NOTHING if always else Asks.SWITCH, node.place.text),)
         return (self._mixed(seen, inside, sign or node.place.text, depth),)
 
-    def _choice(self, seen: BoundNode, node: Choice, depth: int) -> tuple[Part, ...]:
+    def _choice(self, seen: BoundNode, node: Choice, depth: int) -> tuple[TriggerPart, ...]:
         """``condition ? true : false``; any other choice is a switch of the program's own."""
         one, other = _truth(node.one), _truth(node.other)
         if one is None or other is None or one is other:
             return (self._mixed(seen, [node.condition, node.one, node.other], "?", depth),)
         return self._same_or_not(seen.at(node.condition), depth, same=one)
 
-    def _same_or_not(self, seen: BoundNode, depth: int, *, same: bool) -> tuple[Part, ...]:
+    def _same_or_not(self, seen: BoundNode, depth: int, *, same: bool) -> tuple[TriggerPart, ...]:
         """A condition as it is, or turned round."""
         if same:
             return self.parts(seen, depth=depth)
         return (self._mixed(seen, [seen.node], "not", depth),)
 
-    def _mixed(self, seen: BoundNode, several: list[Node], sign: str, depth: int) -> Part:
+    def _mixed(self, seen: BoundNode, several: list[Node], sign: str, depth: int) -> TriggerPart:
         """Parts of which not all have to hold, or not as they are: one, of the weakest kind."""
         found = [part for one in several for part in self.parts(seen.at(one), depth=depth)]
         turned = sign in {*NOT, "!", "~"}
@@ -273,20 +275,20 @@ class Triggers:
         weak = (Asks.UNKNOWN, Asks.NOTHING, Asks.BUTTON, Asks.RELEASED, Asks.OTHER_MODE)
         asks = next((kind for kind in weak if kind in kinds), Asks.SWITCH)
         if turned and len(found) == 1 and NOT_TEST.fullmatch(found[0].key):
-            return Part(Asks.TEST_MODE, found[0].key[4:-1])
+            return TriggerPart(Asks.TEST_MODE, found[0].key[4:-1])
         if turned and len(found) == 1 and MATCH.fullmatch(found[0].key):
-            return Part(Asks.SWITCH, key)
+            return TriggerPart(Asks.SWITCH, key)
         if kinds == {Asks.TEST_MODE}:
             asks = Asks.OTHER_MODE if turned else Asks.TEST_MODE
         elif turned and Asks.TEST_MODE in kinds:
             asks = Asks.OTHER_MODE
         elif turned and asks is Asks.BUTTON:
             asks = Asks.RELEASED
-        return Part(asks, key, min(controllers, default=""))
+        return TriggerPart(asks, key, min(controllers, default=""))
 
     def _named(
         self, seen: BoundNode, node: Node, depth: int, *, text: str = ""
-    ) -> tuple[Part, ...]:
+    ) -> tuple[TriggerPart, ...]:
         """A method or a variable that has no one value."""
         if isinstance(node, Member) and not text:
             call = Call(node.place, node, ())
@@ -303,19 +305,19 @@ class Triggers:
         mode = owner in MODES_OF or word.lower().startswith("is")
         if mode and TEST_MODE.fullmatch(word):
             by = " of RobotModeTriggers" if owner == "RobotModeTriggers" else ""
-            return (Part(Asks.TEST_MODE, f"test mode{by}"),)
+            return (TriggerPart(Asks.TEST_MODE, f"test mode{by}"),)
         if mode and OTHER_MODE.fullmatch(word):
-            return (Part(Asks.OTHER_MODE, word),)
+            return (TriggerPart(Asks.OTHER_MODE, word),)
         if isinstance(node, Name) and self._is_open(seen, node):
-            return (Part(Asks.UNKNOWN, ""),)
-        return (Part(Asks.SWITCH, text or node.place.text),)
+            return (TriggerPart(Asks.UNKNOWN, ""),)
+        return (TriggerPart(Asks.SWITCH, text or node.place.text),)
 
     def _is_open(self, seen: BoundNode, node: Name) -> bool:
         found = self._names.local(node.name, seen.scope)
-        return any(isinstance(one.value, Parameter) for one in found)
+        return any(isinstance(one.value, FunctionParameter) for one in found)
 
 
-def _kept(part: Part) -> Part:
+def _kept(part: TriggerPart) -> TriggerPart:
     """A part that a variable holds: test mode is then what it was when the program started."""
     return replace(part, asks=Asks.ONCE) if part.asks is Asks.TEST_MODE else part
 

@@ -9,13 +9,13 @@ of 2027 need no table of their own. Packages (``edu.wpi.first``, ``org.wpilib``)
 import re
 from dataclasses import dataclass
 
-from grader.robotcode.facts import Certainty, Output, Quantity
+from grader.robotcode.facts import Certainty, ConfigQuantity, Output
 
 # What Config uses where it is given nothing. WPILib 2024 to 2026; under discussion for 2027.
 DEFAULTS = {
-    "ramp": Quantity(Certainty.DEFAULT, 1.0, "volts-per-second"),
-    "step": Quantity(Certainty.DEFAULT, 7.0, "volts"),
-    "timeout": Quantity(Certainty.DEFAULT, 10.0, "seconds"),
+    "ramp": ConfigQuantity(Certainty.DEFAULT, 1.0, "volts-per-second"),
+    "step": ConfigQuantity(Certainty.DEFAULT, 7.0, "volts"),
+    "timeout": ConfigQuantity(Certainty.DEFAULT, 10.0, "seconds"),
 }
 
 # Keyword arguments, in order of position.
@@ -37,7 +37,7 @@ DIRECTIONS = frozenset({"forward", "reverse"})  # as `constant` gives them
 
 
 @dataclass(frozen=True)
-class Unit:
+class JavaUnit:
     """A unit of Java's Units class.
 
     Args:
@@ -54,27 +54,27 @@ class Unit:
     other: bool = False
 
 
-def _with_singular(name: str, unit: Unit) -> dict[str, Unit]:
+def _with_singular(name: str, unit: JavaUnit) -> dict[str, JavaUnit]:
     """A unit under its plural and its singular name."""
     singular = {"Feet": "Foot", "Inches": "Inch"}.get(name, name.removesuffix("s"))
     return {name: unit, singular: unit}
 
 
-def _units() -> dict[str, Unit]:
-    units: dict[str, Unit] = {}
+def _units() -> dict[str, JavaUnit]:
+    units: dict[str, JavaUnit] = {}
     for prefix, size in (("", 1.0), ("Milli", 1e-3), ("Micro", 1e-6), ("Kilo", 1e3)):
-        units |= _with_singular((prefix + "volts").capitalize(), Unit(size, volts=1))
-        units |= _with_singular((prefix + "seconds").capitalize(), Unit(size, seconds=1))
-        units |= _with_singular((prefix + "amps").capitalize(), Unit(size, other=True))
-    units |= _with_singular("Minutes", Unit(60.0, seconds=1))
+        units |= _with_singular((prefix + "volts").capitalize(), JavaUnit(size, volts=1))
+        units |= _with_singular((prefix + "seconds").capitalize(), JavaUnit(size, seconds=1))
+        units |= _with_singular((prefix + "amps").capitalize(), JavaUnit(size, other=True))
+    units |= _with_singular("Minutes", JavaUnit(60.0, seconds=1))
     linear = ("Meters", "Millimeters", "Centimeters", "Feet", "Inches")
     angular = ("Rotations", "Revolutions", "Radians", "Degrees")
     for family, names in (("linear", linear), ("angular", angular)):
-        length = Unit(1.0, family=family, other=True)
+        length = JavaUnit(1.0, family=family, other=True)
         for name in names:
             units |= _with_singular(name, length)
             units[f"{name}PerSecond"] = units[f"{name}PerSecondPerSecond"] = length
-    units["RPM"] = Unit(1.0, family="angular", other=True)
+    units["RPM"] = JavaUnit(1.0, family="angular", other=True)
     return units
 
 

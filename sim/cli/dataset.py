@@ -10,8 +10,8 @@ from sim.cli_support import DONE, INTERRUPTED, NOT_RIGHT, complain
 from sim.errors import BadRequest
 
 if TYPE_CHECKING:
-    from sim.dataset.plan import Job
-    from sim.dataset.run import Place
+    from sim.dataset.plan import LogJob
+    from sim.dataset.run import DatasetPlace
     from sim.dataset.secret import Secret
     from sim.dataset.spec import Spec
 
@@ -52,12 +52,12 @@ def dataset(  # noqa: PLR0917 - click passes options by name
         raise click.UsageError("Missing option '-o': a folder for the logs.")
     from sim.dataset.key import key_of  # noqa: PLC0415 - as all below: --help must not wait
     from sim.dataset.plan import plan_jobs  # noqa: PLC0415
-    from sim.dataset.run import Place  # noqa: PLC0415
+    from sim.dataset.run import DatasetPlace  # noqa: PLC0415
     from sim.dataset.secret import find_secret  # noqa: PLC0415
     from sim.dataset.spec import read_spec  # noqa: PLC0415
 
     asked = read_spec(spec)
-    place = Place(output, key or key_of(output))
+    place = DatasetPlace(output, key or key_of(output))
     place.keep_apart(spec=spec, secret=asked.secret)
     secret = find_secret(asked, make=not check)
     jobs = plan_jobs(asked, secret)
@@ -76,8 +76,8 @@ def dataset(  # noqa: PLR0917 - click passes options by name
 
 def _make(
     asked: "Spec",
-    place: "Place",
-    jobs: "tuple[Job, ...]",
+    place: "DatasetPlace",
+    jobs: "tuple[LogJob, ...]",
     *,
     secret: "Secret",
     overwrite: bool,
@@ -135,7 +135,7 @@ def _make(
     return DONE
 
 
-def _check(place: "Place", jobs: "tuple[Job, ...]", secret: "Secret") -> int:
+def _check(place: "DatasetPlace", jobs: "tuple[LogJob, ...]", secret: "Secret") -> int:
     """Say what is not as it was made."""
     from sim.dataset.checking import verify_dataset  # noqa: PLC0415 - --help must not wait for it
 

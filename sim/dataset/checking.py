@@ -5,13 +5,13 @@ from pathlib import Path
 
 from sim.dataset.folder import digest, list_unknown_logs
 from sim.dataset.key import by_file, read_key
-from sim.dataset.plan import Job
+from sim.dataset.plan import LogJob
 from sim.dataset.secret import Secret
 from sim.errors import BadRequest
 
 
 def verify_dataset(
-    folder: Path, jobs: Sequence[Job], *, key: Path, secret: Secret
+    folder: Path, jobs: Sequence[LogJob], *, key: Path, secret: Secret
 ) -> tuple[str, ...]:
     """What is not as it was made, a line each; empty if all is.
 

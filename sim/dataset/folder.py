@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sim.dataset.key import Entry
-from sim.dataset.plan import Job
+from sim.dataset.plan import LogJob
 from sim.errors import BadRequest
 
 MOMENT = 946_684_800  # [s] 2000-01-01: when a file was made would tell how long it took, and why
@@ -27,12 +27,12 @@ class Survey:
     """
 
     kept: tuple[Entry, ...]
-    todo: tuple[Job, ...]
+    todo: tuple[LogJob, ...]
     foreign: tuple[str, ...]
     stale: tuple[Entry, ...]
 
 
-def survey_folder(folder: Path, jobs: Sequence[Job], *, known: Iterable[Entry]) -> Survey:
+def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry]) -> Survey:
     """Look at what is there.
 
     Args:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from sim.dataset.table import Span, Table, suggest_word
+from sim.dataset.table import NumberRange, TomlTable, suggest_word
 from sim.effects import EFFECTS
 from sim.errors import Refusal
 from sim.fault import MOST, Fault
@@ -21,7 +21,7 @@ FAULT = ("name", "severity", "test", "at", "chance")
 
 
 @dataclass(frozen=True)
-class Settings:
+class LogSettings:
     """How the tests of a log are run.
 
     Args:
@@ -50,7 +50,7 @@ class Hiding:
     """
 
     names: tuple[str, ...]
-    size: Span
+    size: NumberRange
     chance: float
 
 
@@ -67,9 +67,9 @@ class Spoiling:
     """
 
     names: tuple[str, ...]
-    severity: Span
+    severity: NumberRange
     tests: tuple[str, ...]
-    at: Span | None
+    at: NumberRange | None
     chance: float
 
 
@@ -91,16 +91,16 @@ class Logs:
     mechanisms: tuple[str, ...]
     count: int
     drawn: bool
-    settings: Settings
+    settings: LogSettings
     effects: tuple[Hiding, ...]
     faults: tuple[Spoiling, ...]
 
 
-def read_settings(table: Table, *, default: Settings) -> Settings:
+def read_settings(table: TomlTable, *, default: LogSettings) -> LogSettings:
     """The settings under ``routine``, each as in the default unless it is there."""
     if "routine" not in table:
         return default
-    found = Table(table.content["routine"], where=f"{table.where}, routine", known=ROUTINE)
+    found = TomlTable(table.content["routine"], where=f"{table.where}, routine", known=ROUTINE)
     tests = found.choices("tests", TESTS) if "tests" in found else default.tests
     try:
         routine = Routine(
@@ -114,7 +114,7 @@ def read_settings(table: Table, *, default: Settings) -> Settings:
     period = found.number("period", default=default.period)
     if not FASTEST <= period <= SLOWEST:
         found.wrong("period", advice=f"Give {FASTEST:g} to {SLOWEST:g} s; a robot's is 0.02.")
-    return Settings(
+    return LogSettings(
         routine=routine,
         tests=tests,
         period=period,
@@ -123,7 +123,7 @@ def read_settings(table: Table, *, default: Settings) -> Settings:
     )
 
 
-def read_logs(table: Table, *, default: Settings) -> Logs:
+def read_logs(table: TomlTable, *, default: LogSettings) -> Logs:
     """One ``[[logs]]``, checked."""
     settings = read_settings(table, default=default)
     mechanisms = table.choices("mechanisms", MECHANISMS)
@@ -148,7 +148,7 @@ def read_logs(table: Table, *, default: Settings) -> Logs:
     return found
 
 
-def _hiding(table: Table, *, mechanisms: tuple[str, ...]) -> Hiding:
+def _hiding(table: TomlTable, *, mechanisms: tuple[str, ...]) -> Hiding:
     """One ``[[logs.effects]]``, tried on every mechanism at both ends of its size."""
     found = Hiding(
         names=table.choices("name", EFFECTS),
@@ -167,7 +167,7 @@ def _hiding(table: Table, *, mechanisms: tuple[str, ...]) -> Hiding:
     return found
 
 
-def _spoiling(table: Table, *, settings: Settings, mechanisms: tuple[str, ...]) -> Spoiling:
+def _spoiling(table: TomlTable, *, settings: LogSettings, mechanisms: tuple[str, ...]) -> Spoiling:
     """One ``[[logs.faults]]``."""
     found = Spoiling(
         names=table.choices("name", FAULTS),

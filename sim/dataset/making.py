@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from sim.contaminate import contaminate
-from sim.dataset.plan import DAMAGE, MECHANISM, RECORD, Job, Strike
+from sim.dataset.plan import DAMAGE, MECHANISM, RECORD, LogJob, PlannedStrike
 from sim.errors import Refusal
 from sim.fault import Spoilt, Stretch
 from sim.formats import write
@@ -43,7 +43,7 @@ class Made:
         truth: about them, as it stands in the key.
     """
 
-    job: Job
+    job: LogJob
     contents: Mapping[str, bytes]
     truth: Mapping[str, object]
 
@@ -52,18 +52,18 @@ class Made:
 class Failed:
     """A log that cannot be made: a refusal as plain data, which every process can hand on."""
 
-    job: Job
+    job: LogJob
     what: str
     advice: str
 
 
-def make_log(job: Job) -> Made | Failed:
+def make_log(job: LogJob) -> Made | Failed:
     """Make a log. Threads of one process take turns: they would share its one processor anyway."""
     with ALONE:
         return _made(job)
 
 
-def _made(job: Job) -> Made | Failed:
+def _made(job: LogJob) -> Made | Failed:
     try:
         built = _built(job)
         asked = job.settings
@@ -90,7 +90,7 @@ def _made(job: Job) -> Made | Failed:
         )
 
 
-def _built(job: Job) -> Mechanism:
+def _built(job: LogJob) -> Mechanism:
     """The mechanism, drawn and with its effects hidden."""
     built = MECHANISMS[job.mechanism]
     if job.drawn:
@@ -118,7 +118,7 @@ def _rounded(run: Run) -> dict[str, Any]:
     }
 
 
-def _spoil(log: Log, job: Job) -> tuple[Log, list[tuple[Stretch, ...]]]:
+def _spoil(log: Log, job: LogJob) -> tuple[Log, list[tuple[Stretch, ...]]]:
     """The log with all its faults, and where each of them is."""
     where = []
     for number, strike in enumerate(job.strikes):
@@ -128,7 +128,7 @@ def _spoil(log: Log, job: Job) -> tuple[Log, list[tuple[Stretch, ...]]]:
     return log, where
 
 
-def _struck(log: Log, strike: Strike, job: Job, number: int) -> Spoilt:
+def _struck(log: Log, strike: PlannedStrike, job: LogJob, number: int) -> Spoilt:
     """The log with one more fault; where chance chose a moment that cannot be, it chooses again."""
     attempt = 0
     while True:
@@ -148,7 +148,7 @@ def _struck(log: Log, strike: Strike, job: Job, number: int) -> Spoilt:
                 raise
 
 
-def _contents(log: Log, job: Job) -> dict[str, bytes]:
+def _contents(log: Log, job: LogJob) -> dict[str, bytes]:
     """The log as files."""
     with tempfile.TemporaryDirectory(prefix="sysid-") as folder:
         contents = {}
@@ -160,7 +160,7 @@ def _contents(log: Log, job: Job) -> dict[str, bytes]:
 
 
 def _truth(
-    built: Mechanism, job: Job, *, log: Log, where: list[tuple[Stretch, ...]]
+    built: Mechanism, job: LogJob, *, log: Log, where: list[tuple[Stretch, ...]]
 ) -> dict[str, object]:
     """What is true of a log, as it stands in the key."""
     per = unit(built.units)

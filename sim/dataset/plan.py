@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from sim.dataset.logs import Hiding, Logs, Settings, Spoiling
+from sim.dataset.logs import Hiding, Logs, LogSettings, Spoiling
 from sim.dataset.secret import Secret, log_seed
 from sim.dataset.spec import Spec
-from sim.dataset.table import Span
+from sim.dataset.table import NumberRange
 from sim.student import folder_name
 
 EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # streams of chance, apart from one another
@@ -31,7 +31,7 @@ class Hidden:
 
 
 @dataclass(frozen=True)
-class Strike:
+class PlannedStrike:
     """A fault that strikes a log.
 
     Args:
@@ -44,11 +44,11 @@ class Strike:
     fault: str
     severity: float
     test: str | None
-    at: Span | None
+    at: NumberRange | None
 
 
 @dataclass(frozen=True)
-class Job:
+class LogJob:
     """One log to make.
 
     Args:
@@ -69,9 +69,9 @@ class Job:
     student: str
     mechanism: str
     drawn: bool
-    settings: Settings
+    settings: LogSettings
     effects: tuple[Hidden, ...]
-    strikes: tuple[Strike, ...]
+    strikes: tuple[PlannedStrike, ...]
     formats: tuple[str, ...]
     seed: int
 
@@ -97,7 +97,7 @@ def random_stream(seed: int, *which: int) -> np.random.Generator:
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=which)))
 
 
-def plan_jobs(spec: Spec, secret: Secret) -> tuple[Job, ...]:
+def plan_jobs(spec: Spec, secret: Secret) -> tuple[LogJob, ...]:
     """The jobs of a spec, in the order of their names.
 
     Args:
@@ -127,13 +127,13 @@ def _seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, Logs
                 yield seed, logs, mechanism
 
 
-def _numbered(found: list[tuple[int, Logs, str]], spec: Spec, student: str) -> Iterator[Job]:
+def _numbered(found: list[tuple[int, Logs, str]], spec: Spec, student: str) -> Iterator[LogJob]:
     """Jobs, shuffled by their seeds and numbered."""
     folder = f"{folder_name(student)}/" if student else ""
     digits = max(2, len(str(len(found))))
     shuffled = sorted(found, key=lambda one: one[0])
     for number, (seed, logs, mechanism) in enumerate(shuffled, start=1):
-        yield Job(
+        yield LogJob(
             name=f"{folder}log-{number:0{digits}}",
             where=logs.where,
             student=student,
@@ -154,11 +154,11 @@ def _effects(asked: tuple[Hiding, ...], seed: int) -> Iterator[Hidden]:
             yield Hidden(_one_of(one.names, rng), one.size.draw(rng))
 
 
-def _strikes(asked: tuple[Spoiling, ...], seed: int) -> Iterator[Strike]:
+def _strikes(asked: tuple[Spoiling, ...], seed: int) -> Iterator[PlannedStrike]:
     for number, one in enumerate(asked):
         rng = random_stream(seed, FAULT, number)
         if rng.random() < one.chance:
-            yield Strike(
+            yield PlannedStrike(
                 fault=_one_of(one.names, rng),
                 severity=one.severity.draw(rng),
                 test=_one_of(one.tests, rng) if one.tests else None,

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from sim.dataset.table import Table
+from sim.dataset.table import TomlTable
 from sim.errors import BadRequest, Refusal
 from sim.roster import read_roster
 from sim.student import same, student_name
@@ -12,7 +12,7 @@ COLUMN = "student"  # [header of a CSV file] unless the spec names another
 EXAMPLE = "roster.csv"
 
 
-def students_of(table: Table, *, folder: Path) -> tuple[str, ...]:
+def students_of(table: TomlTable, *, folder: Path) -> tuple[str, ...]:
     """The students, in their own order; empty if the spec has none.
 
     Args:
@@ -29,7 +29,7 @@ def students_of(table: Table, *, folder: Path) -> tuple[str, ...]:
         texts = table.texts("students", example="ann")
         return distinct_names((f"{table.where}, students", text) for text in texts)
     if isinstance(given, dict):
-        found = Table(given, where=f"{table.where}, students", known=("file", "column"))
+        found = TomlTable(given, where=f"{table.where}, students", known=("file", "column"))
         file = found.text("file", example=EXAMPLE)
         column = found.text("column", example=COLUMN) if "column" in found else COLUMN
     else:

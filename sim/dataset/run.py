@@ -9,15 +9,15 @@ from pathlib import Path
 from sim.dataset.folder import Shelf, Survey, name_files, survey_folder
 from sim.dataset.key import Entry, Journal, read_key, write_key
 from sim.dataset.making import Failed, Made, make_log
-from sim.dataset.plan import Job
+from sim.dataset.plan import LogJob
 from sim.dataset.secret import Secret
 from sim.errors import BadRequest
 
-Maker = Callable[[Sequence[Job]], Iterator[Made | Failed]]
+Maker = Callable[[Sequence[LogJob]], Iterator[Made | Failed]]
 
 
 @dataclass(frozen=True)
-class Place:
+class DatasetPlace:
     """Where a dataset goes.
 
     Args:
@@ -49,7 +49,9 @@ class Place:
                 )
 
 
-def check_folder(place: Place, jobs: Sequence[Job], *, secret: Secret, overwrite: bool) -> Survey:
+def check_folder(
+    place: DatasetPlace, jobs: Sequence[LogJob], *, secret: Secret, overwrite: bool
+) -> Survey:
     """What is there already, or a refusal if something else is.
 
     Args:
@@ -89,13 +91,13 @@ def check_folder(place: Place, jobs: Sequence[Job], *, secret: Secret, overwrite
     return found
 
 
-def rehearse_jobs(jobs: Sequence[Job]) -> None:
+def rehearse_jobs(jobs: Sequence[LogJob]) -> None:
     """Make the fullest log of each kind and throw it away: what is impossible shows at once.
 
     Raises:
         BadRequest: one of them cannot be made.
     """
-    fullest: dict[tuple[str, str], Job] = {}
+    fullest: dict[tuple[str, str], LogJob] = {}
     for job in jobs:
         kind = (job.where, job.mechanism)
         if kind not in fullest or _parts(job) > _parts(fullest[kind]):
@@ -105,7 +107,7 @@ def rehearse_jobs(jobs: Sequence[Job]) -> None:
 
 
 def finish_dataset(
-    place: Place,
+    place: DatasetPlace,
     found: Survey,
     *,
     maker: Maker,
@@ -168,12 +170,12 @@ def _entry(made: Made) -> Entry:
     return {"files": hashes, **made.truth, "plan": made.job.fingerprint}
 
 
-def _files(jobs: Sequence[Job], folder: Path) -> list[str]:
+def _files(jobs: Sequence[LogJob], folder: Path) -> list[str]:
     """Files of unfinished logs that are there: half of a log that was being finished."""
     return [file for job in jobs for file in job.files if (folder / file).exists()]
 
 
-def _parts(job: Job) -> int:
+def _parts(job: LogJob) -> int:
     return len(job.effects) + len(job.strikes)
 
 

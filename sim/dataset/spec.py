@@ -7,9 +7,9 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim.dataset.logs import LOGS, MOST_LOGS, Logs, Settings, read_logs, read_settings
+from sim.dataset.logs import LOGS, MOST_LOGS, Logs, LogSettings, read_logs, read_settings
 from sim.dataset.roster import students_of
-from sim.dataset.table import Table
+from sim.dataset.table import TomlTable
 from sim.errors import BadRequest
 
 FORMATS = ("wpilog", "csv")
@@ -47,11 +47,11 @@ def read_spec(path: Path) -> Spec:
     Raises:
         BadRequest: it cannot be read, or asks for what is not there; the message names the key.
     """
-    top = Table(_parsed(path), where=str(path), known=TOP)
+    top = TomlTable(_parsed(path), where=str(path), known=TOP)
     name = top.text("name", example="week3")
     if len(name) > 64 or not name.isprintable():  # noqa: PLR2004 - as long as a student's name
         top.wrong("name", advice="Give a name of 1 to 64 characters.")
-    settings = read_settings(top, default=Settings())
+    settings = read_settings(top, default=LogSettings())
     logs = tuple(
         read_logs(one, default=settings) for one in top.tables("logs", name="logs", known=LOGS)
     )
@@ -96,7 +96,7 @@ def _parsed(path: Path) -> object:
         ) from None
 
 
-def _secret(top: Table, *, folder: Path) -> Path | None:
+def _secret(top: TomlTable, *, folder: Path) -> Path | None:
     """The file with the secret. What is named is never repeated: it might be the secret itself."""
     if "secret" not in top:
         return None

@@ -19,7 +19,7 @@ Kind = TypeVar("Kind")
 
 
 @dataclass(frozen=True)
-class Span:
+class NumberRange:
     """A number that is fixed, or drawn evenly between two.
 
     Args:
@@ -35,7 +35,7 @@ class Span:
         return float(rng.uniform(self.least, self.most))
 
 
-class Table:
+class TomlTable:
     """A table with the keys it may have.
 
     Args:
@@ -130,7 +130,7 @@ class Table:
 
     def span(
         self, key: str, *, default: float, least: float = -math.inf, most: float = math.inf
-    ) -> Span:
+    ) -> NumberRange:
         """A number, or a list of the least and the most it may be."""
         value = self.content.get(key, default)
         ends = [_number(end) for end in (value if isinstance(value, list) else [value, value])]
@@ -142,9 +142,9 @@ class Table:
         numbers = [end for end in ends if end is not None and least <= end <= most]
         if len(ends) != 2 or numbers != sorted(numbers) or len(numbers) != len(ends):  # noqa: PLR2004 - the least and the most
             self.wrong(key, advice=advice)
-        return Span(*numbers)
+        return NumberRange(*numbers)
 
-    def tables(self, key: str, *, name: str, known: Sequence[str]) -> tuple["Table", ...]:
+    def tables(self, key: str, *, name: str, known: Sequence[str]) -> tuple["TomlTable", ...]:
         """The tables of a list of tables.
 
         Args:
@@ -156,7 +156,7 @@ class Table:
         if not isinstance(value, list):
             self.wrong(key, advice=f"Begin each with a line [[{name}]].")
         return tuple(
-            Table(one, where=f"{self.where}, [[{name}]] number {number}", known=known)
+            TomlTable(one, where=f"{self.where}, [[{name}]] number {number}", known=known)
             for number, one in enumerate(value, start=1)
         )
 

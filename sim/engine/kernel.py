@@ -180,7 +180,7 @@ def _works(kept: Path) -> bool:
 
 def _forget_old(where: Path) -> None:
     """Leave the newest few engines, with what was compiled for them."""
-    for old in cache.oldest_files(where.glob("sysid_engine_*.kernel"), than=KEPT):
+    for old in cache.all_but_newest(where.glob("sysid_engine_*.kernel"), than=KEPT):
         beside = where.glob(f"__pycache__/{old.stem}.*")
         cache.remove_files((old, old.with_suffix(".py"), *beside))
 

@@ -19,7 +19,7 @@ from typing import NamedTuple, Protocol, cast
 from sim.atomic_file import atomic_path
 from sim.doubt import Doubt
 from sim.errors import BadRequest, Refusal, UnreadableFile
-from sim.format import HEAD, Format, Reading
+from sim.format import HEAD, Format, ReadOptions
 from sim.log import Log
 from sim.units import unit
 from sim.vocabulary import TYPES
@@ -111,7 +111,7 @@ def read(
     """
     if type is not None and type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
-    asked = Reading(
+    asked = ReadOptions(
         units=None if units is None else unit(units).name,
         type=type,
         motor=motor,

@@ -37,7 +37,7 @@ class Gain:
 
 
 @dataclass(frozen=True)
-class Controller:
+class ControllerRow:
     """A row of the table of feedback gains, as text."""
 
     name: str
@@ -110,7 +110,7 @@ def measure_rows(found: Fit) -> list[tuple[str, str, str]]:
     return rows
 
 
-def controller_rows(found: Fit) -> list[Controller]:
+def controller_rows(found: Fit) -> list[ControllerRow]:
     """Feedback gains for every motor controller; empty where the model allows none."""
     rows = []
     for preset in PRESETS.values():
@@ -122,7 +122,7 @@ def controller_rows(found: Fit) -> list[Controller]:
         if {"velocity", "position"} <= set(tried):
             delays = {1000.0 * delay_of(found, preset, loop=loop) for loop in tried}
             rows.append(
-                Controller(
+                ControllerRow(
                     preset.name,
                     _counts(preset),
                     " and ".join(f"{delay:.3g}" for delay in sorted(delays)),

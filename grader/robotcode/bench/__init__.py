@@ -27,8 +27,8 @@ from grader.robotcode.bench.run_facts import (
     ButtonPress,
     DrivenMotor,
     LoggedMotor,
-    Outcome,
     RunFacts,
+    RunOutcome,
 )
 from grader.robotcode.bench.sandbox_files import copy_program
 from grader.robotcode.bench.sandboxed_run import (
@@ -47,8 +47,8 @@ __all__ = [
     "ButtonPress",
     "DrivenMotor",
     "LoggedMotor",
-    "Outcome",
     "RunFacts",
+    "RunOutcome",
     "installed",
     "press",
     "refuse_tampering",
@@ -99,7 +99,7 @@ def press(
 
 def _run(path: Path, name: str, script: Path, *, start: Start, seconds: float) -> RunFacts:
     if not installed():
-        return RunFacts(Outcome.CANNOT, "RobotPy is not installed here")
+        return RunFacts(RunOutcome.CANNOT, "RobotPy is not installed here")
     from grader.robotcode.bench.log_facts import read_facts  # noqa: PLC0415 - needs NumPy
 
     with scratch_folder() as place:

@@ -8,8 +8,8 @@ from grader.robotcode.bench.run_facts import (
     ButtonPress,
     DrivenMotor,
     LoggedMotor,
-    Outcome,
     RunFacts,
+    RunOutcome,
 )
 from grader.robotcode.bench.run_routine_child import BATTERY, METERS_PER_PULSE
 
@@ -29,7 +29,7 @@ SLIPS = {  # what a velocity is of the slope of its position, and how that comes
 
 
 @dataclass(frozen=True)
-class Fault:
+class RunFault:
     """Something the run shows to be wrong.
 
     Args:
@@ -45,22 +45,22 @@ class Fault:
     share: float = 1.0
 
 
-def find_stop(ran: RunFacts, *, where: str) -> Fault | None:
+def find_stop(ran: RunFacts, *, where: str) -> RunFault | None:
     """The code's own error, or its endless loop.
 
     Args:
         ran: the run.
         where: the callback that is asked about, ``drive`` or ``log``; empty is all the rest.
     """
-    if ran.outcome not in {Outcome.CRASHED, Outcome.ENDLESS} or ran.where != where:
+    if ran.outcome not in {RunOutcome.CRASHED, RunOutcome.ENDLESS} or ran.where != where:
         return None
     hint = f"That is how far it came {IN}. Mend that place, and grade again."
-    return Fault(ran.said, hint)
+    return RunFault(ran.said, hint)
 
 
 def check_setting(
     got: float, wanted: float, *, said: str, unit: str, advice: str, within: float = 1e-6
-) -> Fault | None:
+) -> RunFault | None:
     """A number of the Config.
 
     Args:
@@ -74,16 +74,16 @@ def check_setting(
     if math.isclose(got, wanted, rel_tol=1e-6, abs_tol=within):
         return None
     value = f"{got:.4g} {unit}" if math.isfinite(got) else "no end"
-    return Fault(f"{IN} {said} {value}", advice)
+    return RunFault(f"{IN} {said} {value}", advice)
 
 
-def check_driven_motors(ran: RunFacts) -> Fault | None:
+def check_driven_motors(ran: RunFacts) -> RunFault | None:
     """What every motor got, held against what the tests asked for."""
     wrong = [(motor, fault) for motor in ran.motors if (fault := _driven(motor))]
     if not wrong:
         return None
     seen, hint, misconception = wrong[0][1]
-    return Fault(seen, hint, misconception, len(wrong) / len(ran.motors))
+    return RunFault(seen, hint, misconception, len(wrong) / len(ran.motors))
 
 
 def _driven(motor: DrivenMotor) -> tuple[str, str, str] | None:
@@ -105,7 +105,7 @@ def _driven(motor: DrivenMotor) -> tuple[str, str, str] | None:
     return seen, "The voltage is changed on its way. Send it as it comes: setVoltage(voltage).", ""
 
 
-def check_logged_motors(ran: RunFacts, *, demanded: int = 0) -> Fault | None:
+def check_logged_motors(ran: RunFacts, *, demanded: int = 0) -> RunFault | None:
     """What the log says of the motors' voltages, and of which motor it says it.
 
     Args:
@@ -113,12 +113,12 @@ def check_logged_motors(ran: RunFacts, *, demanded: int = 0) -> Fault | None:
         demanded: how many of the motors that were driven have to be in the log.
     """
     if ran.lacking:
-        return Fault(f"{IN} the log cannot be read: {ran.lacking}", "Record all three signals.")
+        return RunFault(f"{IN} the log cannot be read: {ran.lacking}", "Record all three signals.")
     moved = sum(bool(motor.share) for motor in ran.motors)
     if ran.recorded and len(ran.recorded) < min(demanded, moved):
         seen = f"{IN} {moved} motors are driven, and the log has {len(ran.recorded)} of them"
         hint = "Each side has its own friction: record every motor, each under its own name."
-        return Fault(seen, hint, "", 1 - len(ran.recorded) / moved)
+        return RunFault(seen, hint, "", 1 - len(ran.recorded) / moved)
     mirrored = any((motor.share or 0) < 0 for motor in ran.motors)  # whose sign is whose, who knows
     for one in ran.recorded:
         fault = _voltage(one) or (None if mirrored else _sign(one))
@@ -129,89 +129,93 @@ def check_logged_motors(ran: RunFacts, *, demanded: int = 0) -> Fault | None:
     if len(eyes) == len(names) == len(ran.per_pulse) > len({*eyes}):
         twice = [one.name for one in ran.recorded if eyes.count(one.encoder or 0) > 1]
         hint = "Record for each motor what its own encoder says."
-        return Fault(f"{IN} {' and '.join(twice)} follow one and the same encoder", hint, "", 1 / 3)
+        return RunFault(
+            f"{IN} {' and '.join(twice)} follow one and the same encoder", hint, "", 1 / 3
+        )
     return None
 
 
-def _voltage(one: LoggedMotor) -> Fault | None:
+def _voltage(one: LoggedMotor) -> RunFault | None:
     advice = "Log what the motor put out: in Python, getVoltage() of the motor."
     off = abs(one.kept - one.lowered) > CLOSE * abs(one.lowered)
     if one.as_asked or (one.voltage and off and abs(one.voltage - 1.0) < CLOSE):
         low = f" of {one.lowered:.2f} V, which was all it got, the log says {one.kept:.2f} V"
         seen = f"{IN}, on a battery that sags,{low}" if off else f"{IN} the log repeats the request"
-        return Fault(f"{seen} ({one.name})", advice, "M-CMDVOLT", 1 / 2)
+        return RunFault(f"{seen} ({one.name})", advice, "M-CMDVOLT", 1 / 2)
     if one.voltage is not None and abs(one.voltage - 1.0) > CLOSE:
         seen = f"{IN} the voltage in the log is {one.voltage:.3g} times that of {one.name}"
-        return Fault(seen, advice, "", 1 / 2)
+        return RunFault(seen, advice, "", 1 / 2)
     return None
 
 
-def _sign(one: LoggedMotor) -> Fault | None:
+def _sign(one: LoggedMotor) -> RunFault | None:
     if one.forward is False:
         hint = "Invert the encoder, or what is logged, so that both signs agree."
         seen = f"{IN} a positive voltage of {one.name} goes with a negative velocity"
-        return Fault(seen, hint, "", 1 / 3)
+        return RunFault(seen, hint, "", 1 / 3)
     return None
 
 
-def check_logged_units(ran: RunFacts) -> Fault | None:
+def check_logged_units(ran: RunFacts) -> RunFault | None:
     """Whether positions and velocities fit each other, and the bench's encoders."""
     return next(filter(None, _units(ran)), None)
 
 
-def _units(ran: RunFacts) -> Iterator[Fault | None]:
+def _units(ran: RunFacts) -> Iterator[RunFault | None]:
     for one in ran.recorded:
         yield _rate(one)
         if one.encoder is not None and ran.per_pulse[one.encoder] == METERS_PER_PULSE:
             yield _scale(one)
 
 
-def _rate(one: LoggedMotor) -> Fault | None:
+def _rate(one: LoggedMotor) -> RunFault | None:
     if one.rate is None or abs(one.rate - 1.0) < CLOSE:
         return None
     seen = f"{IN} the velocity of {one.name} is {one.rate:.3g} times the slope of its position"
     if abs(one.rate + 1.0) < CLOSE:
-        return Fault(seen, "One of the two has the wrong sign.")
+        return RunFault(seen, "One of the two has the wrong sign.")
     slip = _slip(abs(one.rate)) or "They are in different units"
-    return Fault(seen, f"{slip}. Choose one unit, and the same per second.", "M-UNITS")
+    return RunFault(seen, f"{slip}. Choose one unit, and the same per second.", "M-UNITS")
 
 
-def _scale(one: LoggedMotor) -> Fault | None:
+def _scale(one: LoggedMotor) -> RunFault | None:
     """An encoder of the exercise's own drivetrain counts meters: so must the log."""
     if one.scale is None or (abs(abs(one.scale) - 1.0) < CLOSE and not one.angular):
         return None
     seen = f"{IN} {one.name} moved 1 m, and the log says {abs(one.scale):.4g}"
     unit = "rotations" if one.angular else "meters"
-    return Fault(f"{seen} {unit}", "The encoders count meters: log them as they come.", "M-UNITS")
+    return RunFault(
+        f"{seen} {unit}", "The encoders count meters: log them as they come.", "M-UNITS"
+    )
 
 
 def _slip(factor: float) -> str:
     return next((said for slip, said in SLIPS.items() if abs(factor / slip - 1) < NEAR), "")
 
 
-def check_requirements(ran: RunFacts) -> Fault | None:
+def check_requirements(ran: RunFacts) -> RunFault | None:
     """Whether the tests require the subsystem they drive."""
     if ran.required:
         return None
     hint = "Pass self after the two callbacks. Then no other command can move the motors meanwhile."
-    return Fault(f"{IN} the tests do not require the subsystem they drive", hint)
+    return RunFault(f"{IN} the tests do not require the subsystem they drive", hint)
 
 
-def check_release(ran: RunFacts) -> Fault | None:
+def check_release(ran: RunFacts) -> RunFault | None:
     """Whether a test stops when its button is let go."""
     for one in ran.presses:
         if one.stayed:
             hint = "It has to stop when the button is let go: hand the test itself to whileTrue()."
-            return Fault(f"{IN} {_of(one)} went on when it was let go", hint, "", 2 / 3)
+            return RunFault(f"{IN} {_of(one)} went on when it was let go", hint, "", 2 / 3)
     return None
 
 
-def check_guard(ran: RunFacts) -> Fault | None:
+def check_guard(ran: RunFacts) -> RunFault | None:
     """Whether a button starts a test while the robot is driven."""
     for one in ran.presses:
         if not one.test_mode:
             hint = "The guard lets it through. Ask each time, and for what no driver does."
-            return Fault(f"{IN}, outside of test mode, {_of(one)} ran", hint)
+            return RunFault(f"{IN}, outside of test mode, {_of(one)} ran", hint)
     return None
 
 

@@ -20,8 +20,8 @@ from grader.robotcode.bench.run_facts import (
     ButtonPress,
     DrivenMotor,
     LoggedMotor,
-    Outcome,
     RunFacts,
+    RunOutcome,
 )
 from grader.robotcode.bench.run_routine_child import LONGEST
 from grader.robotcode.bench.sandboxed_run import LARGEST
@@ -91,7 +91,7 @@ def read_facts(folder: Path, file: Path, *, ended: bool, seconds: float) -> RunF
     except FileNotFoundError:
         return _gone(folder, file, ended=ended, seconds=seconds)
     except (*NOT_OURS, RecursionError):
-        return RunFacts(Outcome.CANNOT, "the run left nothing that can be read")
+        return RunFacts(RunOutcome.CANNOT, "the run left nothing that can be read")
 
 
 def _left(path: Path) -> Path:
@@ -115,32 +115,32 @@ def _gone(folder: Path, file: Path, *, ended: bool, seconds: float) -> RunFacts:
         where = ""
     if ended and not where:
         return RunFacts(
-            Outcome.CRASHED, "your code ended the robot program in the middle of a test"
+            RunOutcome.CRASHED, "your code ended the robot program in the middle of a test"
         )
     stack = re.findall(r'File "(.*)", line (\d+) in (\w+)', where)
     lines = [int(line) for name, line, _ in stack if Path(name).name == file.name]
     inside = [name for _, _, name in stack if name in {"drive_callback", "log_callback"}]
     if stack and not lines:  # nothing of the learner's was at work: a machine that is too busy
-        return RunFacts(Outcome.CANNOT, f"the simulation took longer than {seconds:g} s")
+        return RunFacts(RunOutcome.CANNOT, f"the simulation took longer than {seconds:g} s")
     line = lines[0] if lines else 0
     place = f"{file.name}, line {line}: " if line else ""
     said = f"{place}this did not come to an end within {seconds:g} s"
     callback = inside[0].removesuffix("_callback") if inside else ""
-    return RunFacts(Outcome.ENDLESS, said, line, callback)
+    return RunFacts(RunOutcome.ENDLESS, said, line, callback)
 
 
 def _facts(seen: dict[str, Any], folder: Path, file: Path) -> RunFacts:
     if "cannot" in seen:
-        return RunFacts(Outcome.CANNOT, one_line(seen["cannot"]))
+        return RunFacts(RunOutcome.CANNOT, one_line(seen["cannot"]))
     if "crash" in seen:
         return _crash(seen["crash"], file)
     if "presses" in seen:
         return RunFacts(
-            Outcome.RAN, presses=tuple(_press(one) for one in seen["presses"][:MOST_PRESSES])
+            RunOutcome.RAN, presses=tuple(_press(one) for one in seen["presses"][:MOST_PRESSES])
         )
     columns = list(zip(*seen["rows"], strict=True))
     if not columns:
-        return RunFacts(Outcome.CANNOT, "no test ever began")
+        return RunFacts(RunOutcome.CANNOT, "no test ever began")
     numbers = [np.array(column, dtype=np.float64) for column in columns[1:5]]
     trace = BenchTrace(np.array(columns[0], dtype=np.str_), *numbers)
     lasted = float(seen["lasted"]["quasistatic-forward"])
@@ -169,9 +169,9 @@ def _crash(crash: dict[str, Any], file: Path) -> RunFacts:
     error, line = one_line(crash["error"]), int(crash["line"])
     other = explain_other_season(error, file.read_text(encoding="utf-8", errors="replace"))
     if other:
-        return RunFacts(Outcome.CANNOT, other)
+        return RunFacts(RunOutcome.CANNOT, other)
     place = f"{one_line(crash['file'])}, line {line}: " if line else ""
-    return RunFacts(Outcome.CRASHED, f"{place}{error}", line, one_line(crash["where"]))
+    return RunFacts(RunOutcome.CRASHED, f"{place}{error}", line, one_line(crash["where"]))
 
 
 def _driven(names: list[str], trace: BenchTrace) -> tuple[DrivenMotor, ...]:
@@ -198,17 +198,17 @@ def _with_log(path: Path, trace: BenchTrace, facts: dict[str, Any]) -> RunFacts:
         names = _names(_left(path))
         logs = {name: read(path, motor=name) for name in names or ()}
     except FileNotFoundError:
-        return RunFacts(Outcome.RAN, **facts, lacking="it is gone")
+        return RunFacts(RunOutcome.RAN, **facts, lacking="it is gone")
     except Refusal as refusal:
-        return RunFacts(Outcome.RAN, **facts, lacking=one_line(refusal.what))
+        return RunFacts(RunOutcome.RAN, **facts, lacking=one_line(refusal.what))
     if names is None:
-        return RunFacts(Outcome.RAN, **facts)
+        return RunFacts(RunOutcome.RAN, **facts)
     if not names:
         lacking = "no motor in it has voltage, position and velocity"
-        return RunFacts(Outcome.RAN, **facts, lacking=lacking)
+        return RunFacts(RunOutcome.RAN, **facts, lacking=lacking)
     tests = dict.fromkeys(run.test for log in logs.values() for run in log.runs)
     recorded = tuple(_recorded(name, log, trace) for name, log in logs.items())
-    return RunFacts(Outcome.RAN, **facts, tests=tuple(tests), recorded=recorded)
+    return RunFacts(RunOutcome.RAN, **facts, tests=tuple(tests), recorded=recorded)
 
 
 def _names(path: Path) -> list[str] | None:

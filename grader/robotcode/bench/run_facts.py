@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 
-class Outcome(Enum):
+class RunOutcome(Enum):
     """How a run ended."""
 
     RAN = "ran"  # all four tests
@@ -107,7 +107,7 @@ class RunFacts:
             robot and the run shows nothing to be right; empty if nowhere.
     """
 
-    outcome: Outcome
+    outcome: RunOutcome
     said: str = ""
     line: int = 0
     where: str = ""

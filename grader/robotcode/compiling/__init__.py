@@ -4,11 +4,11 @@ No compiler is at hand: Java is read with tree-sitter, and Python with ``ast``. 
 be right is reported, and code that leans on classes out of sight is left alone.
 """
 
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.symbol_table import SymbolTable
 
 
-def compile_errors(names: SymbolTable) -> tuple[Problem, ...]:
+def compile_errors(names: SymbolTable) -> tuple[ParseProblem, ...]:
     """What keeps a program from being compiled, or in Python from being run, in the order of lines.
 
     Args:

@@ -5,18 +5,18 @@ from collections.abc import Iterator
 
 from grader.robotcode.compiling.java_types import type_errors
 from grader.robotcode.compiling.season import HOME, INHERITED, METHODS, PLAIN, SEASON, suggest_name
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import (
     Assign,
     Call,
     Cast,
     Class,
     Function,
+    FunctionParameter,
     Import,
     Member,
     Name,
     Node,
-    Parameter,
     Reference,
     Self,
 )
@@ -55,7 +55,7 @@ BLANK_FINAL = re.compile(
 PACKAGE = re.compile(r"(edu|com|org|java|javax|frc|swervelib|choreo)$")
 
 
-def java_errors(names: SymbolTable) -> Iterator[Problem]:
+def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     """What a compiler would stop at; nothing for a file without a package, a part of a program."""
     module = names.main
     if not module.package:
@@ -71,15 +71,15 @@ def java_errors(names: SymbolTable) -> Iterator[Problem]:
     targets = {node.target for node, _ in every if isinstance(node, Call)}
     made = [one for one, _ in every if isinstance(one, Assign) and one.declares]
     brought = {last_name(one.target) for one in made}
-    brought |= {one.name for one, _ in every if isinstance(one, Parameter)}
+    brought |= {one.name for one, _ in every if isinstance(one, FunctionParameter)}
     for node, scope in every:
         line = node.place.line
         target = node.target if isinstance(node, Assign) and not node.declares else None
         if isinstance(target, Name) and target.name not in brought and _closed(scope, names):
-            yield Problem(f"nothing declares {target.name}", line)
+            yield ParseProblem(f"nothing declares {target.name}", line)
         for name in _types(node):
             if not open_ and not _is_type(name, declared, scope, names):
-                yield Problem(_undeclared(name), line)
+                yield ParseProblem(_undeclared(name), line)
         method = node in targets and not getattr(node, "name", "")[:1].isupper()
         if isinstance(node, Name) and name_is_value(node) and not method:
             yield from _variable(node, declared, scope, names, open_=open_)
@@ -87,17 +87,17 @@ def java_errors(names: SymbolTable) -> Iterator[Problem]:
             yield from _method(node, scope, names)
 
 
-def _file_name(names: SymbolTable) -> Iterator[Problem]:
+def _file_name(names: SymbolTable) -> Iterator[ParseProblem]:
     """A public class whose name is nearly its file's: Java wants both to be the same."""
     stem = names.main.path.stem
     for node in names.main.body:
         public = isinstance(node, Class) and node.place.text.startswith("public")
         if public and isinstance(node, Class) and suggest_name(node.name, frozenset({stem})):
             said = f"the class is {node.name}, and its file {stem}: both need one name"
-            yield Problem(said, node.place.line)
+            yield ParseProblem(said, node.place.line)
 
 
-def _constructors(names: SymbolTable) -> Iterator[Problem]:
+def _constructors(names: SymbolTable) -> Iterator[ParseProblem]:
     """What looks like a constructor, and is called unlike every class here."""
     source = names.main.source.decode("utf-8", errors="replace")
     classes = set(re.findall(r"\b(?:class|enum|record|interface)\s+(\w+)", source))
@@ -105,17 +105,17 @@ def _constructors(names: SymbolTable) -> Iterator[Problem]:
         if found["name"] not in classes:
             line = source.count("\n", 0, found.start("name")) + 1
             said = f"{found['name']}() has no return type, and no class is called so"
-            yield Problem(said, line)
+            yield ParseProblem(said, line)
 
 
-def _never_set(names: SymbolTable) -> Iterator[Problem]:
+def _never_set(names: SymbolTable) -> Iterator[ParseProblem]:
     """Final fields that get no value."""
     source = names.main.source.decode("utf-8", errors="replace")
     for found in BLANK_FINAL.finditer(source):
         name = found["name"]
         if not re.search(rf"\b{name}\s*=(?!=)", source):
             line = source.count("\n", 0, found.start("name")) + 1
-            yield Problem(f"{name} is final and never gets a value", line)
+            yield ParseProblem(f"{name} is final and never gets a value", line)
 
 
 def name_is_value(node: Name) -> bool:
@@ -128,22 +128,22 @@ def _static(one: Import) -> bool:
     return one.path.rpartition(".")[2][:1].isupper()
 
 
-def _imports(names: SymbolTable) -> Iterator[Problem]:
+def _imports(names: SymbolTable) -> Iterator[ParseProblem]:
     source = names.main.source.decode("utf-8", errors="replace").split("\n")
     for one in names.main.imports:
         line = next((at for at, text in enumerate(source, 1) if _imports_it(text, one)), 1)
         owner, _, name = one.path.rpartition(".")
         if owner.rpartition(".")[2] == "Units" and name[:1].isupper() and "units" in owner:
             if name not in UNITS and suggest_name(name, frozenset(UNITS)):
-                yield Problem(f"there is no unit {name}", line)
+                yield ParseProblem(f"there is no unit {name}", line)
             continue
         if one.name == "*" or not one.path.startswith(SEASON):
             continue
         meant = suggest_name(name, HOME)
         if meant:
-            yield Problem(f"there is no class {name}: {meant} is meant?", line)
+            yield ParseProblem(f"there is no class {name}: {meant} is meant?", line)
         elif name in HOME and not HOME[name].startswith(owner):
-            yield Problem(f"{name} is not in {owner}: it is in {HOME[name]}", line)
+            yield ParseProblem(f"{name} is not in {owner}: it is in {HOME[name]}", line)
 
 
 def _imports_it(text: str, one: Import) -> bool:
@@ -154,7 +154,7 @@ def _imports_it(text: str, one: Import) -> bool:
 def _types(node: Node) -> Iterator[str]:
     """The classes that a declaration names, without those that stand behind a dot."""
     written = ""
-    if isinstance(node, Assign | Parameter | Function | Cast):
+    if isinstance(node, Assign | FunctionParameter | Function | Cast):
         written = node.type
     elif isinstance(node, Class):
         written = " ".join(base for base in node.bases if base[:1].isupper())
@@ -183,7 +183,7 @@ def _undeclared(name: str) -> str:
 
 def _variable(
     node: Name, declared: set[str], scope: Scope, names: SymbolTable, *, open_: bool
-) -> Iterator[Problem]:
+) -> Iterator[ParseProblem]:
     name = node.name
     if names.local(name, scope) or names.definitions(node, scope) or PACKAGE.match(name):
         return
@@ -193,12 +193,12 @@ def _variable(
     wide = any(one.name == "*" and _static(one) for one in scope.module.imports)
     if name in UNITS:
         if not wide:
-            yield Problem(f"the unit {name} is not imported", node.place.line)
+            yield ParseProblem(f"the unit {name} is not imported", node.place.line)
     elif name[:1].isupper() and not re.fullmatch(r"[A-Z][A-Z0-9_]*", name):
         if not open_ and not _is_type(name, declared, scope, names):
-            yield Problem(_undeclared(name), node.place.line)
+            yield ParseProblem(_undeclared(name), node.place.line)
     elif not wide and _closed(scope, names) and _is_plain(node, scope):
-        yield Problem(f"nothing declares {name}", node.place.line)
+        yield ParseProblem(f"nothing declares {name}", node.place.line)
 
 
 def _is_plain(node: Name, scope: Scope) -> bool:
@@ -234,7 +234,7 @@ def _closed(scope: Scope, names: SymbolTable) -> bool:
     return True
 
 
-def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Problem]:
+def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProblem]:
     target = call.target
     line = target.place.line
     if isinstance(target, Member) and not isinstance(target, Reference):
@@ -246,13 +246,13 @@ def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Problem]:
             record = home.classes[-1].place.text.split("{")[0]
             if not there and "enum" not in record and "record" not in record:
                 where = home.classes[-1].name
-                yield Problem(f"{where} has no method {target.name}()", line)
+                yield ParseProblem(f"{where} has no method {target.name}()", line)
             return
         if _defined(target.name, names):
             return
         meant = suggest_name(target.name, METHODS)
         if meant and target.name[:1].islower():
-            yield Problem(f"there is no method {target.name}(): {meant}() is meant?", line)
+            yield ParseProblem(f"there is no method {target.name}(): {meant}() is meant?", line)
     elif isinstance(target, Name) and target.name[:1].islower():
         static = any(
             one.name == target.name or (one.name == "*" and _static(one))
@@ -265,7 +265,7 @@ def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Problem]:
         ):
             return
         if not static and _closed(scope, names) and scope.classes:
-            yield Problem(f"nothing declares the method {target.name}()", line)
+            yield ParseProblem(f"nothing declares the method {target.name}()", line)
 
 
 def _defined(name: str, names: SymbolTable) -> bool:

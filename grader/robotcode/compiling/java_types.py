@@ -3,18 +3,18 @@
 import re
 from collections.abc import Iterator
 
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import (
     Call,
     Cast,
     Choice,
     Function,
+    FunctionParameter,
     Member,
     Name,
     Node,
     Number,
     Operation,
-    Parameter,
     Reference,
     Self,
 )
@@ -54,7 +54,7 @@ PLAIN_NUMBERS = frozenset(
 KEEPS = re.compile(r"mut_?\w+|plus|minus|copy|mutableCopy|unaryMinus|negate")
 
 
-def type_errors(names: SymbolTable) -> Iterator[Problem]:
+def type_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     """Arguments of the SysId log, of units and of the callbacks that are of another type."""
     for node, scope in walk(names.main.body, Scope(names.main)):
         if isinstance(node, Operation) and node.sign in ARITHMETIC:
@@ -68,18 +68,18 @@ def type_errors(names: SymbolTable) -> Iterator[Problem]:
             yield from _callbacks(node, scope, names)
 
 
-def _operands(node: Operation, scope: Scope, names: SymbolTable) -> Iterator[Problem]:
+def _operands(node: Operation, scope: Scope, names: SymbolTable) -> Iterator[ParseProblem]:
     """Arithmetic with what is no number: Java has no operators for measures and signals."""
     for part in (node.left, node.right):
         given = "" if part is None else type_of_expression(part, scope, names)
         if given == SIGNAL or given in MEASURES:
             what = "a signal: add getValueAsDouble()" if given == SIGNAL else f"a {given}"
-            yield Problem(f"{node.sign} takes numbers, and this is {what}", node.place.line)
+            yield ParseProblem(f"{node.sign} takes numbers, and this is {what}", node.place.line)
 
 
 def _argument(
     call: Call, target: Member, name: str, scope: Scope, names: SymbolTable
-) -> Iterator[Problem]:
+) -> Iterator[ParseProblem]:
     given = type_of_expression(call.args[0], scope, names)
     wanted = WANTED.get(name, "")
     line = target.place.line
@@ -91,17 +91,19 @@ def _argument(
     ):
         kinds = {NUMBER: "a plain number", SIGNAL: "a signal"}
         said = kinds.get(given, f"a {given}")
-        yield Problem(f"{name}() takes a {wanted}, and this is {said}", line)
+        yield ParseProblem(f"{name}() takes a {wanted}, and this is {said}", line)
     unit = measure_of_unit(last_name(target.owner)) if name == "of" else ""
     if unit and (given in MEASURES or given == SIGNAL):
         what = "a signal: add getValueAsDouble()" if given == SIGNAL else f"a {given}"
-        yield Problem(f"{last_name(target.owner)}.of() takes a number, and this is {what}", line)
+        yield ParseProblem(
+            f"{last_name(target.owner)}.of() takes a number, and this is {what}", line
+        )
     owner = type_of_expression(target.owner, scope, names) if name == "in" else ""
     asked = measure_of_unit(last_name(call.args[0])) if name == "in" else ""
     if owner in MEASURES and asked and asked != owner:
-        yield Problem(f"a {owner} is not in {last_name(call.args[0])}", line)
+        yield ParseProblem(f"a {owner} is not in {last_name(call.args[0])}", line)
     if name == "setVoltage" and given in {SIGNAL, *MEASURES} - {"Voltage"}:
-        yield Problem(f"setVoltage() takes volts, and this is a {given}", line)
+        yield ParseProblem(f"setVoltage() takes volts, and this is a {given}", line)
 
 
 def _logs(target: Member) -> bool:
@@ -114,13 +116,13 @@ def _logs(target: Member) -> bool:
     return False
 
 
-def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Problem]:
+def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProblem]:
     for given, allowed in zip(call.args, PARAMETERS, strict=False):
         if not isinstance(given, Reference) or not isinstance(given.owner, Self):
             continue
         found = methods(given.name, scope.home, names) if scope.classes else []
         if scope.classes and not found and len(names.lineage(scope.home)) == 1:
-            yield Problem(f"nothing declares the method {given.name}()", given.place.line)
+            yield ParseProblem(f"nothing declares the method {given.name}()", given.place.line)
         fits = [
             one
             for one, _ in found
@@ -130,7 +132,7 @@ def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Problem
             wanted = max(allowed, key=len)
             wanted = "Voltage" if "Voltage" in allowed else wanted
             said = f"{given.name}() has to take one {wanted} to be a callback in this place"
-            yield Problem(said, given.place.line)
+            yield ParseProblem(said, given.place.line)
 
 
 def measure_of_unit(unit: str) -> str:
@@ -182,7 +184,7 @@ def _named(type_: str) -> str:
 
 def _of_variable(node: Node, scope: Scope, names: SymbolTable, depth: int) -> str:
     for one in names.definitions(node, scope):
-        if isinstance(one.value, Parameter):
+        if isinstance(one.value, FunctionParameter):
             return _named(one.value.type)
         if one.type and one.type != "var":
             return _named(one.type)

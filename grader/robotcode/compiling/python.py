@@ -13,7 +13,7 @@ from grader.robotcode.compiling.season import (
     ROBOTPY,
     suggest_name,
 )
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import java_spelling
 
@@ -21,7 +21,7 @@ ALWAYS = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__", "__annot
 OPEN = frozenset({"setattr", "vars", "__getattr__"})  # set attributes by a name nobody can read
 
 
-def python_errors(names: SymbolTable) -> Iterator[Problem]:
+def python_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     """Names that nothing defines, imports that do not exist, attributes that nobody sets."""
     try:
         tree = ast.parse(names.main.source.decode("utf-8", errors="replace"))
@@ -34,11 +34,11 @@ def python_errors(names: SymbolTable) -> Iterator[Problem]:
     if not wide:
         for one in every:
             if isinstance(one, ast.Name) and isinstance(one.ctx, ast.Load) and one.id not in bound:
-                yield Problem(f"nothing defines or imports {one.id}", one.lineno)
+                yield ParseProblem(f"nothing defines or imports {one.id}", one.lineno)
     yield from _attributes(every)
 
 
-def _imports(every: list[ast.AST]) -> Iterator[Problem]:
+def _imports(every: list[ast.AST]) -> Iterator[ParseProblem]:
     modules: dict[str, str] = {}
     for node in every:
         if isinstance(node, ast.Import):
@@ -57,13 +57,13 @@ def _imports(every: list[ast.AST]) -> Iterator[Problem]:
                 yield from _imported(node.attr, module, node.lineno)
 
 
-def _imported(name: str, module: str, line: int) -> Iterator[Problem]:
+def _imported(name: str, module: str, line: int) -> Iterator[ParseProblem]:
     meant = suggest_name(name, CLASSES) if name[:1].isupper() else ""
     home = MODULE_OF.get(name, "")
     if meant and name not in CLASSES:
-        yield Problem(f"there is no {name} in {module}: {meant} is meant?", line)
+        yield ParseProblem(f"there is no {name} in {module}: {meant} is meant?", line)
     elif home and module in {*MODULE_OF.values()} and home != module:
-        yield Problem(f"{name} is not in {module}: it is in {home}", line)
+        yield ParseProblem(f"{name} is not in {module}: it is in {home}", line)
 
 
 def _bound(every: list[ast.AST]) -> set[str]:
@@ -88,7 +88,7 @@ def _bound(every: list[ast.AST]) -> set[str]:
     return bound
 
 
-def _attributes(every: list[ast.AST]) -> Iterator[Problem]:
+def _attributes(every: list[ast.AST]) -> Iterator[ParseProblem]:
     classes = {one.name: one for one in every if isinstance(one, ast.ClassDef)}
     for one in classes.values():
         known = _members(one, classes)
@@ -98,7 +98,7 @@ def _attributes(every: list[ast.AST]) -> Iterator[Problem]:
             if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
                 used = isinstance(node.ctx, ast.Load) and node.value.id == "self"
                 if used and node.attr not in known and not node.attr.startswith("__"):
-                    yield Problem(f"nothing sets self.{node.attr}", node.lineno)
+                    yield ParseProblem(f"nothing sets self.{node.attr}", node.lineno)
     own = {one.name for one in every if isinstance(one, ast.FunctionDef)}
     own |= {one.attr for one in every if isinstance(one, ast.Attribute) and _is_set(one)}
     for node in every:
@@ -107,7 +107,7 @@ def _attributes(every: list[ast.AST]) -> Iterator[Problem]:
             line = node.func.end_lineno or node.lineno
             if meant and node.func.attr not in own and java_spelling(node.func.attr) not in METHODS:
                 said = f"there is no method {node.func.attr}(): {meant}() is meant?"
-                yield Problem(said, line)
+                yield ParseProblem(said, line)
 
 
 def _is_set(node: ast.Attribute) -> bool:

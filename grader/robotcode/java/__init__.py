@@ -9,7 +9,7 @@ from tree_sitter import Language, Parser
 from tree_sitter import Node as Tree
 
 from grader.robotcode import ir
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.java.brackets import find_unmatched, refuse_garbage
 from grader.robotcode.java.declarations import DECLARATIONS
 from grader.robotcode.java.expressions import EXPRESSIONS
@@ -42,7 +42,7 @@ def parse(text: str, path: Path) -> ir.Module:
     source = text.encode("utf-8", errors="replace")
     root = _root(source)
     if root is None:
-        lost = Problem("too little of this is Java to make sense of it", 1)
+        lost = ParseProblem("too little of this is Java to make sense of it", 1)
         return ir.Module(path, "java", source, (), problems=(find_unmatched(text) or lost,))
     lowering = IrBuilder(source, EXPRESSIONS | DECLARATIONS)
     body = lowering.lower(root)
@@ -87,7 +87,7 @@ def _import(line: str) -> ir.Import:
     return ir.Import(path.rpartition(".")[2], path)
 
 
-def _problems(root: Tree, lowering: IrBuilder, text: str) -> tuple[Problem, ...]:
+def _problems(root: Tree, lowering: IrBuilder, text: str) -> tuple[ParseProblem, ...]:
     """What is not Java, the cause before its echoes."""
     bracket = find_unmatched(text)
     found = _without_a_class(text) if bracket is None else [bracket]
@@ -97,26 +97,26 @@ def _problems(root: Tree, lowering: IrBuilder, text: str) -> tuple[Problem, ...]
         if tree.is_missing and bracket is not None and tree.type in "()[]{}":
             continue  # the parser's repair of the same mistake, farther from its cause
         if tree.is_missing:
-            found.append(Problem(f"a '{tree.type}' is missing", tree.start_point[0] + 1))
+            found.append(ParseProblem(f"a '{tree.type}' is missing", tree.start_point[0] + 1))
         elif tree.is_error and bracket is not None and _around(tree, bracket):
             continue  # what the parser made of it
         elif tree.is_error:
-            found.append(Problem(_misread(lowering.said(tree)), tree.start_point[0] + 1))
+            found.append(ParseProblem(_misread(lowering.said(tree)), tree.start_point[0] + 1))
         elif tree.has_error:
             waiting.extend(reversed(tree.children))
     return tuple(dict.fromkeys(found))
 
 
-def _around(tree: Tree, cause: Problem) -> bool:
+def _around(tree: Tree, cause: ParseProblem) -> bool:
     return tree.start_point[0] < cause.line <= tree.end_point[0] + 1
 
 
-def _without_a_class(text: str) -> list[Problem]:
+def _without_a_class(text: str) -> list[ParseProblem]:
     """What to say of a text that never was Java: a letter, a page, another language."""
     if _CLASS.search(text):
         return []
     first = next((at for at, line in enumerate(text.split("\n"), 1) if line.strip()), 1)
-    return [Problem(_misread(text.split("\n")[first - 1]), first)]
+    return [ParseProblem(_misread(text.split("\n")[first - 1]), first)]
 
 
 def _misread(text: str) -> str:

@@ -6,7 +6,7 @@ closed is the commonest mistake, and counting finds it exactly.
 
 import re
 
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from sim.errors import UnreadableFile
 
 # The parser's memory grows with the square of how deep it is, or of how much it cannot make out.
@@ -56,7 +56,7 @@ def refuse_garbage(text: str, *, where: str) -> None:
             )
 
 
-def find_unmatched(text: str) -> Problem | None:
+def find_unmatched(text: str) -> ParseProblem | None:
     """The first bracket, quote or comment that has no partner, said so that it can be found."""
     opened: list[_Opened] = []
     line, at = 1, 0
@@ -75,24 +75,26 @@ def find_unmatched(text: str) -> Problem | None:
     if not opened:
         return None
     bracket, since, _ = opened[-1]
-    return Problem(f"a '{CLOSES[bracket]}' is missing: the '{bracket}' here is never closed", since)
+    return ParseProblem(
+        f"a '{CLOSES[bracket]}' is missing: the '{bracket}' here is never closed", since
+    )
 
 
-def _endless(match: re.Match[str], line: int) -> Problem | None:
+def _endless(match: re.Match[str], line: int) -> ParseProblem | None:
     """What to say of a string or a comment that goes on where it should have ended."""
     sign = match.group()
     if match["quoted"] and not match["end"]:
-        return Problem("the text in quotes that begins here has no closing '\"'", line)
+        return ParseProblem("the text in quotes that begins here has no closing '\"'", line)
     if sign.startswith("/*") and (not sign.endswith("*/") or len(sign) < len("/**/")):
-        return Problem("the comment that begins here is never closed: a '*/' is missing", line)
+        return ParseProblem("the comment that begins here is never closed: a '*/' is missing", line)
     return None
 
 
-def _closed(sign: str, opened: list[_Opened], line: int) -> Problem | None:
+def _closed(sign: str, opened: list[_Opened], line: int) -> ParseProblem | None:
     """Take the bracket away that a sign closes, or say why it cannot close one."""
     closing = sign in CLOSES.values()
     if closing and not opened:
-        return Problem(f"this '{sign}' closes nothing; it is one too many", line)
+        return ParseProblem(f"this '{sign}' closes nothing; it is one too many", line)
     if not opened or not (closing or (sign == ";" and not opened[-1][2])):
         return None
     bracket, since, _ = opened[-1]
@@ -100,11 +102,11 @@ def _closed(sign: str, opened: list[_Opened], line: int) -> Problem | None:
         opened.pop()
         return None
     if bracket == "{":
-        return Problem(
+        return ParseProblem(
             f"this '{sign}' closes nothing: it is one too many, or a '}}' is missing before it",
             line,
         )
-    return Problem(
+    return ParseProblem(
         f"a '{CLOSES[bracket]}' is missing before this '{sign}': "
         f"count the brackets from line {since} on",
         line,

@@ -56,7 +56,7 @@ def _function(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     place, body = lowering.place(tree), tree.child_by_field_name("body")
     listed = tree.child_by_field_name("parameters")
     parameters = tuple(
-        ir.Parameter(lowering.place(listed or tree), name, type_)
+        ir.FunctionParameter(lowering.place(listed or tree), name, type_)
         for name, type_ in _parameters(lowering, listed)
     )
     name = lowering.said(tree.child_by_field_name("name"))

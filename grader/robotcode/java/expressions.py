@@ -64,7 +64,7 @@ def _method_call(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     name = tree.child_by_field_name("name") or tree
     owner = tree.child_by_field_name("object")
     start = lowering.place(name)
-    place = ir.Place(lowering.source, name.start_byte, tree.end_byte, start.line)
+    place = ir.SourceSpan(lowering.source, name.start_byte, tree.end_byte, start.line)
     target: ir.Node = ir.Name(place, lowering.said(name))
     if owner is not None:  # a chain begins far above; its method stands where its name does
         target = ir.Member(place, lowering.one(owner, around=tree), lowering.said(name))

@@ -50,9 +50,9 @@ class IrBuilder:
             return (ir.Branch(self.place(tree), parts),)
         return parts if len(parts) == 1 else (ir.Opaque(self.place(tree), parts),)
 
-    def place(self, tree: Tree) -> ir.Place:
+    def place(self, tree: Tree) -> ir.SourceSpan:
         """Where a tree stands in the file."""
-        return ir.Place(self.source, tree.start_byte, tree.end_byte, tree.start_point[0] + 1)
+        return ir.SourceSpan(self.source, tree.start_byte, tree.end_byte, tree.start_point[0] + 1)
 
     def said(self, tree: Tree | None) -> str:
         """The source text of a tree."""

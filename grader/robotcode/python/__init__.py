@@ -5,7 +5,7 @@ import warnings
 from pathlib import Path
 
 from grader.robotcode import ir
-from grader.robotcode.facts import Problem
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.python.expressions import EXPRESSIONS
 from grader.robotcode.python.statements import STATEMENTS
 from grader.robotcode.python.to_ir import Lowering
@@ -28,9 +28,9 @@ def parse(text: str, path: Path) -> ir.Module:
             tree = ast.parse(text)
     except SyntaxError as error:
         said = error.msg.partition(";")[0]
-        problem = Problem(f"this is not Python: {said}", max(error.lineno or 1, 1))
+        problem = ParseProblem(f"this is not Python: {said}", max(error.lineno or 1, 1))
     except (RecursionError, MemoryError, ValueError):
-        problem = Problem("the code is nested deeper than Python itself can read", 1)
+        problem = ParseProblem("the code is nested deeper than Python itself can read", 1)
     else:
         lowering = Lowering(source, EXPRESSIONS | STATEMENTS)
         body = lowering.lower(tree)

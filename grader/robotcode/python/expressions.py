@@ -46,16 +46,16 @@ def _call(lowering: Lowering, tree: ast.Call) -> tuple[ir.Node, ...]:
     if isinstance(target, ir.Member):  # a chain begins far above; its method stands here
         start = target.place.end - len(target.name.encode())
         line = tree.func.end_lineno or tree.lineno
-        place = ir.Place(lowering.source, start, lowering.place(tree).end, line)
+        place = ir.SourceSpan(lowering.source, start, lowering.place(tree).end, line)
         target = ir.Member(place, target.owner, target.name)
     return (ir.Call(lowering.place(tree), target, args, named=named, spread=spread),)
 
 
 def _partial(
-    place: ir.Place, args: tuple[ir.Node, ...], named: tuple[tuple[str, ir.Node], ...]
+    place: ir.SourceSpan, args: tuple[ir.Node, ...], named: tuple[tuple[str, ir.Node], ...]
 ) -> ir.Node:
     """A function with some arguments given, as the lambda that it stands for."""
-    last = ir.Parameter(place, "(the rest)", "")  # no name in any program
+    last = ir.FunctionParameter(place, "(the rest)", "")  # no name in any program
     call = ir.Call(place, args[0], (*args[1:], ir.Name(place, last.name)), named=named)
     return ir.Function(place, "", (last,), (ir.Return(place, call),))
 

@@ -75,7 +75,7 @@ def _function(
     defaults = [*given, *tree.args.defaults, *tree.args.kw_defaults]
     listed = zip([*plain, *tree.args.kwonlyargs], defaults, strict=True)
     parameters = tuple(
-        ir.Parameter(
+        ir.FunctionParameter(
             lowering.place(one),
             one.arg,
             _type(lowering, one.annotation),

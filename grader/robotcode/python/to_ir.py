@@ -51,11 +51,11 @@ class Lowering:
             return (ir.Branch(self.place(tree), parts),)
         return (ir.Opaque(self.place(tree), parts),)
 
-    def place(self, tree: ast.expr | ast.stmt | ast.arg) -> ir.Place:
+    def place(self, tree: ast.expr | ast.stmt | ast.arg) -> ir.SourceSpan:
         """Where a tree stands in the file."""
         start = self.begins[tree.lineno - 1] + tree.col_offset
         end = self.begins[(tree.end_lineno or tree.lineno) - 1] + (tree.end_col_offset or 0)
-        return ir.Place(self.source, start, end, tree.lineno)
+        return ir.SourceSpan(self.source, start, end, tree.lineno)
 
     def many(self, trees: Iterable[ast.AST]) -> tuple[ir.Node, ...]:
         """What some trees became."""

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.errors import BadRequest, BadSample, UnreadableFile
-from sim.format import Reading, lone_motor, sound_run
-from sim.formats.csv.table import EXTRA, KNOWN, NEEDED, Table, first_names, open_table
+from sim.format import ReadOptions, lone_motor, sound_run
+from sim.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, first_names, open_table
 from sim.log import Array, Log, Run
 from sim.units import unit
 
@@ -28,7 +28,7 @@ def knows(head: bytes) -> bool:
     return len(names & set(KNOWN)) >= ENOUGH
 
 
-def read(path: Path, asked: Reading) -> Log:
+def read(path: Path, asked: ReadOptions) -> Log:
     """Read a CSV log.
 
     Args:
@@ -102,7 +102,7 @@ def _rows(run: Run, *, extra: list[str], si: float) -> Iterator[str]:
     return map(",".join, zip(*cells, strict=True))
 
 
-def _present(table: Table, name: str, values: Array, rows: NDArray[np.intp]) -> bool:
+def _present(table: CsvTable, name: str, values: Array, rows: NDArray[np.intp]) -> bool:
     """Whether a run has a signal at all; one that comes and goes within a run is refused."""
     empty = np.isnan(values)
     if empty.any() and not empty.all():
@@ -114,7 +114,7 @@ def _present(table: Table, name: str, values: Array, rows: NDArray[np.intp]) -> 
     return not empty.all()
 
 
-def _split(table: Table, codes: NDArray[np.intp], time: Array) -> Iterator[NDArray[np.intp]]:
+def _split(table: CsvTable, codes: NDArray[np.intp], time: Array) -> Iterator[NDArray[np.intp]]:
     """The rows of each run, in the order the runs begin."""
     if "run" not in table.cells:
         fresh = (np.diff(codes) != 0) | (np.diff(time) < 0)

@@ -33,7 +33,7 @@ _SAME = {
 
 
 @dataclass(frozen=True)
-class Table:
+class CsvTable:
     """The cells of a file.
 
     Args:
@@ -118,7 +118,7 @@ def first_names(text: str) -> set[str]:
     return {cell.strip(' "').lower() for cell in re.split(r"[,;\t]", first)}
 
 
-def open_table(path: Path, *, entries: Mapping[str, str]) -> Table:
+def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
     """Take a file apart into cells.
 
     Args:
@@ -153,7 +153,7 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> Table:
     cells = {name: columns[index] for name, index in place.items()}
     lines = [line for line, _ in rows]
     comma = delimiter != "," and _comma(cells, where=where)
-    return Table(where, cells, lines, comma, doubts)
+    return CsvTable(where, cells, lines, comma, doubts)
 
 
 def _text(path: Path) -> str:

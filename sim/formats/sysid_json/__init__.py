@@ -12,10 +12,10 @@ from pathlib import Path
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest
-from sim.format import Reading, lone_motor, sound_run
+from sim.format import ReadOptions, lone_motor, sound_run
 from sim.formats.sysid_json.drivetrain import two_sides
 from sim.formats.sysid_json.rows import Form, check_columns, form_of, load_json, tables_of
-from sim.formats.sysid_json.said import Said, said_in
+from sim.formats.sysid_json.said import StatedUnits, said_in
 from sim.formats.sysid_json.side import Side, one_side
 from sim.log import Array, Log
 from sim.units import unit
@@ -29,7 +29,7 @@ def knows(head: bytes) -> bool:
     return head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{") and bool(_KEY.search(head))
 
 
-def read(path: Path, asked: Reading) -> Log:
+def read(path: Path, asked: ReadOptions) -> Log:
     """Read a log of the tools before 2024.
 
     Args:
@@ -75,7 +75,7 @@ def read(path: Path, asked: Reading) -> Log:
 
 
 def _sides(
-    tables: dict[str, Array], form: Form, said: Said, asked: Reading, *, where: str
+    tables: dict[str, Array], form: Form, said: StatedUnits, asked: ReadOptions, *, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
     """One side for every test: the only one, the one asked for, or both made one."""
     found = [

@@ -11,7 +11,7 @@ import numpy as np
 
 from sim.doubt import Doubt
 from sim.errors import BadSample, UnreadableFile
-from sim.formats.sysid_json.said import Said
+from sim.formats.sysid_json.said import StatedUnits
 from sim.log import LARGEST, Array
 
 RUNS = {
@@ -129,7 +129,7 @@ def tables_of(
     return tables, doubts
 
 
-def form_of(tables: Mapping[str, Array], said: Said, *, where: str) -> Form:
+def form_of(tables: Mapping[str, Array], said: StatedUnits, *, where: str) -> Form:
     """Which form the rows have: by their width, by what they hold, by what the file says.
 
     Raises:

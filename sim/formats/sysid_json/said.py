@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from sim.doubt import Doubt
 from sim.errors import UnreadableFile
-from sim.format import Reading
+from sim.format import ReadOptions
 from sim.log import LARGEST
 from sim.units import UNITS
 
@@ -21,7 +21,7 @@ _TYPES = {
 
 
 @dataclass(frozen=True)
-class Said:
+class StatedUnits:
     """The words beside the rows.
 
     Args:
@@ -51,7 +51,7 @@ class Said:
         return "angular" in self.mechanism.lower()
 
 
-def said_in(document: Mapping[str, object], asked: Reading, *, where: str) -> Said:
+def said_in(document: Mapping[str, object], asked: ReadOptions, *, where: str) -> StatedUnits:
     """Collect what the file says; what a person says about units goes before it.
 
     Raises:
@@ -80,11 +80,13 @@ def said_in(document: Mapping[str, object], asked: Reading, *, where: str) -> Sa
             where=where,
             advice="Write how far the mechanism goes in one rotation, a positive number.",
         )
-    return Said(mechanism, type_, units, per_rotation, "sysid" in document, (*doubts, *unsure))
+    return StatedUnits(
+        mechanism, type_, units, per_rotation, "sysid" in document, (*doubts, *unsure)
+    )
 
 
 def _units(
-    document: Mapping[str, object], asked: Reading, *, type_: str, where: str
+    document: Mapping[str, object], asked: ReadOptions, *, type_: str, where: str
 ) -> tuple[str, tuple[Doubt, ...]]:
     """The unit of position, and a doubt where it had to be guessed or was contradicted."""
     found = document.get("units")

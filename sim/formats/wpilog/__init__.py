@@ -14,14 +14,14 @@ import numpy as np
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest, MissingSignal, Refusal, UnreadableFile
-from sim.format import Reading
-from sim.formats.wpilog.contents import Damage, contents_of
+from sim.format import ReadOptions
+from sim.formats.wpilog.contents import FileDamage, contents_of
 from sim.formats.wpilog.entry import Entry
 from sim.formats.wpilog.motors import motors_of
 from sim.formats.wpilog.names import quote_names, type_said
 from sim.formats.wpilog.records import MAGIC, load_records
 from sim.formats.wpilog.runs import cut_runs
-from sim.formats.wpilog.state import FOREVER, State, Stretch, run_intervals, state_entries
+from sim.formats.wpilog.state import FOREVER, RunInterval, StateEntry, run_intervals, state_entries
 from sim.formats.wpilog.writing import write
 from sim.log import Log
 from sim.units import UNITS
@@ -36,7 +36,7 @@ def knows(head: bytes) -> bool:
     return head.startswith(MAGIC)
 
 
-def read(path: Path, asked: Reading) -> Log:
+def read(path: Path, asked: ReadOptions) -> Log:
     """Read the runs of one mechanism from a WPILOG file.
 
     Args:
@@ -70,8 +70,8 @@ def read(path: Path, asked: Reading) -> Log:
 
 
 def _log(
-    entries: Sequence[Entry], *, asked: Reading, where: str
-) -> tuple[Log, tuple[Stretch, ...]]:
+    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+) -> tuple[Log, tuple[RunInterval, ...]]:
     """The log of one mechanism, and the times of its runs."""
     state = _state(entries, asked=asked, where=where)
     if asked.type is None:
@@ -80,8 +80,8 @@ def _log(
 
 
 def _typed(
-    entries: Sequence[Entry], state: State, *, asked: Reading, where: str
-) -> tuple[Log, tuple[Stretch, ...]]:
+    entries: Sequence[Entry], state: StateEntry, *, asked: ReadOptions, where: str
+) -> tuple[Log, tuple[RunInterval, ...]]:
     """The log of a mechanism whose type nobody said; its name may."""
     said = type_said(state.mechanism)
     log, spans = _of(state, entries, asked=replace(asked, type=said or None), where=where)
@@ -91,8 +91,8 @@ def _typed(
 
 
 def _of(
-    state: State, entries: Sequence[Entry], *, asked: Reading, where: str
-) -> tuple[Log, tuple[Stretch, ...]]:
+    state: StateEntry, entries: Sequence[Entry], *, asked: ReadOptions, where: str
+) -> tuple[Log, tuple[RunInterval, ...]]:
     """The log of one mechanism, as the tests that are named for it tell it."""
     motors, doubts = motors_of(state, entries, asked=asked, where=where)
     found, strange = run_intervals(state, where=where)
@@ -115,7 +115,7 @@ def _of(
     return log, found
 
 
-def _state(entries: Sequence[Entry], *, asked: Reading, where: str) -> State:
+def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> StateEntry:
     """Where the tests are named of the one mechanism that is to be read.
 
     Raises:
@@ -135,14 +135,14 @@ def _state(entries: Sequence[Entry], *, asked: Reading, where: str) -> State:
     )
 
 
-def _has_motor(state: State, entries: Sequence[Entry], asked: Reading) -> bool:
+def _has_motor(state: StateEntry, entries: Sequence[Entry], asked: ReadOptions) -> bool:
     """Whether a mechanism has the motor that is asked for."""
     with suppress(Refusal):
         return bool(motors_of(state, entries, asked=asked, where=""))
     return False
 
 
-def _unreadable(damage: Damage | None, end: int, where: str, what: str) -> UnreadableFile:
+def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> UnreadableFile:
     """The refusal of a file in which too little precedes the place where it stops."""
     if damage is None:
         return UnreadableFile(
@@ -158,7 +158,7 @@ def _unreadable(damage: Damage | None, end: int, where: str, what: str) -> Unrea
     )
 
 
-def _partly(damage: Damage, where: str) -> Doubt:
+def _partly(damage: FileDamage, where: str) -> Doubt:
     """The doubt about a file that could only be read up to some place."""
     what = "the file ends too soon" if damage.torn else "THE FILE IS DAMAGED"
     return Doubt(
@@ -169,7 +169,7 @@ def _partly(damage: Damage, where: str) -> Doubt:
     )
 
 
-def _unfinished(last: Stretch, where: str) -> Iterator[Doubt]:
+def _unfinished(last: RunInterval, where: str) -> Iterator[Doubt]:
     """A doubt if the last run has no end."""
     if last.end == FOREVER:
         yield Doubt(

@@ -20,7 +20,7 @@ LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is ha
 
 
 @dataclass(frozen=True)
-class Damage:
+class FileDamage:
     """Where reading stopped before the end of the file.
 
     Args:
@@ -41,7 +41,7 @@ class Contents:
     """The entries of a file, and what kept the rest of it from being read, if anything did."""
 
     entries: tuple[Entry, ...]
-    damage: Damage | None
+    damage: FileDamage | None
 
 
 @dataclass(frozen=True, order=True)
@@ -174,26 +174,26 @@ def _one_after_another(parts: Sequence[_Group]) -> _Group:
     return _Group(*(np.concatenate([getattr(part, one) for part in parts]) for one in columns))
 
 
-def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> Damage | None:
+def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> FileDamage | None:
     """What kept the rest of the file from being read, if anything did."""
     offset = int(records.start[stop.index]) if stop else records.end
     left = records.file.size - offset
     if not left:
         return None
     if not records.file.buffer[offset : records.file.size].any():
-        return Damage(offset, left, "nothing but zero bytes", torn=True)
+        return FileDamage(offset, left, "nothing but zero bytes", torn=True)
     if stop:
-        return Damage(offset, left, stop.what, torn=False)
+        return FileDamage(offset, left, stop.what, torn=False)
     return _overrun(records, lives, offset, left)
 
 
-def _overrun(records: Records, lives: _Lives, offset: int, left: int) -> Damage:
+def _overrun(records: Records, lives: _Lives, offset: int, left: int) -> FileDamage:
     """The record at ``offset`` says it is longer than the file: cut off, or nonsense."""
     head = read_headers(records.file.buffer, np.array([offset]))
     number, size = int(head.id[0]), int(head.size[0])
     if int(head.payload[0]) > records.file.size:
-        return Damage(offset, left, "a record that stops within its header", torn=True)
+        return FileDamage(offset, left, "a record that stops within its header", torn=True)
     open_now = [life for life in lives.get(number, ()) if life.last == records.start.size]
     sizes = [SIZES.get(life.start.type) for life in open_now] or [None] * (number == 0)
     torn = any(size == fixed if fixed else size <= LIKELY_SIZE for fixed in sizes)
-    return Damage(offset, left, f"a record that claims {size} bytes", torn=torn)
+    return FileDamage(offset, left, f"a record that claims {size} bytes", torn=torn)

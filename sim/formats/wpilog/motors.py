@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest, MissingSignal
-from sim.format import Reading
+from sim.format import ReadOptions
 from sim.formats.wpilog.entry import NUMBERS, Entry
 from sim.formats.wpilog.names import asked_for, explain_unfit_entry, quote_names, split_name
-from sim.formats.wpilog.state import WORD, State
+from sim.formats.wpilog.state import WORD, StateEntry
 
 NEEDED = ("voltage", "position", "velocity")
 OPTIONAL = ("current", "bus_voltage")
@@ -27,7 +27,7 @@ CALLS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Motor:
+class MotorEntries:
     """What was recorded of one motor.
 
     Args:
@@ -49,15 +49,15 @@ class _Search:
     """What every search for signals needs to know."""
 
     entries: Sequence[Entry]
-    state: State
+    state: StateEntry
     rivals: tuple[str, ...]  # mechanisms whose name is longer and ends the same
-    asked: Reading
+    asked: ReadOptions
     where: str
 
 
 def motors_of(
-    state: State, entries: Sequence[Entry], *, asked: Reading, where: str
-) -> tuple[tuple[Motor, ...], tuple[Doubt, ...]]:
+    state: StateEntry, entries: Sequence[Entry], *, asked: ReadOptions, where: str
+) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...]]:
     """The motors of a mechanism whose signals are to be used, all of them whole.
 
     Args:
@@ -82,13 +82,13 @@ def motors_of(
         if signal in NEEDED + OPTIONAL
     }
     if all(signal in given for signal in NEEDED):
-        return (Motor(asked.motor or "", given),), ()
-    found = [Motor(name, signals | given) for name, signals in _by_motor(search).items()]
+        return (MotorEntries(asked.motor or "", given),), ()
+    found = [MotorEntries(name, signals | given) for name, signals in _by_motor(search).items()]
     if asked.motor is not None:
         found = [_chosen(found, search)]
     whole = tuple(motor for motor in found if motor.whole)
     if not whole:
-        best = max(found, key=lambda motor: len(motor.signals), default=Motor("", given))
+        best = max(found, key=lambda motor: len(motor.signals), default=MotorEntries("", given))
         raise _missing(best, search)
     return whole, tuple(_left_out(found, where))
 
@@ -131,7 +131,7 @@ def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
     return None if motor == parts.rest else (parts.path, motor)
 
 
-def _chosen(found: Sequence[Motor], search: _Search) -> Motor:
+def _chosen(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
     """The motor that was asked for, by its name or by an ending that only it has."""
     wanted = (search.asked.motor or "").lower()
     same = [motor for motor in found if motor.name.lower() == wanted]
@@ -147,7 +147,7 @@ def _chosen(found: Sequence[Motor], search: _Search) -> Motor:
     )
 
 
-def _left_out(found: Sequence[Motor], where: str) -> Iterator[Doubt]:
+def _left_out(found: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
     for motor in found:
         lacking = [signal for signal in NEEDED if signal not in motor.signals]
         if lacking:
@@ -158,7 +158,7 @@ def _left_out(found: Sequence[Motor], where: str) -> Iterator[Doubt]:
             )
 
 
-def _missing(motor: Motor, search: _Search) -> MissingSignal:
+def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
     """The refusal when no motor is whole: what is missing, and what there is instead."""
     lacking = [signal for signal in NEEDED if signal not in motor.signals]
     signal = lacking[0]

@@ -15,17 +15,17 @@ from sim.formats.wpilog.entry import Entry
 SHOWN = 4  # [names] in a message
 
 
-class Name(NamedTuple):
+class EntryName(NamedTuple):
     """The name of an entry, split: ``NT:/`` + ``voltage`` + ``-`` + ``left-Drive``."""
 
     path: str
     rest: str
 
 
-def split_name(name: str, word: str) -> Name | None:
+def split_name(name: str, word: str) -> EntryName | None:
     """The parts of a name around ``word-``; None if that is not how it is made."""
     found = re.fullmatch(rf"((?:.*?[/:])??){re.escape(word)}-(.*)", name, re.DOTALL)
-    return Name(*found.groups()) if found else None
+    return EntryName(*found.groups()) if found else None
 
 
 def type_said(mechanism: str) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest
-from sim.format import Reading, sound_run
+from sim.format import ReadOptions, sound_run
 from sim.formats.wpilog.clock import (
     Series,
     changes_only,
@@ -19,10 +19,10 @@ from sim.formats.wpilog.clock import (
     interpolate_linear,
     loop_times,
 )
-from sim.formats.wpilog.motors import NEEDED, OPTIONAL, Motor
+from sim.formats.wpilog.motors import NEEDED, OPTIONAL, MotorEntries
 from sim.formats.wpilog.records import Numbers
-from sim.formats.wpilog.state import Stretch
-from sim.formats.wpilog.units import Scale, scale_of
+from sim.formats.wpilog.state import RunInterval
+from sim.formats.wpilog.units import EntryScale, scale_of
 from sim.log import Array, Run
 from sim.units import UNITS
 
@@ -67,7 +67,11 @@ class _Sampled:
 
 
 def cut_runs(
-    motors: Sequence[Motor], stretches: Sequence[Stretch], *, asked: Reading, where: str
+    motors: Sequence[MotorEntries],
+    stretches: Sequence[RunInterval],
+    *,
+    asked: ReadOptions,
+    where: str,
 ) -> Cut:
     """Cut the signals of a mechanism's motors into its runs; several motors count as their mean.
 
@@ -95,7 +99,7 @@ def cut_runs(
     return Cut(tuple(runs), scales[0].units, tuple(doubts))
 
 
-def _scales(motors: Sequence[Motor], *, asked: Reading, where: str) -> list[Scale]:
+def _scales(motors: Sequence[MotorEntries], *, asked: ReadOptions, where: str) -> list[EntryScale]:
     """The scale of each motor, all into the unit of the first."""
     first = scale_of(motors[0], asked=asked, where=where)
     scales = [first]
@@ -117,7 +121,9 @@ def _scales(motors: Sequence[Motor], *, asked: Reading, where: str) -> list[Scal
     return scales
 
 
-def _signals(motors: Sequence[Motor], scales: Sequence[Scale]) -> dict[str, list[Series]]:
+def _signals(
+    motors: Sequence[MotorEntries], scales: Sequence[EntryScale]
+) -> dict[str, list[Series]]:
     """The series of each signal that all motors have, in the unit of the log."""
     shared = [name for name in NEEDED + OPTIONAL if all(name in motor.signals for motor in motors)]
     signals: dict[str, list[Series]] = {name: [] for name in shared}
@@ -129,7 +135,7 @@ def _signals(motors: Sequence[Motor], scales: Sequence[Scale]) -> dict[str, list
     return signals
 
 
-def _held(signals: Signals, stretch: Stretch) -> _Sampled:
+def _held(signals: Signals, stretch: RunInterval) -> _Sampled:
     """One run of a log that only holds changes."""
     needed = [series for name in NEEDED for series in signals[name]]
     time = loop_times(needed, stretch.begin, stretch.end)
@@ -141,7 +147,7 @@ def _held(signals: Signals, stretch: Stretch) -> _Sampled:
     return _Sampled(stretch.test, time, known)
 
 
-def _drawn(signals: Signals, stretch: Stretch) -> _Sampled:
+def _drawn(signals: Signals, stretch: RunInterval) -> _Sampled:
     """One run at the times of the (first motor's) voltage, as SysId takes them."""
     parts = {
         name: [one.within(stretch.begin, stretch.end) for one in several]
@@ -210,7 +216,9 @@ def _rhythm(
         )
 
 
-def _combined(motors: Sequence[Motor], runs: Sequence[_Sampled], where: str) -> Iterator[Doubt]:
+def _combined(
+    motors: Sequence[MotorEntries], runs: Sequence[_Sampled], where: str
+) -> Iterator[Doubt]:
     """A doubt that several motors count as their mean.
 
     Raises:

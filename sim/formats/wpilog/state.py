@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest, MissingSignal
-from sim.format import Reading
+from sim.format import ReadOptions
 from sim.formats.wpilog.entry import STRING, Entry
 from sim.formats.wpilog.names import asked_for, quote_names, split_name
 from sim.log import TESTS
@@ -19,7 +19,7 @@ FOREVER = 2**62  # [µs] the end of a run that the file does not see end
 
 
 @dataclass(frozen=True, eq=False)
-class State:
+class StateEntry:
     """Where the tests of one mechanism are named.
 
     Args:
@@ -34,7 +34,7 @@ class State:
 
 
 @dataclass(frozen=True)
-class Stretch:
+class RunInterval:
     """The time of one run: begin <= t < end.
 
     Args:
@@ -47,7 +47,9 @@ class Stretch:
     end: int
 
 
-def state_entries(entries: Sequence[Entry], *, asked: Reading, where: str) -> tuple[State, ...]:
+def state_entries(
+    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+) -> tuple[StateEntry, ...]:
     """The entries that name tests, one for each mechanism.
 
     Raises:
@@ -61,9 +63,9 @@ def state_entries(entries: Sequence[Entry], *, asked: Reading, where: str) -> tu
         if not _tells(entry):
             raise _no_test([entry], where=where)
         name = split_name(entry.name, WORD)
-        return (State(name.rest if name else "", name.path if name else "", entry),)
+        return (StateEntry(name.rest if name else "", name.path if name else "", entry),)
     named = [
-        State(name.rest, name.path, entry)
+        StateEntry(name.rest, name.path, entry)
         for entry in entries
         if entry.type == STRING and (name := split_name(entry.name, WORD))
     ]
@@ -78,7 +80,9 @@ def state_entries(entries: Sequence[Entry], *, asked: Reading, where: str) -> tu
     return tuple(_only(telling, mechanism, where=where) for mechanism in mechanisms)
 
 
-def run_intervals(state: State, *, where: str) -> tuple[tuple[Stretch, ...], tuple[Doubt, ...]]:
+def run_intervals(
+    state: StateEntry, *, where: str
+) -> tuple[tuple[RunInterval, ...], tuple[Doubt, ...]]:
     """The time of each run: from the first record of a test to the first that names another.
 
     Returns:
@@ -89,7 +93,7 @@ def run_intervals(state: State, *, where: str) -> tuple[tuple[Stretch, ...], tup
     fresh = [i for i, word in enumerate(words) if i == 0 or word != words[i - 1]]
     ends = [times[i] for i in fresh[1:]] + [FOREVER]
     found = tuple(
-        Stretch(words[i], times[i], end)
+        RunInterval(words[i], times[i], end)
         for i, end in zip(fresh, ends, strict=True)
         if words[i] in TESTS
     )
@@ -109,7 +113,7 @@ def _tells(entry: Entry) -> bool:
     return any(text.strip().lower() in TESTS for text in entry.texts())
 
 
-def _only(telling: Sequence[State], mechanism: str, *, where: str) -> State:
+def _only(telling: Sequence[StateEntry], mechanism: str, *, where: str) -> StateEntry:
     """The one state entry of a mechanism: a copy with a path before its name stands back."""
     own = [state for state in telling if state.mechanism == mechanism]
     plain = [state for state in own if not state.path]

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 from sim.doubt import Doubt
 from sim.errors import BadRequest
-from sim.format import Reading
-from sim.formats.wpilog.motors import NEEDED, Motor
+from sim.format import ReadOptions
+from sim.formats.wpilog.motors import NEEDED, MotorEntries
 from sim.units import UNITS
 
 _WORDS = {  # unit of ours -> what others call it
@@ -47,7 +47,7 @@ SHORT = {"rpm": "rotation per minute", "rps": "rotation per second"}
 
 
 @dataclass(frozen=True)
-class Said:
+class StatedUnit:
     """A unit as metadata states it.
 
     Args:
@@ -60,7 +60,7 @@ class Said:
 
 
 @dataclass(frozen=True)
-class Scale:
+class EntryScale:
     """How the numbers of a motor's entries become the unit of its log.
 
     Args:
@@ -88,27 +88,27 @@ def said_unit(metadata: str) -> str:
     return found.strip() if isinstance(found, str) else ""
 
 
-def voltage_unit(text: str) -> Said | None:
+def voltage_unit(text: str) -> StatedUnit | None:
     """What a voltage's unit is; None if it is not understood."""
     factor = VOLTAGES.get(text.lower())
-    return Said(VOLTS, factor) if factor else None
+    return StatedUnit(VOLTS, factor) if factor else None
 
 
-def position_unit(text: str) -> Said | None:
+def position_unit(text: str) -> StatedUnit | None:
     """What a position's unit is; None if it is not understood."""
     found = LENGTHS.get(text.lower())
-    return Said(*found) if found else None
+    return StatedUnit(*found) if found else None
 
 
-def velocity_unit(text: str) -> Said | None:
+def velocity_unit(text: str) -> StatedUnit | None:
     """What a velocity's unit is; None if it is not understood."""
     plain = re.sub(r"[_\s]+", " ", text.lower().replace("/", " per "))
     length, _, per = SHORT.get(plain, plain).partition(" per ")
     found, rate = LENGTHS.get(length.strip()), RATES.get(per.strip())
-    return Said(found[0], found[1] * rate) if found and rate else None
+    return StatedUnit(found[0], found[1] * rate) if found and rate else None
 
 
-def scale_of(motor: Motor, *, asked: Reading, where: str) -> Scale:
+def scale_of(motor: MotorEntries, *, asked: ReadOptions, where: str) -> EntryScale:
     """In which unit a motor was logged: what a person says, else its metadata, else the default.
 
     Raises:
@@ -138,17 +138,19 @@ def scale_of(motor: Motor, *, asked: Reading, where: str) -> Scale:
             code, what = problem
             name = motor.signals[signal].name
             doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}"))
-    return Scale(units, factors, tuple(doubts))
+    return EntryScale(units, factors, tuple(doubts))
 
 
-def _factor(said: Said | None, units: str, *, ordered: bool) -> float:
+def _factor(said: StatedUnit | None, units: str, *, ordered: bool) -> float:
     """What numbers are multiplied by to be in ``units``; a person's word outweighs the file's."""
     if said is None or said.units == units:
         return said.factor if said else 1.0
     return 1.0 if ordered else said.factor * (UNITS[said.units].si / UNITS[units].si)
 
 
-def _problem(text: str, said: Said | None, units: str, *, ordered: bool) -> tuple[str, str] | None:
+def _problem(
+    text: str, said: StatedUnit | None, units: str, *, ordered: bool
+) -> tuple[str, str] | None:
     """What is odd about a unit, with its code; None if nothing is."""
     if said is None and text:
         return "unknown-unit", f"is {text!r}, which is not understood; it was taken as {units}."
