@@ -163,16 +163,16 @@ def test_a_killed_run_goes_on_where_it_was(course, tmp_path):
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     running = subprocess.Popen([*command, "--processes", "1"], cwd=course, env=environment)
     results = tmp_path / "in-graded" / "results"
-    while not results.is_dir() or len(list(results.glob("*.json"))) < 2:
+    while not results.is_dir() or len(list(results.glob("[!.]*.json"))) < 2:
         time.sleep(0.02)
     running.send_signal(signal.SIGKILL)
     running.wait()
-    kept = {path: path.stat().st_mtime_ns for path in results.glob("*.json")}
+    kept = {path: path.stat().st_mtime_ns for path in results.glob("[!.]*.json")}
 
     assert 2 <= len(kept) < 6
     assert run(["class", str(there), "--processes", "1"]) == 0
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
-    assert len(list(results.glob("*.json"))) == 6
+    assert len(list(results.glob("[!.]*.json"))) == 6
 
 
 def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
