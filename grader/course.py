@@ -13,8 +13,8 @@ from pathlib import Path
 from grader.class_package import PLACE as ISSUED
 from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
 from grader.variant import student_name
-from sim.atomic_file import write_atomically
-from sim.errors import BadRequest, Refusal
+from sim.data.errors import BadRequest, Refusal
+from sim.support.atomic_file import write_atomically
 
 NOBODY = "me"  # who is learning, until they say otherwise
 PLACE = Path(".course") / "progress.toml"

@@ -73,7 +73,7 @@ def _version(name: str) -> str | None:
 
 
 def _engine() -> MachineFinding:
-    from sim.engine import engine_is_cached  # noqa: PLC0415 - it needs what may be missing
+    from sim.physics.engine import engine_is_cached  # noqa: PLC0415 - it needs what may be missing
 
     ready = engine_is_cached()
     found = "compiled" if ready else "not compiled yet; the first simulation takes ten seconds"

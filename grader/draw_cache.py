@@ -17,7 +17,7 @@ from typing import TypeVar
 
 from grader.fingerprint import fingerprint
 from grader.variant import is_self_study, same
-from sim.work import cache as kept_files
+from sim.support.work import cache as kept_files
 
 Drawn = TypeVar("Drawn")
 

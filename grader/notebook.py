@@ -14,9 +14,9 @@ from grader.exercise import Exercise, Grade, find_exercise
 from grader.report import MARKS, SPOKEN, check_feedback, to_lines, to_receipt
 from grader.submission import read_answers
 from grader.terminal import Line, complain, line
-from sim.atomic_file import write_atomically
-from sim.errors import BadRequest, Refusal
-from sim.printable import printable
+from sim.data.errors import BadRequest, Refusal
+from sim.support.atomic_file import write_atomically
+from sim.support.printable import printable
 
 
 def escape(text: str) -> str:

@@ -13,9 +13,9 @@ from grader.exec_process import INTERRUPTED, run
 from grader.exercise import exercises
 from grader.report import overview
 from grader.terminal import line, show
-from sim.cli_support import COULD_NOT, DONE
-from sim.engine import engine_is_cached, load_engine
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.physics.engine import engine_is_cached, load_engine
+from sim.support.command_line import COULD_NOT, DONE
 
 # Nothing leaves the machine: no news, no look for updates, no catalogue of extensions. And no chat.
 QUIET = (

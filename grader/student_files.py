@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 from grader.class_package import ClassPackage, read_class_package
 from grader.draw_cache import cache_path, write_draw
 from grader.variant import folder_name
-from sim.errors import BadRequest
-from sim.work.cache import read_cached
+from sim.data.errors import BadRequest
+from sim.support.work.cache import read_cached
 
 if TYPE_CHECKING:
-    from sim.log import Log
+    from sim.data.log import Log
 
 Made = str | bytes | Callable[[Path], None]
 
@@ -23,7 +23,7 @@ def format_log(log: "Log") -> Made:
     """A log as a file, in the format that the file's name asks for."""
 
     def write_to(path: Path) -> None:
-        from sim.formats import write  # noqa: PLC0415 - not where the file is there already
+        from sim.io import write  # noqa: PLC0415 - not where the file is there already
 
         write(log, path)
 

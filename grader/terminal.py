@@ -7,8 +7,8 @@ import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from sim import cli_support
-from sim.printable import printable
+from sim.support import command_line
+from sim.support.printable import printable
 
 WIDEST = 80  # [columns] longer lines are harder to read
 NARROWEST = 40  # [columns] below this, words would stand alone
@@ -74,4 +74,4 @@ def show(lines: Iterable[Line]) -> None:
 
 def complain(said: str) -> None:
     """One line to standard error."""
-    cli_support.complain(said, name="grade")
+    command_line.complain(said, name="grade")

@@ -14,7 +14,7 @@ from contextvars import ContextVar
 from functools import lru_cache, wraps
 from typing import TYPE_CHECKING, TypeVar
 
-from sim.student import folder_name, same, student_name
+from sim.bench.dataset.student import folder_name, same, student_name
 
 if TYPE_CHECKING:
     import numpy as np

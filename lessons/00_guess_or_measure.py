@@ -61,9 +61,10 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.mechanism import Mechanism
-from sim.mechanisms import MECHANISMS
 from sim.plot import (
     Picture,
     Table,
@@ -73,7 +74,6 @@ from sim.plot import (
     time_series,
     tracking_error,
 )
-from sim.simulate import move_gains_only, simulate
 from sim.teaching.prediction import Prediction
 
 # %% [markdown]

@@ -44,13 +44,13 @@ import numpy as np
 from IPython.display import display
 
 import sim
-from sim.duty_cycle import Battery, simulate_duty_cycle
+from sim.bench.duty_cycle import Battery, simulate_duty_cycle
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.mechanism import Mechanism
-from sim.mechanisms import MECHANISMS
-from sim.motors import MOTORS, theoretical_kv
+from sim.physics.motors import MOTORS, theoretical_kv
 from sim.plot import Picture, Table, budget, curves, gauge, live, relative_change
-from sim.simulate import move_gains_only, simulate
 from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
@@ -866,6 +866,7 @@ quick
 #
 # - Find the drive in section 3 in which kA·a gives back the most volts.
 # - How heavy would our drivetrain have to be for a τ of 200 ms?
-# - Look up your robot's motors in `sim/motors.py`. Is its free speed that of the data sheet?
+# - Look up your robot's motors in `sim/physics/motors.py`. Is its free speed that of the data
+#   sheet?
 #
 # Next: lesson 2, gravity.

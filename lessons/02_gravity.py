@@ -45,14 +45,14 @@ import ipywidgets as widgets
 import numpy as np
 
 import sim
-from sim.engine import State, move
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.fit.information_matrix import information_matrix
-from sim.mechanism import Mechanism
-from sim.mechanisms import MECHANISMS
+from sim.fit.sysid_rows import prepare_rows
+from sim.physics.engine import State, move
 from sim.plot import Picture, Table, curves, ellipses, hold_angles, hold_window, live, time_series
-from sim.simulate import simulate
-from sim.sysid_rows import prepare_rows
 from sim.teaching.prediction import Prediction
 
 elevator, arm = MECHANISMS["elevator"], MECHANISMS["arm"]

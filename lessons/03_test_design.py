@@ -42,12 +42,14 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
 from sim.fit.information_matrix import information_matrix
-from sim.mechanism import Mechanism
-from sim.mechanisms import MECHANISMS
-from sim.model import Part
-from sim.motors import motor
+from sim.fit.sysid_rows import prepare_rows
+from sim.physics.model import Part
+from sim.physics.motors import motor
 from sim.plot import (
     Line,
     Picture,
@@ -58,8 +60,6 @@ from sim.plot import (
     time_series,
     voltage_velocity,
 )
-from sim.simulate import move_gains_only, simulate
-from sim.sysid_rows import prepare_rows
 from sim.teaching.prediction import Prediction
 
 drivetrain, shooter = MECHANISMS["drivetrain"], MECHANISMS["shooter"]

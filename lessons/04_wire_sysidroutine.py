@@ -48,11 +48,11 @@ import numpy as np
 from IPython.display import display
 
 import sim
-from sim.duty_cycle import Battery, simulate_duty_cycle
+from sim.bench.duty_cycle import Battery, simulate_duty_cycle
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.mechanisms import MECHANISMS
 from sim.plot import Picture, Table, choices, live, time_series
-from sim.simulate import simulate
 from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]

@@ -65,13 +65,13 @@ import numpy as np
 from IPython.display import display
 
 import sim
-from sim.battery import CONTROLLERS, Battery
-from sim.contaminate import contaminate
-from sim.detect_faults import inspect
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.mechanisms import MECHANISMS
+from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
+from sim.physics.battery import CONTROLLERS, Battery
 from sim.plot import Picture, Table, live, runway, time_series
-from sim.simulate import simulate
 from sim.teaching.prediction import Prediction
 from sim.teaching.runway import GRIP, THUMB, Floor, drive_test
 

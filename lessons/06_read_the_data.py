@@ -44,12 +44,13 @@ import numpy as np
 from IPython.display import display
 
 import sim
-from sim.contaminate import contaminate
-from sim.detect_faults import inspect
-from sim.fault import select_samples
-from sim.faults import FAULTS
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.mechanisms import MECHANISMS
+from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
+from sim.inspect.fault import select_samples
+from sim.inspect.faults import FAULTS
 from sim.plot import (
     Picture,
     Table,
@@ -62,7 +63,6 @@ from sim.plot import (
     timesteps,
     voltage_velocity,
 )
-from sim.simulate import simulate
 from sim.teaching.prediction import Prediction
 from sim.teaching.r2_cases import GOOD, make_cases
 

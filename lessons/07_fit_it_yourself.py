@@ -44,11 +44,14 @@ import numpy as np
 from IPython.display import display
 
 import sim
-from sim.duty_cycle import simulate_duty_cycle
+from sim.bench.duty_cycle import simulate_duty_cycle
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import move_gains_only, simulate
+from sim.data.units import unit
 from sim.feedback import allowed_velocity_error, velocity_loop
 from sim.fit import fit
-from sim.mechanism import Mechanism
-from sim.mechanisms import MECHANISMS
+from sim.fit.sysid_rows import median_filter, prepare_rows
 from sim.plot import (
     Line,
     Picture,
@@ -60,10 +63,7 @@ from sim.plot import (
     time_series,
     voltage_velocity,
 )
-from sim.simulate import move_gains_only, simulate
-from sim.sysid_rows import median_filter, prepare_rows
 from sim.teaching.prediction import Prediction
-from sim.units import unit
 
 drivetrain = MECHANISMS["drivetrain"]
 

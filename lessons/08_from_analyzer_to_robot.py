@@ -45,14 +45,14 @@ import numpy as np
 from IPython.display import display
 
 import sim
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import simulate
+from sim.data.units import gains_per
 from sim.fit import fit
-from sim.mechanisms import MECHANISMS
-from sim.motors import MOTORS
+from sim.physics.motors import MOTORS
 from sim.plot import Picture, Table, curves, live, measure_tracking_error, tracking_error
-from sim.robot_code_snippet import CLASSES, ORDER, robot_code_snippet
-from sim.simulate import simulate
+from sim.report.robot_code_snippet import CLASSES, ORDER, robot_code_snippet
 from sim.teaching.prediction import Prediction
-from sim.units import gains_per
 
 shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
 log = simulate(shooter, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(8))

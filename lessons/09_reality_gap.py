@@ -60,11 +60,14 @@ from IPython.display import display
 from scipy.optimize import least_squares
 
 import sim
-from sim.duty_cycle import Battery, simulate_duty_cycle
-from sim.effects import EFFECTS, effect
+from sim.bench.duty_cycle import Battery, simulate_duty_cycle
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.mechanisms import MECHANISMS
-from sim.model import Model, Part
+from sim.physics.effects import EFFECTS, effect
+from sim.physics.model import Model, Part
+from sim.physics.replay import replay
+from sim.physics.voltage_residual import compute_voltage_residual
 from sim.plot import (
     Picture,
     Table,
@@ -77,10 +80,7 @@ from sim.plot import (
 )
 from sim.plot.story import findings_table, gap_by_round, residual_maps
 from sim.reconcile import reconcile
-from sim.replay import replay
-from sim.simulate import simulate
 from sim.teaching.prediction import Prediction
-from sim.voltage_residual import compute_voltage_residual
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains

@@ -2,7 +2,7 @@
 
 Names that everybody uses are here: ``sim.read``, ``sim.write``, ``sim.Log``, ``sim.Run``,
 ``sim.Routine``, ``sim.MECHANISMS``, ``sim.Refusal``. The verbs live in modules of their own name:
-``from sim.fit import fit``, ``from sim.simulate import simulate``.
+``from sim.fit import fit``, ``from sim.bench.simulate import simulate``.
 
 Nothing heavy is imported until it is used, so a command that only prints its help starts at once.
 """
@@ -10,13 +10,13 @@ Nothing heavy is imported until it is used, so a command that only prints its he
 from importlib import import_module
 
 _HOME = {
-    "Log": "sim.log",
-    "Run": "sim.log",
-    "Refusal": "sim.errors",
-    "read": "sim.formats",
-    "write": "sim.formats",
-    "Routine": "sim.routine",
-    "MECHANISMS": "sim.mechanisms",
+    "Log": "sim.data.log",
+    "Run": "sim.data.log",
+    "Refusal": "sim.data.errors",
+    "read": "sim.io",
+    "write": "sim.io",
+    "Routine": "sim.bench.routine",
+    "MECHANISMS": "sim.bench.mechanisms",
 }
 
 __all__ = ["MECHANISMS", "Log", "Refusal", "Routine", "Run", "read", "write"]

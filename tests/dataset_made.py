@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from sim.cli import sysid as command
-from sim.cli_support import run
+from sim.support.command_line import run
 
 PLAIN = """
 name = "week3"

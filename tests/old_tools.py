@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 import sim
-from sim.doubt import Doubt
-from sim.log import Array, Log
+from sim.data.doubt import Doubt
+from sim.data.log import Array, Log
 
 RUNS = {
     "slow-forward": "quasistatic-forward",

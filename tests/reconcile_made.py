@@ -5,19 +5,19 @@ from functools import cache
 
 import numpy as np
 
-from sim.battery import Battery
-from sim.effects import EFFECTS
-from sim.engine import State, move
-from sim.log import Log, Run
-from sim.mechanisms import MECHANISMS
-from sim.model import Model, Part
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.log import Log, Run
+from sim.physics.battery import Battery
+from sim.physics.effects import EFFECTS
+from sim.physics.engine import State, move
+from sim.physics.model import Model, Part
 from sim.reconcile import reconcile
 from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.model_structure import ModelStructure
 from sim.reconcile.run_nuisance import RunNuisance
 from sim.reconcile.run_records import run_records
-from sim.routine import Routine
-from sim.simulate import simulate
 
 FOUR = ("quasistatic", "dynamic")
 SESSIONS = {

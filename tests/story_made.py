@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from sim.data.log import Log, Run
 from sim.gap import Place
-from sim.log import Log, Run
-from sim.model import Model, Part
+from sim.physics.model import Model, Part
 from sim.reconcile.story import Chapter, Finding, ParameterEstimate, Story, Tried
 
 FOOT = 0.3048  # [m]

@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from sim.effect import Effect, Parameter
+from sim.physics.effect import Effect, Parameter
 
 
 def force(v, churn):

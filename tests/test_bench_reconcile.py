@@ -11,10 +11,10 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from sim.effects import EFFECTS
-from sim.log import Log, Run
-from sim.mechanisms import MECHANISMS
-from sim.model import Part
+from sim.bench.mechanisms import MECHANISMS
+from sim.data.log import Log, Run
+from sim.physics.effects import EFFECTS
+from sim.physics.model import Part
 
 CONTROLS = 2
 NOSY = """

@@ -13,11 +13,11 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from sim.battery import Battery
-from sim.effects import EFFECTS
-from sim.formats import read
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.io import read
+from sim.physics.battery import Battery
+from sim.physics.effects import EFFECTS
 
 pytest.importorskip("mujoco", reason="MuJoCo is not installed (extra `physics`)")
 

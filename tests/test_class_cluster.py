@@ -47,7 +47,7 @@ def test_a_cluster_gives_the_results_that_one_process_gives(tmp_path, monkeypatc
 
 
 def test_a_cluster_that_is_not_there_is_one_line(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("sim.work.cluster.PATIENCE", 0.2)
+    monkeypatch.setattr("sim.support.work.cluster.PATIENCE", 0.2)
     lay_out(tmp_path / "course")
     monkeypatch.chdir(tmp_path / "course")
     (tmp_path / "in" / "ann").mkdir(parents=True)

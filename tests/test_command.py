@@ -3,8 +3,8 @@
 import click
 import pytest
 
-from sim.cli_support import run
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.support.command_line import run
 
 
 def command(outcome):

@@ -10,15 +10,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim.contaminate import FaultRequest, contaminate, parse_fault_request
-from sim.errors import BadRequest
-from sim.fault import MOST
-from sim.faults import FAULTS
-from sim.formats import read, write
-from sim.log import TESTS, Log, Run
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest
+from sim.data.log import TESTS, Log, Run
+from sim.inspect.contaminate import FaultRequest, contaminate, parse_fault_request
+from sim.inspect.fault import MOST
+from sim.inspect.faults import FAULTS
+from sim.io import read, write
 
 
 def rng(seed=0):

@@ -14,8 +14,8 @@ from small_course import HALF, RIGHT, answer, lay_out
 from grader.cli import run
 from grader.course import PLACE, Progress, Standing, find_course, load_progress, update_progress
 from grader.variant import folder_name, student_name, student_rng, student_seed
-from sim.atomic_file import make_private_folder, write_atomically
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.support.atomic_file import make_private_folder, write_atomically
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -144,7 +144,7 @@ def test_damaged_progress_is_said_and_each_is_set_aside(course, content, capsys)
 def test_a_disk_that_is_full_leaves_the_old_file_and_no_part(tmp_path, monkeypatch):
     path = tmp_path / "gradebook.csv"
     write_atomically(path, "old")
-    monkeypatch.setattr("sim.atomic_file.os.fsync", no_room)
+    monkeypatch.setattr("sim.support.atomic_file.os.fsync", no_room)
 
     with pytest.raises(OSError, match="No space left"):
         write_atomically(path, "new")

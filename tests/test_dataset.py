@@ -8,12 +8,12 @@ import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 
 import sim
-from sim.contaminate import contaminate
-from sim.dataset import making
-from sim.dataset.plan import DAMAGE, FAULT, MECHANISM, RECORD, plan_jobs
-from sim.dataset.secret import find_secret
-from sim.dataset.spec import read_spec
-from sim.simulate import simulate
+from sim.bench.dataset import making
+from sim.bench.dataset.plan import DAMAGE, FAULT, MECHANISM, RECORD, plan_jobs
+from sim.bench.dataset.secret import find_secret
+from sim.bench.dataset.spec import read_spec
+from sim.bench.simulate import simulate
+from sim.inspect.contaminate import contaminate
 
 
 @pytest.fixture(autouse=True)

@@ -7,11 +7,11 @@ import sys
 import pytest
 from dataset_made import DAMAGED, PLAIN, files, key, make, process, spec, sysid
 
-from sim.dataset.making import make_log
-from sim.dataset.plan import plan_jobs
-from sim.dataset.secret import find_secret
-from sim.dataset.spec import read_spec
-from sim.work import cluster
+from sim.bench.dataset.making import make_log
+from sim.bench.dataset.plan import plan_jobs
+from sim.bench.dataset.secret import find_secret
+from sim.bench.dataset.spec import read_spec
+from sim.support.work import cluster
 
 needs_dask = pytest.mark.skipif(
     importlib.util.find_spec("distributed") is None,

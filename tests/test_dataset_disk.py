@@ -7,11 +7,11 @@ from itertools import count
 import pytest
 from dataset_made import DAMAGED, PLAIN, files, key, make, spec, sysid
 
-from sim.dataset import folder as shelf
-from sim.dataset import key as keys
-from sim.dataset.key import Journal
-from sim.dataset.secret import find_secret
-from sim.dataset.spec import read_spec
+from sim.bench.dataset import folder as shelf
+from sim.bench.dataset import key as keys
+from sim.bench.dataset.key import Journal
+from sim.bench.dataset.secret import find_secret
+from sim.bench.dataset.spec import read_spec
 
 
 @pytest.fixture(autouse=True)

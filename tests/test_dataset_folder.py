@@ -6,8 +6,8 @@ import shutil
 import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 
-from sim.dataset.folder import Shelf
-from sim.errors import BadRequest
+from sim.bench.dataset.folder import Shelf
+from sim.data.errors import BadRequest
 
 
 @pytest.fixture(autouse=True)

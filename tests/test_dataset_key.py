@@ -8,9 +8,9 @@ import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 
 import sim
-from sim.dataset.secret import Secret
-from sim.mechanisms import MECHANISMS
-from sim.units import unit
+from sim.bench.dataset.secret import Secret
+from sim.bench.mechanisms import MECHANISMS
+from sim.data.units import unit
 
 
 @pytest.fixture(autouse=True)

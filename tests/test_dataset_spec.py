@@ -3,9 +3,9 @@
 import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, spec, sysid
 
-from sim.dataset.spec import read_spec
-from sim.dataset.table import NumberRange
-from sim.errors import BadRequest
+from sim.bench.dataset.spec import read_spec
+from sim.bench.dataset.table import NumberRange
+from sim.data.errors import BadRequest
 
 FAULT = '[[logs.faults]]\nname = "loop-overrun"\n'
 EFFECT = '[[logs.effects]]\nname = "stribeck"\n'

@@ -10,7 +10,7 @@ import psutil
 import pytest
 from dataset_made import PLAIN, files, key, make, process, spec
 
-from sim.work.interrupt import deferred_interrupt
+from sim.support.work.interrupt import deferred_interrupt
 
 LONG = PLAIN.replace("count = 2", "count = 60")  # 120 logs: enough work for two processes
 LONGEST = 100.0  # [s] a start takes, should the engine have to be compiled first

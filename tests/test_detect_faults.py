@@ -11,17 +11,17 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-import sim.detect_faults
-from sim.contaminate import contaminate
-from sim.detect_faults import Inspection, inspect
-from sim.doubt import Doubt
-from sim.fault import Damage, Fault, Spoilt, Stretch, rescale_motion
-from sim.faults import FAULTS
-from sim.formats import write
-from sim.log import FOUR_TESTS, TESTS, Log, Run
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
+import sim.inspect.detect_faults
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.doubt import Doubt
+from sim.data.log import FOUR_TESTS, TESTS, Log, Run
+from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import Inspection, inspect
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, rescale_motion
+from sim.inspect.faults import FAULTS
+from sim.io import write
 
 
 def rng(seed=0):
@@ -96,7 +96,9 @@ def fake(name, *, whole=False, about="motion", says=()):
     ],
 )
 def test_of_two_explanations_of_a_moment_the_better_is_believed(monkeypatch, drive, faults, left):
-    monkeypatch.setattr(sim.detect_faults, "FAULTS", {fault.name: fault for fault in faults})
+    monkeypatch.setattr(
+        sim.inspect.detect_faults, "FAULTS", {fault.name: fault for fault in faults}
+    )
 
     assert [damage.fault for damage in inspect(drive).damages] == list(left)
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import sim
-from sim.diagnostics import diagnose_log
-from sim.log import Log
-from sim.log_features import LogFeatures
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.log import Log
+from sim.inspect.diagnostics import diagnose_log
+from sim.inspect.log_features import LogFeatures
 
 LESSON = Routine(ramp=0.5, step=3.5)
 

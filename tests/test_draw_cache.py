@@ -11,7 +11,7 @@ from grader import draw_cache as room
 from grader.draw_cache import draw_cache_enabled
 from grader.student_files import write_student_files
 from grader.variant import class_secret
-from sim.work import cache
+from sim.support.work import cache
 
 DRAWN = """
 from grader.draw_cache import cached_draw

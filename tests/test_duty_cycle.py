@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import sim
-from sim.duty_cycle import Battery, simulate_duty_cycle
-from sim.errors import BadRequest
+from sim.bench.duty_cycle import Battery, simulate_duty_cycle
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest
 from sim.fit import fit
-from sim.simulate import simulate
 
 DRIVE = sim.MECHANISMS["drivetrain"]
 ROUTINE = sim.Routine(ramp=0.5, step=3.5)

@@ -8,16 +8,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.effect import Effect, Parameter
-from sim.effects import EFFECTS, effect
-from sim.engine import State, finest_step, move
-from sim.errors import BadRequest
-from sim.log import KINDS, Log, Run
-from sim.mechanisms import MECHANISMS
-from sim.model import Model, Part
-from sim.routine import Routine
-from sim.simulate import simulate
-from sim.voltage_residual import compute_voltage_residual
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest
+from sim.data.log import KINDS, Log, Run
+from sim.physics.effect import Effect, Parameter
+from sim.physics.effects import EFFECTS, effect
+from sim.physics.engine import State, finest_step, move
+from sim.physics.model import Model, Part
+from sim.physics.voltage_residual import compute_voltage_residual
 
 PAIRS = [
     (name, kind)

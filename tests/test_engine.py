@@ -10,9 +10,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sim.effects import EFFECTS
-from sim.effects.drag import EFFECT as DRAG
-from sim.engine import (
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import power_path_arrays
+from sim.data.errors import BadRequest
+from sim.physics.effects import EFFECTS
+from sim.physics.effects.drag import EFFECT as DRAG
+from sim.physics.engine import (
     EXACT,
     NO_TRUST,
     NO_WIRES,
@@ -22,17 +25,14 @@ from sim.engine import (
     model_constants,
     move,
 )
-from sim.engine import kernel as kernel_room
-from sim.engine.compose import compose, is_compiled
-from sim.engine.kernel import NO_USE
-from sim.engine.machine_code import Code, link_code
-from sim.engine.power_path import CUT
-from sim.engine.two_body_modes import WAYS
-from sim.errors import BadRequest
-from sim.mechanisms import MECHANISMS
-from sim.model import Model, Part
-from sim.simulate import power_path_arrays
-from sim.work.cache import CACHE, cache_folder
+from sim.physics.engine import kernel as kernel_room
+from sim.physics.engine.compose import compose, is_compiled
+from sim.physics.engine.kernel import NO_USE
+from sim.physics.engine.machine_code import Code, link_code
+from sim.physics.engine.power_path import CUT
+from sim.physics.engine.two_body_modes import WAYS
+from sim.physics.model import Model, Part
+from sim.support.work.cache import CACHE, cache_folder
 
 GAINS = {"kS": 0.2, "kV": 2.0, "kA": 0.3}
 PLAIN = Model("simple", GAINS)
@@ -248,17 +248,17 @@ def test_an_effect_written_wrongly_stops_the_engine_with_a_sentence(change, said
         compose(new_effect(**change))
 
     assert said in str(refused.value)
-    assert "sim/effects/drag.py" in str(refused.value)
+    assert "sim/physics/effects/drag.py" in str(refused.value)
 
 
 FEW = {"drag": EFFECTS["drag"]}  # a small engine is compiled in half the time
 PROGRAM = """
 import numpy as np
-from sim.effects import EFFECTS
+from sim.physics.effects import EFFECTS
 for name in {*EFFECTS} - {"drag"}:
     del EFFECTS[name]
-from sim.engine import State, move
-from sim.model import Model
+from sim.physics.engine import State, move
+from sim.physics.model import Model
 track = move(Model("simple", {"kS": 0.2, "kV": 2.0, "kA": 0.3}), time=np.arange(0, 1, 0.02),
              voltage=np.full(50, 3.0), state=State())
 print(round(float(track.velocity[-1]), 6))

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from grader.exercise import Exercise
-from sim.effects import effect
-from sim.units import unit
+from sim.data.units import unit
+from sim.physics.effects import effect
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise12", ROOT / "exercises" / "exercise12")
@@ -67,7 +67,7 @@ def test_twelve_students_have_an_answer_that_earns_everything(tmp_path):
 
 @pytest.mark.parametrize(("kind", "effects"), DRAWN.HIDDEN)
 def test_what_can_be_hidden_is_physics_that_its_mechanism_can_have(kind, effects):
-    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
 
     for name, size in effects:
         assert effect(name).cannot(MECHANISMS[kind].scale) == ""

@@ -14,12 +14,12 @@ from grader.check import Wrong
 from grader.cli import run
 from grader.exercise import Exercise
 from grader.variant import folder_name
-from sim.battery import Battery
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.mechanisms import MECHANISMS
-from sim.motors import motor, theoretical_kv
-from sim.routine import Routine
-from sim.simulate import simulate
+from sim.physics.battery import Battery
+from sim.physics.motors import motor, theoretical_kv
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")

@@ -15,13 +15,13 @@ import pytest
 from grader.cli import run
 from grader.exercise import Exercise
 from grader.variant import folder_name
-from sim.battery import Battery
-from sim.engine import State, move
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.units import unit
 from sim.fit import fit
-from sim.model import Model
-from sim.routine import Routine
-from sim.simulate import simulate
-from sim.units import unit
+from sim.physics.battery import Battery
+from sim.physics.engine import State, move
+from sim.physics.model import Model
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise6", ROOT / "exercises" / "exercise6")

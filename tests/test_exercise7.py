@@ -14,11 +14,11 @@ import pytest
 from grader.check import Wrong
 from grader.exercise import Exercise
 from grader.variant import class_secret
-from sim.detect_faults import inspect
-from sim.fault import Stretch
-from sim.faults import FAULTS
-from sim.formats import read
-from sim.log import FOUR_TESTS, Log, Run
+from sim.data.log import FOUR_TESTS, Log, Run
+from sim.inspect.detect_faults import inspect
+from sim.inspect.fault import Stretch
+from sim.inspect.faults import FAULTS
+from sim.io import read
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise7", ROOT / "exercises" / "exercise7")

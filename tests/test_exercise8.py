@@ -15,9 +15,9 @@ from grader.cli import run
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import class_secret
+from sim.data.units import unit
 from sim.fit import fit
-from sim.formats import read
-from sim.units import unit
+from sim.io import read
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise8", ROOT / "exercises" / "exercise8")

@@ -16,17 +16,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import sim.faults
-from sim.catalogue import members
-from sim.contaminate import contaminate
-from sim.detect_faults import inspect
-from sim.errors import BadRequest
-from sim.fault import Fault, fault_of
-from sim.faults import FAULTS, fault
-from sim.log import Log
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
+import sim.inspect.faults
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest
+from sim.data.log import Log
+from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
+from sim.inspect.fault import Fault, fault_of
+from sim.inspect.faults import FAULTS, fault
+from sim.support.catalogue import members
 
 SEEDS = 100  # damaged logs for each fault
 CLEAN = 300  # sound logs
@@ -179,15 +179,20 @@ def test_a_fault_knows_neither_the_bench_nor_its_neighbors(name):
 
     seen = {module for module in imported if module.startswith("sim.")}
 
-    assert not seen & {"sim.mechanisms", "sim.mechanism", "sim.simulate", "sim.ground_truth"}
-    assert not any(module.startswith("sim.faults") for module in seen)
+    assert not seen & {
+        "sim.bench.mechanisms",
+        "sim.bench.mechanism",
+        "sim.bench.simulate",
+        "sim.bench.ground_truth",
+    }
+    assert not any(module.startswith("sim.inspect.faults") for module in seen)
 
 
 GOOD = '''"""Gremlins: they bite.
 
 Fingerprint: bites.
 """
-from sim.fault import Fault, Spoilt
+from sim.inspect.fault import Fault, Spoilt
 
 FAULT = Fault(
     name="gremlins",
@@ -221,15 +226,15 @@ def test_a_bad_file_in_the_folder_is_refused_with_a_sentence_that_says_why(
     tmp_path, monkeypatch, change, said
 ):
     (tmp_path / "gremlins.py").write_text(GOOD.replace(*change), encoding="utf-8")
-    monkeypatch.setattr(sim.faults, "__path__", [str(tmp_path)])
-    monkeypatch.delitem(sys.modules, "sim.faults.gremlins", raising=False)
+    monkeypatch.setattr(sim.inspect.faults, "__path__", [str(tmp_path)])
+    monkeypatch.delitem(sys.modules, "sim.inspect.faults.gremlins", raising=False)
 
     with pytest.raises(BadRequest) as refused:
-        [fault_of(module, name=name) for name, module in members(sim.faults).items()]
+        [fault_of(module, name=name) for name, module in members(sim.inspect.faults).items()]
 
-    sys.modules.pop("sim.faults.gremlins", None)
+    sys.modules.pop("sim.inspect.faults.gremlins", None)
     assert said in str(refused.value)
-    assert str(refused.value).startswith("sim/faults/gremlins.py: ")
+    assert str(refused.value).startswith("sim/inspect/faults/gremlins.py: ")
     assert "\n" not in str(refused.value)
 
 

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import sim
-from sim.contaminate import contaminate
-from sim.diagnostics import diagnose_log
-from sim.fault import select_samples
-from sim.faults import FAULTS
-from sim.log import Log, Run
-from sim.log_features import LogFeatures
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.log import Log, Run
+from sim.inspect.contaminate import contaminate
+from sim.inspect.diagnostics import diagnose_log
+from sim.inspect.fault import select_samples
+from sim.inspect.faults import FAULTS
+from sim.inspect.log_features import LogFeatures
 
 LESSON = Routine(ramp=0.5, step=3.5)
 MINE = (

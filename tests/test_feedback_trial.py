@@ -8,8 +8,15 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from sim.feedback import PRESETS, Feedback, Plant, judge_step_response, step_response
-from sim.feedback_trial import OWN, SUGGESTED, OwnGains, delay_of, trial_doubts, try_feedback_gains
 from sim.fit import Fit
+from sim.fit.feedback_trial import (
+    OWN,
+    SUGGESTED,
+    OwnGains,
+    delay_of,
+    trial_doubts,
+    try_feedback_gains,
+)
 
 DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.19}
 LIGHT = {"kS": 0.05, "kV": 0.12, "kA": 0.032}  # a flywheel [per rotation]: 270 ms, no load

@@ -11,12 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from known_answers import NAMES, known_answer
 
-from sim.errors import BadRequest, NotIdentifiable
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest, NotIdentifiable
+from sim.data.log import FOUR_TESTS, Log, Run
 from sim.fit import fit as any_fit
-from sim.log import FOUR_TESTS, Log, Run
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
 
 fit = partial(any_fit, method="sysid")
 

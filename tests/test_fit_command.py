@@ -10,12 +10,12 @@ from page_flaws import page_flaws
 from wpilog_file import Motor, saved
 
 import sim
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.cli.fit.sides import sides_of
-from sim.cli_support import run
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
+from sim.support.command_line import run
 
 SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
 DRIVE = MECHANISMS["drivetrain"]

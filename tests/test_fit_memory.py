@@ -5,10 +5,10 @@ import tracemalloc
 import numpy as np
 import pytest
 
+from sim.bench.simulate import move_gains_only
+from sim.data.log import FOUR_TESTS, Log, Run
+from sim.data.vocabulary import METHODS
 from sim.fit import fit
-from sim.log import FOUR_TESTS, Log, Run
-from sim.simulate import move_gains_only
-from sim.vocabulary import METHODS
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 SHORT, LONG = 1_500, 15_000  # [samples] of all tests together; the longer is fitted in threads

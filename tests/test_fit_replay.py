@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sim.errors import BadRequest
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest
 from sim.fit import fit
-from sim.fit_replay import replay_fit
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
+from sim.fit.replay import replay_fit
 
 GENTLE = Routine(ramp=0.5, step=3.5, timeout=6.0)
 KINDS = ("drivetrain", "arm", "elevator")

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 import sim
-from sim import formats
-from sim.errors import Refusal, UnreadableFile
-from sim.log import Log, Run
+from sim import io
+from sim.data.errors import Refusal, UnreadableFile
+from sim.data.log import Log, Run
 
 LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
 
@@ -84,7 +84,7 @@ def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path) -> None:
 
 def test_an_enormous_file_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     sim.write(LOG, tmp_path / "log.csv")
-    monkeypatch.setattr(formats, "LARGEST_FILE", 10)
+    monkeypatch.setattr(io, "LARGEST_FILE", 10)
 
     with pytest.raises(UnreadableFile, match="the most that is read.*Export only the four tests"):
         sim.read(tmp_path / "log.csv")

@@ -13,12 +13,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import sim
-from sim import formats
-from sim.errors import BadRequest, BadSample, UnreadableFile
-from sim.log import TESTS, Log, Run
-from sim.units import UNITS
+from sim import io
+from sim.data.errors import BadRequest, BadSample, UnreadableFile
+from sim.data.log import TESTS, Log, Run
+from sim.data.units import UNITS
 
-MODULES = {name: import_module(f"sim.formats.{name}") for name in formats.FORMATS}
+MODULES = {name: import_module(f"sim.io.{name}") for name in io.FORMATS}
 WRITERS = sorted(name for name, module in MODULES.items() if hasattr(module, "write"))
 SAYS_NO_UNITS = {"csv"}  # whoever reads such a file has to say them
 LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
@@ -48,7 +48,7 @@ def test_a_suffix_leads_to_one_format() -> None:
 
 
 def test_the_formats_are_those_in_the_folder() -> None:
-    assert {"csv", "sysid_json"} <= set(formats.FORMATS)
+    assert {"csv", "sysid_json"} <= set(io.FORMATS)
 
 
 @st.composite
@@ -105,8 +105,8 @@ def test_only_the_format_in_use_is_imported(tmp_path: Path, root: Path) -> None:
     )
 
     loaded = set(done.stdout.decode().split())
-    assert "sim.formats.csv" in loaded
-    assert not {f"sim.formats.{name}" for name in formats.FORMATS if name != "csv"} & loaded
+    assert "sim.io.csv" in loaded
+    assert not {f"sim.io.{name}" for name in io.FORMATS if name != "csv"} & loaded
 
 
 @pytest.mark.parametrize("kind", [str, Path])

@@ -16,13 +16,13 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import sim
-from sim.errors import Refusal
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import Refusal
+from sim.data.log import LARGEST, Log, Run
+from sim.data.vocabulary import METHODS, TESTS, TYPES
 from sim.fit import fit
-from sim.log import LARGEST, Log, Run
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
-from sim.vocabulary import METHODS, TESTS, TYPES
 
 FEW = 40
 LONG = int(os.environ.get("SYSID_FUZZ", "0"))

@@ -7,10 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from sim.errors import BadRequest
-from sim.fit.measurements import SensorNoise
+from sim.data.errors import BadRequest
+from sim.data.log import DIRECTIONS
+from sim.estimation.measurements import SensorNoise
 from sim.gap import Residuals, gap_map
-from sim.log import DIRECTIONS
 
 NOISE = SensorNoise(position=1e-4, velocity=0.01, grain=(1e-9, 1e-9))
 SIZES = np.array([NOISE.position, NOISE.velocity])

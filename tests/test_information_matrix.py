@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
 from sim.fit.information_matrix import information_matrix
-from sim.sysid_rows import Rows
+from sim.fit.sysid_rows import Rows
 
 
 def rows(velocity, acceleration, position=None):

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from sim.doubt import Doubt
-from sim.errors import BadRequest, BadSample
-from sim.format import sound_run
-from sim.log import Log, Run
-from sim.units import UNITS, unit
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest, BadSample
+from sim.data.log import Log, Run
+from sim.data.units import UNITS, unit
+from sim.io.format import sound_run
 
 
 def run(**changes):

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from sim.fit.measurements import THIRD, estimate_noise, measure_runs, third_differences
-from sim.log import Log, Run
+from sim.data.log import Log, Run
+from sim.estimation.measurements import THIRD, estimate_noise, measure_runs, third_differences
 
 NOISE = 1e-3  # [m]
 

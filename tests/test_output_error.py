@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.engine import State, move
-from sim.errors import BadRequest, NotIdentifiable
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import move_gains_only, simulate
+from sim.data.errors import BadRequest, NotIdentifiable
+from sim.data.log import FOUR_TESTS, Log, Run
 from sim.fit import fit
-from sim.log import FOUR_TESTS, Log, Run
-from sim.mechanisms import MECHANISMS
-from sim.model import Model, Part
-from sim.routine import Routine
-from sim.simulate import move_gains_only, simulate
+from sim.physics.engine import State, move
+from sim.physics.model import Model, Part
 
 GENTLE = Routine(ramp=0.5, step=3.5)
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}

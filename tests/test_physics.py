@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sim.errors import BadRequest
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest
 from sim.fit import fit
 from sim.fit.physics import Parts, compare_directions, compare_sides, physical_doubts
-from sim.mechanisms import MECHANISMS
-from sim.motors import MOTORS, motor
-from sim.routine import Routine
-from sim.simulate import simulate
+from sim.physics.motors import MOTORS, motor
 
 GENTLE = Routine(ramp=0.5, step=3.5)
 TURN = 2.0 * math.pi

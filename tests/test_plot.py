@@ -15,8 +15,9 @@ from html_tags import Tags
 from matplotlib.image import imread
 
 import sim
-from sim.errors import BadRequest
-from sim.fault import Stretch
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest
+from sim.inspect.fault import Stretch
 from sim.plot import (
     Line,
     acceleration_velocity,
@@ -30,7 +31,6 @@ from sim.plot import (
     voltage_velocity,
 )
 from sim.plot.picture import COLORS, LINES, MARKERS
-from sim.simulate import simulate
 
 ROUTINE = sim.Routine(ramp=0.5, step=3.5)
 

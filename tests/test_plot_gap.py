@@ -8,15 +8,15 @@ from html_tags import Tags
 from matplotlib.colors import to_rgba
 
 import sim
-from sim.duty_cycle import Battery, simulate_duty_cycle
-from sim.errors import BadRequest
-from sim.mechanisms import MECHANISMS
-from sim.model import Model
+from sim.bench.duty_cycle import Battery, simulate_duty_cycle
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest
+from sim.physics.model import Model
+from sim.physics.replay import replay
 from sim.plot import gap_bars, plot_voltage_residual, residual_views
 from sim.plot.picture import PAPER
 from sim.plot.voltage_residual import missing_volts
-from sim.replay import replay
-from sim.simulate import simulate
 
 DRIVETRAIN = MECHANISMS["drivetrain"]
 TRUTH = Model("simple", DRIVETRAIN.gains)

@@ -7,11 +7,11 @@ import pytest
 from html_tags import Tags
 
 import sim
-from sim.errors import BadRequest
+from sim.bench.simulate import simulate
+from sim.data.errors import BadRequest
 from sim.fit.information_matrix import information_matrix
+from sim.fit.sysid_rows import prepare_rows
 from sim.plot import ellipses, hold_angles, hold_window, information_map
-from sim.simulate import simulate
-from sim.sysid_rows import prepare_rows
 
 VOLTS, SPEEDS = [1.0, 1.5, 2.0, 2.5, 3.0], [-0.17, -0.06, 0.0, 0.05, 0.17]
 NAMES, TRUTH, REACH = ("kS [V]", "kG [V]"), (0.25, 2.01), (0.3, 0.3)

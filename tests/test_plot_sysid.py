@@ -7,10 +7,10 @@ import pytest
 from handmade import FOUR, log_of
 
 import sim
-from sim.errors import BadRequest, NotIdentifiable
-from sim.log import FOUR_TESTS, Log
+from sim.data.errors import BadRequest, NotIdentifiable
+from sim.data.log import FOUR_TESTS, Log
+from sim.fit.sysid_rows import prepare_rows
 from sim.plot import acceleration_velocity, velocity_time
-from sim.sysid_rows import prepare_rows
 
 PERIOD, STEP = 0.02, 0.0005  # [s] between samples, and between two steps of the motion
 SIMPLE = {"kS": 0.2, "kV": 2.0, "kA": 0.3}

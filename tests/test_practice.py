@@ -10,11 +10,11 @@ import pytest
 from grader.exercise import Exercise, find_exercise
 from grader.mistake import put, scaled
 from grader.variant import folder_name
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.formats import read, write
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
+from sim.io import read, write
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("practice", ROOT / "exercises" / "practice")

@@ -11,7 +11,7 @@ from small_course import answer, lay_out
 from grader.classroom.feedback_text import feedback
 from grader.cli import run
 from grader.notebook import submit
-from sim.printable import DIRECTIONS, printable
+from sim.support.printable import DIRECTIONS, printable
 
 COMMANDS = re.compile(
     "[" + "".join(map(re.escape, sorted(DIRECTIONS))) + "\x00-\x08\x0b-\x1f\x7f-\x9f]"

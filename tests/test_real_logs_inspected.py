@@ -7,8 +7,8 @@ import json
 
 import pytest
 
-from sim.detect_faults import inspect
-from sim.formats import read
+from sim.inspect.detect_faults import inspect
+from sim.io import read
 
 pytestmark = pytest.mark.shared
 

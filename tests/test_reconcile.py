@@ -7,12 +7,12 @@ import pytest
 from reconcile_made import bench, logs, session, solved, told
 
 from sim.cli.reconcile import inspect_damage
-from sim.contaminate import contaminate
-from sim.effects import EFFECTS
+from sim.data.units import unit
+from sim.inspect.contaminate import contaminate
+from sim.physics.effects import EFFECTS
 from sim.reconcile.damage import DamagedInterval
+from sim.reconcile.story_text import headline, list_remarks
 from sim.reconcile.thresholds import NOT_WIDER
-from sim.story_text import headline, list_remarks
-from sim.units import unit
 
 HIDDEN = {
     "drag": ("drivetrain", "drag", False),

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from reconcile_made import recorded
 
-from sim.engine import State
-from sim.log import Log
-from sim.model import Model, Part
+from sim.data.log import Log
+from sim.physics.engine import State
+from sim.physics.model import Model, Part
 from sim.reconcile import reconcile
 from sim.reconcile.backlash_phase import (
     ASIDE,

@@ -3,7 +3,7 @@
 import pytest
 from reconcile_made import rubbing
 
-from sim.model import Part
+from sim.physics.model import Part
 from sim.reconcile import optimize
 from sim.reconcile.backward_elimination import simplify_effects
 from sim.reconcile.candidates import score_estimate

@@ -4,8 +4,8 @@ import pytest
 from story_made import STORIES
 from test_report_in_browser import FAINTEST, LEAST_CONTRAST, browser
 
+from sim.reconcile.story_text import headline
 from sim.report.story import write_story
-from sim.story_text import headline
 
 __all__ = ["browser"]  # the fixture is that of the other page
 

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from reconcile_made import bench, recorded, session, told
 
-from sim.effects import EFFECTS
-from sim.engine import State
-from sim.log import Log, Run
-from sim.model import Model, Part
+from sim.data.log import Log, Run
+from sim.physics.effects import EFFECTS
+from sim.physics.engine import State
+from sim.physics.model import Model, Part
+from sim.physics.voltage_residual import compute_voltage_residual, run_start_times
 from sim.reconcile import model_selection
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap, make_folds
@@ -23,7 +24,6 @@ from sim.reconcile.residual_tests.whiteness import WorstWindow
 from sim.reconcile.run_nuisance import RunNuisance
 from sim.reconcile.run_records import join_records, run_records, session_length
 from sim.reconcile.selection_round import SelectionRound
-from sim.voltage_residual import compute_voltage_residual, run_start_times
 
 PERIOD, LATER = 0.02, 1e6  # [s]
 JOINS = 0.6  # [1] of kA

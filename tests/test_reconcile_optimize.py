@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from reconcile_made import NOWHERE, SESSIONS, bench, session, told
 
-from sim.effects import EFFECTS
-from sim.engine import Track
-from sim.model import Part
+from sim.physics.effects import EFFECTS
+from sim.physics.engine import Track
+from sim.physics.model import Part
+from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import rank_candidates
 from sim.reconcile.cross_validation import Gap, open_loop_errors, rms_gap
 from sim.reconcile.forward_selection import select_effects
@@ -23,7 +24,6 @@ from sim.reconcile.run_records import ExcludedInterval, run_records
 from sim.reconcile.selection_round import WeighedCandidate
 from sim.reconcile.story import Tried
 from sim.reconcile.thresholds import MAJOR
-from sim.voltage_residual import compute_voltage_residual
 
 BAND = 0.25  # [V] of an elevator whose ramps begin at 1.5 V upward, and at once downward
 RIPPLE, RIPPLES = 0.04, 12.0  # [V] less than what is everyday, and how often along the way

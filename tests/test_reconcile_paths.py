@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from reconcile_made import NOWHERE, recorded
 
-from sim.effects import EFFECTS
-from sim.engine import State
-from sim.fit.measurements import SensorNoise
-from sim.log import Log
-from sim.model import Model
+from sim.data.log import Log
+from sim.estimation.measurements import SensorNoise
+from sim.physics.effects import EFFECTS
+from sim.physics.engine import State
+from sim.physics.model import Model
 from sim.reconcile.backward_elimination import replace_effects
 from sim.reconcile.candidates import Candidate
 from sim.reconcile.cross_validation import Gap

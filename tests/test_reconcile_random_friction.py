@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from reconcile_made import rubbing
 
-from sim.engine import NO_TRUST, RunBatch, follow
-from sim.model import Model, Part
+from sim.physics.engine import NO_TRUST, RunBatch, follow
+from sim.physics.model import Model, Part
 from sim.reconcile.cross_validation import open_loop_errors, parabola_minima, rms_gap
 from sim.reconcile.findings import standard_errors
 from sim.reconcile.likelihood import PredictionErrorProblem

@@ -11,7 +11,7 @@ import math
 import pytest
 
 from sim.cli import sysid
-from sim.cli_support import run
+from sim.support.command_line import run
 
 pytestmark = pytest.mark.shared
 LOGS = {

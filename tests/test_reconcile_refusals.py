@@ -8,12 +8,12 @@ from reconcile_made import bench, logs, session
 
 import sim
 from sim.cli import sysid
-from sim.cli_support import run
-from sim.errors import BadRequest, NotIdentifiable, Refusal
-from sim.log import Log
+from sim.data.errors import BadRequest, NotIdentifiable, Refusal
+from sim.data.log import Log
 from sim.reconcile import reconcile
 from sim.reconcile.dropout_intervals import dropout_intervals
 from sim.reconcile.input_checks import check_logs, count_repeated_runs
+from sim.support.command_line import run
 
 DRIVE = logs("drivetrain")
 LOG = replace(DRIVE["log"], source="drive.csv")

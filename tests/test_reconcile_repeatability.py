@@ -8,9 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
-from sim.engine import State
-from sim.log import Log
-from sim.model import Model, Part
+from sim.data.log import Log
+from sim.data.units import unit
+from sim.physics.engine import State
+from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.optimize import minimize
@@ -19,7 +20,6 @@ from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import ALIKE
 from sim.reconcile.verdict import verdict_of
-from sim.units import unit
 
 GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]

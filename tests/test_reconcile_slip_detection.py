@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from sim.engine import State, move
-from sim.fault import rescale_motion
-from sim.log import Log, Run
-from sim.model import Model
+from sim.data.log import Log, Run
+from sim.inspect.fault import rescale_motion
+from sim.physics.engine import State, move
+from sim.physics.model import Model
 from sim.reconcile.likelihood import PredictionErrorProblem
 from sim.reconcile.model_structure import ModelStructure
 from sim.reconcile.run_nuisance import RunNuisance

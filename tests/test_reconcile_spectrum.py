@@ -8,9 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
-from sim.engine import State
-from sim.log import Log, Run
-from sim.model import Model, Part
+from sim.data.log import Log, Run
+from sim.data.units import unit
+from sim.physics.engine import State
+from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.likelihood import PredictionErrorProblem
@@ -23,7 +24,6 @@ from sim.reconcile.run_records import run_records
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import RHYTHM
 from sim.reconcile.verdict import verdict_of
-from sim.units import unit
 
 GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]

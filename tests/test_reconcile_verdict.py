@@ -8,9 +8,10 @@ import pytest
 from reconcile_made import recorded
 from story_made import DRAG, SLIP
 
-from sim.engine import State
-from sim.log import Log
-from sim.model import Model, Part
+from sim.data.log import Log
+from sim.data.units import unit
+from sim.physics.engine import State
+from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.findings import list_remarks, make_findings
@@ -26,7 +27,6 @@ from sim.reconcile.run_records import run_records
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import Tried
 from sim.reconcile.verdict import verdict_of
-from sim.units import unit
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
 METERS = unit("meters")

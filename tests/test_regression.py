@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from sim.errors import NotIdentifiable
+from sim.data.errors import NotIdentifiable
+from sim.data.log import FOUR_TESTS
 from sim.fit.regression import regress
-from sim.log import FOUR_TESTS
-from sim.sysid_rows import Rows
+from sim.fit.sysid_rows import Rows
 
 PERIOD = 0.005  # [s]
 SAMPLES = 1000  # a test

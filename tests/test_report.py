@@ -10,15 +10,15 @@ import pytest
 from page_flaws import page_flaws
 
 import sim
-from sim.doubt import Doubt
-from sim.errors import BadRequest
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest
 from sim.feedback import PRESETS, Feedback
-from sim.feedback_trial import OwnGains, try_feedback_gains
 from sim.fit import fit
-from sim.mechanisms import MECHANISMS
+from sim.fit.feedback_trial import OwnGains, try_feedback_gains
 from sim.report import Report, render_page, write_page, write_picture
-from sim.routine import Routine
-from sim.simulate import simulate
 
 SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
 DEFAULT = PRESETS["default"]

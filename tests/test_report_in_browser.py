@@ -5,13 +5,13 @@ import shutil
 import numpy as np
 import pytest
 
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.feedback import PRESETS
-from sim.feedback_trial import try_feedback_gains
 from sim.fit import fit
-from sim.mechanisms import MECHANISMS
+from sim.fit.feedback_trial import try_feedback_gains
 from sim.report import Report, write_page
-from sim.routine import Routine
-from sim.simulate import simulate
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = ["--no-sandbox", "--disable-gpu"]  # a container runs as root, where no sandbox can start

@@ -12,10 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tree_sitter import Language, Parser
 
-from sim.doubt import Doubt
-from sim.errors import BadRequest
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest
+from sim.data.units import UNITS
 from sim.fit import Fit
-from sim.robot_code_snippet import (
+from sim.report.robot_code_snippet import (
     CLASSES,
     LANGUAGES,
     ORDER,
@@ -24,7 +25,6 @@ from sim.robot_code_snippet import (
     robot_code_snippet,
     round_to_error,
 )
-from sim.units import UNITS
 
 TYPES = tuple(ORDER)
 UNIT = {"simple": "meters", "elevator": "meters", "arm": "radians"}

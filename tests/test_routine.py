@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from sim.errors import BadRequest
-from sim.log import KINDS
-from sim.routine import Routine
+from sim.bench.routine import Routine
+from sim.data.errors import BadRequest
+from sim.data.log import KINDS
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import sim
-from sim.battery import Battery
-from sim.errors import BadRequest
-from sim.mechanisms import MECHANISMS
+from sim.bench.mechanisms import MECHANISMS
+from sim.data.errors import BadRequest
+from sim.physics.battery import Battery
 from sim.plot import runway
 from sim.teaching.runway import PERIOD, Floor, drive_test
 

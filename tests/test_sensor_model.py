@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sim.mechanism import Sensor
-from sim.sensor_model import read_sensor
+from sim.bench.mechanism import Sensor
+from sim.bench.sensor_model import read_sensor
 
 QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)
 

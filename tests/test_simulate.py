@@ -8,15 +8,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim.battery import Battery
-from sim.errors import BadRequest
+from sim.bench.mechanism import Sensor
+from sim.bench.mechanisms import MECHANISMS, mechanism
+from sim.bench.routine import Routine
+from sim.bench.simulate import move_gains_only, simulate
+from sim.data.errors import BadRequest
+from sim.data.log import FOUR_TESTS
 from sim.fit import fit
-from sim.log import FOUR_TESTS
-from sim.mechanism import Sensor
-from sim.mechanisms import MECHANISMS, mechanism
-from sim.motors import MOTORS, motor, theoretical_kv
-from sim.routine import Routine
-from sim.simulate import move_gains_only, simulate
+from sim.physics.battery import Battery
+from sim.physics.motors import MOTORS, motor, theoretical_kv
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)

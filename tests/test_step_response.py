@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.engine import State, move
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
 from sim.feedback import (
     PRESETS,
     Feedback,
@@ -20,7 +19,8 @@ from sim.feedback import (
     step_response,
     velocity_loop,
 )
-from sim.model import Model
+from sim.physics.engine import State, move
+from sim.physics.model import Model
 
 GAINS = {"kS": 0.15, "kV": 2.5, "kA": 0.19}
 PLANTS = {

@@ -30,11 +30,12 @@ from story_made import (
 )
 
 import sim
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.cli import sysid
-from sim.cli_support import run
-from sim.effects import EFFECTS
-from sim.errors import BadRequest
-from sim.mechanisms import MECHANISMS
+from sim.data.errors import BadRequest
+from sim.physics.effects import EFFECTS
 from sim.plot.story import (
     candidate_bars,
     findings_table,
@@ -42,11 +43,10 @@ from sim.plot.story import (
     plot_overlays,
     residual_maps,
 )
+from sim.reconcile.story_text import format_estimate, headline, list_inspections, list_next_tests
 from sim.report.story import story_page, write_story
-from sim.routine import Routine
-from sim.simulate import simulate
-from sim.story_terminal import progress_bar, show_story
-from sim.story_text import format_estimate, headline, list_inspections, list_next_tests
+from sim.report.story_terminal import progress_bar, show_story
+from sim.support.command_line import run
 
 BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
 EXPLAINED = STORIES["explained"]
@@ -518,7 +518,7 @@ def test_a_validation_that_is_not_there_is_one_line(reconcile, drive):
 UNSEEN = """
 import sys
 from sim.cli import sysid
-from sim.cli_support import run
+from sim.support.command_line import run
 run(sysid, name="sysid", arguments=["reconcile", {path!r}, "--json"])
 seen = [name for name in ("matplotlib", "jinja2", "rich", "IPython") if name in sys.modules]
 print(seen, file=sys.stderr)

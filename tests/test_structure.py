@@ -9,9 +9,9 @@ ROOT = Path(__file__).resolve().parents[1]
 OURS = ("sim", "grader")
 CATALOGUES = {  # these look into their own folder, or hand on a name when it is first asked for
     "sim/__init__.py",
-    "sim/catalogue.py",
+    "sim/support/catalogue.py",
     "sim/cli/__init__.py",
-    "sim/formats/__init__.py",
+    "sim/io/__init__.py",
     "grader/__init__.py",
     "grader/classroom/exports/__init__.py",
     "grader/cli/__init__.py",
@@ -55,7 +55,7 @@ def test_only_catalogues_import_our_modules_by_name():
 @pytest.mark.parametrize(
     "text",
     [
-        'import_module("sim.mechanisms")',
+        'import_module("sim.bench.mechanisms")',
         'importlib.import_module("sim.plot.story")',
         '__import__("grader.check")',
         'import_module(f"sim.{name}")',

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sim.sysid_rows import Rows, median_filter, noise_floor, trim_step
+from sim.fit.sysid_rows import Rows, median_filter, noise_floor, trim_step
 
 
 def test_a_median_of_three_is_sysids_own():

@@ -16,8 +16,8 @@ from test_exercises import mistakes_of
 from grader.course import find_course
 from grader.exercise import exercises
 from grader.misconception import MISCONCEPTIONS
-from sim.effects import EFFECTS
-from sim.faults import FAULTS
+from sim.inspect.faults import FAULTS
+from sim.physics.effects import EFFECTS
 
 ROOT = find_course(Path(__file__).resolve().parent)
 TABLE = tomllib.loads((ROOT / "tests" / "traceability.toml").read_text(encoding="utf-8"))

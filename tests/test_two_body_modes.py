@@ -8,9 +8,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from sim.engine import NO_TRUST, RunBatch, State, follow, move
-from sim.engine.two_body_modes import MOVES, ROW, STANDS, WAYS, becomes, doubled, prepared, tabled
-from sim.model import Model, Part
+from sim.physics.engine import NO_TRUST, RunBatch, State, follow, move
+from sim.physics.engine.two_body_modes import (
+    MOVES,
+    ROW,
+    STANDS,
+    WAYS,
+    becomes,
+    doubled,
+    prepared,
+    tabled,
+)
+from sim.physics.model import Model, Part
 
 FINE = 2e-5  # [s] steps of what the others are compared with
 TIME = np.arange(0.0, 3.0, 0.02)

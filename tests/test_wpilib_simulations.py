@@ -14,14 +14,14 @@ from wpilib_twins import G, arm, dc_motor, differential, elevator, flywheel, gea
 from wpilib_twins import plant as wpimath
 from wpilib_twins import simulation as wpilib
 
-from sim.battery import Battery
-from sim.engine import State, move
-from sim.log import KINDS
-from sim.mechanism import Mechanism, Sensor
-from sim.mechanisms import MECHANISMS
-from sim.motors import MOTORS, Motor
-from sim.routine import Routine
-from sim.simulate import power_path_arrays, simulate
+from sim.bench.mechanism import Mechanism, Sensor
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import power_path_arrays, simulate
+from sim.data.log import KINDS
+from sim.physics.battery import Battery
+from sim.physics.engine import State, move
+from sim.physics.motors import MOTORS, Motor
 
 pytestmark = pytest.mark.robot
 

@@ -10,8 +10,8 @@ import pytest
 from wpilog_file import FOUR, LOOP, Logger, Motor, codes, motion, routine, saved, voltage
 
 import sim
-from sim.errors import BadRequest
-from sim.log import Array
+from sim.data.errors import BadRequest
+from sim.data.log import Array
 
 TURN = 2 * np.pi
 JAVA = ("Volt", "Rotation", "Rotation per Second")

@@ -11,8 +11,8 @@ import pytest
 from wpilog_file import Motor, codes, motion, saved
 
 import sim
-from sim.errors import BadRequest
-from sim.log import Log
+from sim.data.errors import BadRequest
+from sim.data.log import Log
 
 METERS = ("volt", "meter", "meters_per_second")
 

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from wpilog_file import records
 
 import sim
-from sim.errors import BadRequest
-from sim.log import TESTS, Log, Run
-from sim.units import UNITS
+from sim.data.errors import BadRequest
+from sim.data.log import TESTS, Log, Run
+from sim.data.units import UNITS
 
 OPTIONAL = ("current", "bus_voltage")
 

@@ -24,8 +24,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from sim.mechanism import Mechanism
-from sim.motors import Motor
+from sim.bench.mechanism import Mechanism
+from sim.physics.motors import Motor
 
 ABSENT = "RobotPy is not installed (extra `robot`)"
 simulation = pytest.importorskip("wpilib.simulation", reason=ABSENT)

@@ -7,8 +7,8 @@ from grader.draw_cache import cached_draw
 from grader.variant import cache_draws, student_rng
 
 if TYPE_CHECKING:
-    from sim.log import Log
-    from sim.mechanism import Mechanism
+    from sim.bench.mechanism import Mechanism
+    from sim.data.log import Log
 
 FOUR = ("quasistatic", "dynamic")
 HIDDEN = (
@@ -63,9 +63,9 @@ class Variant:
 @cached_draw
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one."""
-    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.routine import Routine  # noqa: PLC0415 - the same
-    from sim.simulate import simulate  # noqa: PLC0415 - the same
+    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.bench.routine import Routine  # noqa: PLC0415 - the same
+    from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
 
     rng = student_rng(student, "exercise12")
     kind, effects = HIDDEN[int(rng.integers(len(HIDDEN)))]

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from sim.log import Array, Log
-    from sim.model import Model, Part
+    from sim.data.log import Array, Log
+    from sim.physics.model import Model, Part
 
 MOVING = 0.02  # [share of the top speed] slower, and without a voltage, there is nothing to compare
 COARSE = 0.01  # [s] step while a search looks around
@@ -39,7 +39,7 @@ def errors(model: "Model", log: "Log", *, step: float | None = None) -> "Array":
     """
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
-    from sim.replay import replay  # noqa: PLC0415 - the engine takes a moment to load
+    from sim.physics.replay import replay  # noqa: PLC0415 - the engine takes a moment to load
 
     tracks = replay(model, log, step=step)
     left = [
@@ -86,9 +86,9 @@ def with_effects(log: "Log", names: Sequence[str], *, like: "Model | None" = Non
     """
     from itertools import product  # noqa: PLC0415 - only where something is searched
 
-    from sim.effects import effect  # noqa: PLC0415 - the same
-    from sim.model import Part  # noqa: PLC0415 - the same
-    from sim.voltage_residual import compute_voltage_residual  # noqa: PLC0415 - the same
+    from sim.physics.effects import effect  # noqa: PLC0415 - the same
+    from sim.physics.model import Part  # noqa: PLC0415 - the same
+    from sim.physics.voltage_residual import compute_voltage_residual  # noqa: PLC0415 - the same
 
     gains = _start(log) if like is None else dict(like.gains)
     there = {part.effect: part.parameters for part in (like.parts if like else ())}
@@ -207,6 +207,6 @@ def _start(log: "Log") -> dict[str, float]:
 
 
 def _model(gains: Mapping[str, float], parts: "Sequence[Part]") -> "Model":
-    from sim.model import Model  # noqa: PLC0415 - the engine takes a moment to load
+    from sim.physics.model import Model  # noqa: PLC0415 - the engine takes a moment to load
 
     return Model("simple", gains, tuple(parts))

@@ -9,9 +9,9 @@ from grader.answer import Asked, Band, read_answer_number
 from grader.check import Wrong
 
 if TYPE_CHECKING:
-    from sim.effect import Parameter
-    from sim.model import Part
-    from sim.units import Unit
+    from sim.data.units import Unit
+    from sim.physics.effect import Parameter
+    from sim.physics.model import Part
 
 GAINS = ("ks", "kv", "ka", "kg", "kp")
 MOST = 19  # names; more than there are effects is no answer
@@ -41,7 +41,7 @@ def names_of(raw: object) -> tuple[str, ...]:
 
 
 def _known(name: str) -> None:
-    from sim.effects import EFFECTS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.physics.effects import EFFECTS  # noqa: PLC0415 - numpy only where it is needed
 
     if name in GAINS:
         raise Wrong(
@@ -67,8 +67,8 @@ def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -
     Raises:
         Wrong: a parameter is missing, or is none.
     """
-    from sim.effects import effect  # noqa: PLC0415 - numpy only where it is needed
-    from sim.model import Part  # noqa: PLC0415 - the same
+    from sim.physics.effects import effect  # noqa: PLC0415 - numpy only where it is needed
+    from sim.physics.model import Part  # noqa: PLC0415 - the same
 
     parts = []
     for name in names:
@@ -101,7 +101,7 @@ def _value(name: str, known: "Parameter", raw: object, per: "Unit") -> float:
 
 def on_a_bound(part: "Part") -> str:
     """The parameter that stands at the end of what is allowed; empty if none does."""
-    from sim.effects import effect  # noqa: PLC0415 - numpy only where it is needed
+    from sim.physics.effects import effect  # noqa: PLC0415 - numpy only where it is needed
 
     for one in effect(part.effect).parameters:
         value = part.parameters[one.name]

@@ -14,10 +14,10 @@ import numpy as np
 from grader.course import find_course, load_progress
 from grader.exercise import find_exercise
 from sim import read
-from sim.errors import Refusal
+from sim.data.errors import Refusal
+from sim.data.units import gains_per, unit
+from sim.physics.replay import replay
 from sim.reconcile.residual_map import residual_map
-from sim.replay import replay
-from sim.units import gains_per, unit
 
 TOLD = 4  # places
 

@@ -58,7 +58,7 @@ def draw(student: str) -> Variant:
 
 
 def _drawn(rng: "np.random.Generator") -> Variant | None:
-    from sim.motors import MOTORS  # noqa: PLC0415 - only where it is needed
+    from sim.physics.motors import MOTORS  # noqa: PLC0415 - only where it is needed
 
     kind = _one(tuple(BUILT), rng)
     names, count, ratios, diameters = BUILT[kind]

@@ -32,7 +32,7 @@ from grader.sysid_routine_checks import (
     check_units,
     no_advice,
 )
-from sim.errors import UnreadableFile
+from sim.data.errors import UnreadableFile
 
 from .settled import Code, asks, noted, settle
 

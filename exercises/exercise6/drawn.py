@@ -14,7 +14,7 @@ from .rules import GRIP, QUARTER, SIGNAL, broken
 if TYPE_CHECKING:
     import numpy as np
 
-    from sim.mechanism import Mechanism
+    from sim.bench.mechanism import Mechanism
 
 LIMITS = {"krakenX60": 80.0, "neoVortex": 80.0, "neo": 60.0, "krakenX44": 60.0}  # [A]
 MOTORS = {
@@ -75,8 +75,8 @@ def _feasible(student: str, kind: str) -> "tuple[Machine, Mechanism]":
 
 
 def _built(kind: str, rng: "np.random.Generator") -> "Mechanism":
-    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.motors import motor  # noqa: PLC0415 - the same
+    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.physics.motors import motor  # noqa: PLC0415 - the same
 
     plain = MECHANISMS[kind]
     names = MOTORS[kind]
@@ -91,7 +91,7 @@ def _built(kind: str, rng: "np.random.Generator") -> "Mechanism":
 
 
 def _machine(kind: str, built: "Mechanism", rng: "np.random.Generator") -> Machine:
-    from sim.units import gains_per, unit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.data.units import gains_per, unit  # noqa: PLC0415 - numpy only where it is needed
 
     per = unit(UNITS.get(kind, "rotations"))
     found = gains_per(built.gains, factor=per.si)

@@ -9,8 +9,8 @@ from grader.variant import cache_draws, student_rng
 if TYPE_CHECKING:
     import numpy as np
 
-    from sim.fault import Stretch
-    from sim.log import Log
+    from sim.data.log import Log
+    from sim.inspect.fault import Stretch
 
 LOGS = 12
 SOUND = (2, 3)  # this many of them are sound: two or three, so that nobody can count them off
@@ -93,12 +93,12 @@ def _case(faults: tuple[str, ...], rng: "np.random.Generator") -> Case:
 
 
 def _one(faults: tuple[str, ...], rng: "np.random.Generator") -> Case | None:
-    from sim.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
-    from sim.errors import Refusal  # noqa: PLC0415 - the same
-    from sim.faults import FAULTS  # noqa: PLC0415 - the same
-    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
-    from sim.routine import Routine  # noqa: PLC0415 - the same
-    from sim.simulate import simulate  # noqa: PLC0415 - the same
+    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
+    from sim.bench.routine import Routine  # noqa: PLC0415 - the same
+    from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
+    from sim.data.errors import Refusal  # noqa: PLC0415 - the same
+    from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
+    from sim.inspect.faults import FAULTS  # noqa: PLC0415 - the same
 
     kinds = ("drivetrain",) if "wheel-slip" in faults else KINDS
     mechanism = MECHANISMS[str(rng.choice(kinds))].draw(rng)
@@ -133,7 +133,7 @@ def _as_written(log: "Log") -> "Log":
 
 def _solvable(case: Case) -> bool:
     """Whether the faults, no others, are found in the record, each in its place."""
-    from sim.detect_faults import inspect  # noqa: PLC0415 - numpy only where it is needed
+    from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - numpy only where it is needed
 
     found = inspect(case.log)
     if found.clean and not case.damage:

@@ -16,16 +16,16 @@ from typing import TYPE_CHECKING
 import click
 import numpy as np
 
-from sim.errors import Refusal
-from sim.formats import read
+from sim.bench.dataset.student import folder_name
+from sim.data.errors import Refusal
+from sim.data.units import unit
+from sim.io import read
 from sim.plot.picture import COLORS, INK, Picture, panels
-from sim.student import folder_name
-from sim.units import unit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sim.log import Log, Run
+    from sim.data.log import Log, Run
 
 DATA = Path(__file__).resolve().parent / "data"
 TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")

@@ -14,9 +14,9 @@ from .spoiled import noise_at_rest, sound, spiked, stopped
 if TYPE_CHECKING:
     import numpy as np
 
-    from sim.log import Array, Log
-    from sim.log_features import Flags
-    from sim.mechanism import Mechanism
+    from sim.bench.mechanism import Mechanism
+    from sim.data.log import Array, Log
+    from sim.inspect.log_features import Flags
 
 RAMP, STEP, TIMEOUT, PERIOD = 0.5, 4.0, 8.0, 0.02  # [V/s], [V], [s], [s]
 STEPS = {"drivetrain": 1.8}  # [V] other than usual: four Krakens spin the wheels above 2.2 V
@@ -77,12 +77,12 @@ def draw(student: str) -> Variant:
 
 
 def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
-    from sim.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
-    from sim.errors import Refusal  # noqa: PLC0415 - the same
-    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
-    from sim.routine import Routine  # noqa: PLC0415 - the same
-    from sim.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.units import gains_per, unit  # noqa: PLC0415 - the same
+    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
+    from sim.bench.routine import Routine  # noqa: PLC0415 - the same
+    from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
+    from sim.data.errors import Refusal  # noqa: PLC0415 - the same
+    from sim.data.units import gains_per, unit  # noqa: PLC0415 - the same
+    from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
 
     mechanism = MECHANISMS[kind].draw(rng)
     routine = Routine(ramp=RAMP, step=STEPS.get(kind, STEP), timeout=TIMEOUT)

@@ -8,8 +8,8 @@ from .preparation import Preparation
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from sim.log import Array, Log, Run
-    from sim.log_features import Flags
+    from sim.data.log import Array, Log, Run
+    from sim.inspect.log_features import Flags
 
 ENOUGH = 0.6  # [share] of a test's valid samples that has to be kept
 FAST_END = 0.8  # [share] of a ramp's fastest valid speed that has to be among them

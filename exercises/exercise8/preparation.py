@@ -9,8 +9,8 @@ from grader.answer import HALF, Asked, Band, read_answer_number
 from grader.check import Wrong
 
 if TYPE_CHECKING:
+    from sim.data.log import Log, Run
     from sim.fit import Fit
-    from sim.log import Log, Run
 
 TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
 POINTS = 2.0  # for each gain
@@ -37,7 +37,7 @@ class Preparation:
 
     def kept(self, run: "Run") -> "Run":
         """What is left of a run once it is trimmed."""
-        from sim.fault import select_samples  # noqa: PLC0415 - numpy only where it is needed
+        from sim.inspect.fault import select_samples  # noqa: PLC0415 - numpy only where it is needed
 
         first, last = self.keep.get(run.test, (0.0, float("inf")))
         since = run.time - run.time[0]
@@ -145,7 +145,7 @@ def points(
     log: "Log", preparation: Preparation, asked: Mapping[str, Asked], *, wider: float = 1.0
 ) -> float:
     """What the fit of a log, so prepared, earns; were the bands this many times as wide."""
-    from sim.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
+    from sim.data.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
 
     try:
         gains = fitted(log, preparation).gains

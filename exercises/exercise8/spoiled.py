@@ -8,8 +8,8 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from sim.log import Log, Run
-    from sim.log_features import Flags
+    from sim.data.log import Log, Run
+    from sim.inspect.log_features import Flags
 
 PRESSED = (1.0, 2.0)  # [severity] of a hard stop: 0.6 to 1.2 s against it
 STOPS = {"quasistatic": (0.78, 0.92), "dynamic": (0.55, 0.85)}  # [share of the run] where it hits
@@ -26,7 +26,7 @@ def stopped(log: "Log", *, rng: "np.random.Generator") -> "tuple[Log, dict[str, 
     Returns:
         The log, and where it hits: test -> [s] since it began.
     """
-    from sim.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
+    from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
 
     impacts = {}
     for kind, share in STOPS.items():

@@ -16,7 +16,7 @@ from grader.course import find_course
 from grader.exercise import Exercise
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
-from sim.errors import Refusal
+from sim.data.errors import Refusal
 
 from .measured import ANALYSES, Measured, noted, of_bench, of_robot, team_of
 
@@ -192,7 +192,7 @@ def r2(answers: Answers) -> None:
 @check(points=1, after=r2)
 def hypothesis(answers: Answers) -> str | None:
     """What you suspect where R² is below 0.9, and what you would look at first."""
-    from sim.faults import FAULTS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.inspect.faults import FAULTS  # noqa: PLC0415 - numpy only where it is needed
 
     if float(answers.measured.fit.simulated_velocity_r2) >= GOOD:
         return "Your R² is at least 0.9, so nothing has to be suspected."

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 from grader.answer import Asked, Band, Key, gains_asked, read_answer_number
 from grader.check import NotReached, Wrong, shorten
 from grader.choice_answer import normalize_choice
-from sim.errors import Refusal
+from sim.data.errors import Refusal
 
 if TYPE_CHECKING:
     from types import ModuleType
 
     from sim.fit import Fit
-    from sim.motors import Motor
+    from sim.physics.motors import Motor
 
 UNITS = {"Meters": "m", "Rotations": "rot", "Radians": "rad"}
 ANALYSES = {"simple": "Simple", "elevator": "Elevator", "arm": "Arm"}
@@ -62,9 +62,9 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     Raises:
         NotReached: the log cannot be read or fitted.
     """
+    from sim.data.units import unit  # noqa: PLC0415 - the same
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
-    from sim.formats import read  # noqa: PLC0415 - the same
-    from sim.units import unit  # noqa: PLC0415 - the same
+    from sim.io import read  # noqa: PLC0415 - the same
 
     if not _is_file(path):
         raise NotReached(f"there is no {shorten(path.name)} beside your answers.toml")
@@ -101,7 +101,7 @@ def _measured(found: "Fit", units: str, parts: Parts | None, why: str) -> Measur
 
 
 def _parts(given: Mapping[str, object], units: str) -> Parts:
-    from sim.motors import MOTORS  # noqa: PLC0415 - only where it is needed
+    from sim.physics.motors import MOTORS  # noqa: PLC0415 - only where it is needed
 
     named = given.get("motor")
     known = {normalize_choice(name): motor for name, motor in MOTORS.items()}

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from sim.atomic_file import make_private_folder
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
 from sim.report.page_file import write_whole
+from sim.support.atomic_file import make_private_folder
 
 
 def write_private_file(path: Path, text: str) -> Path:

@@ -1,6 +1,6 @@
 """Cells of a table that a spreadsheet must not take for a formula."""
 
-from sim.printable import printable
+from sim.support.printable import printable
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r")
 

@@ -17,9 +17,9 @@ from typing import Any
 
 import click
 
-from sim.cli_support import INTERRUPTED
-from sim.dataset.secret import VARIABLE
-from sim.errors import BadRequest
+from sim.bench.dataset.secret import VARIABLE
+from sim.data.errors import BadRequest
+from sim.support.command_line import INTERRUPTED
 
 ENGINES = ("docker", "podman")
 IMAGE = "sysid-course"

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from grader.misconception import MISCONCEPTIONS
-from sim.printable import printable
+from sim.support.printable import printable
 
 
 def feedback(check: Mapping[str, Any]) -> str:

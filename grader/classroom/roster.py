@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.submission_names import Identities
-from sim.dataset.roster import distinct_names
-from sim.errors import BadRequest
-from sim.roster import read_roster
+from sim.bench.dataset.roster import distinct_names
+from sim.bench.dataset.roster_file import read_roster
+from sim.data.errors import BadRequest
 
 COLUMNS = ("student", "sis login id", "login", "email", "sis user id", "id", "name")
 

@@ -12,7 +12,7 @@ from grader.classroom.submissions import Submission
 from grader.classroom.workers import grade_in_workers
 from grader.exercise import Exercise
 from grader.fingerprint import fingerprint
-from sim.work.cluster import run_jobs_on_cluster
+from sim.support.work.cluster import run_jobs_on_cluster
 
 
 @dataclass(frozen=True)

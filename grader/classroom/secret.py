@@ -6,8 +6,8 @@ import os
 import secrets
 from pathlib import Path
 
-from sim.dataset.secret import FEWEST, SIZE, VARIABLE, Secret, kept_in
-from sim.errors import BadRequest
+from sim.bench.dataset.secret import FEWEST, SIZE, VARIABLE, Secret, kept_in
+from sim.data.errors import BadRequest
 
 
 def find_secret(path: Path | None, *, make: bool) -> Secret | None:

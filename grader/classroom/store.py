@@ -9,8 +9,8 @@ from pathlib import Path
 from grader.classroom.grading import Graded
 from grader.classroom.submissions import Submission
 from grader.variant import folder_name
-from sim.atomic_file import make_private_folder, write_atomically
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.support.atomic_file import make_private_folder, write_atomically
 
 RESULTS = "results"
 

@@ -16,8 +16,8 @@ from pebble import ProcessExpired, ProcessPool
 
 from grader.classroom.grading import Graded, GradingJob, Record, grade_one, not_graded
 from grader.classroom.submissions import Files
-from sim.work.interrupt import interrupts_blocked_for_children
-from sim.work.process_pool import serve_quietly
+from sim.support.work.interrupt import interrupts_blocked_for_children
+from sim.support.work.process_pool import serve_quietly
 
 SECONDS = 50.0  # [s] for one exercise of one student; an honest one takes 0.1 to 4 s
 MEMORY = 4 * 1024**3  # [bytes] of address space; an honest worker uses a quarter of it

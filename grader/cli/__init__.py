@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, cast
 import click
 
 from grader.terminal import complain, show
-from sim import cli_support
-from sim.cli_support import COULD_NOT, DONE, NOT_RIGHT
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.support import command_line
+from sim.support.command_line import COULD_NOT, DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
     from grader.consequence import Consequence
@@ -227,7 +227,7 @@ def _tell(said: str) -> None:
 
 def run(arguments: list[str] | None = None) -> int:
     """Run the command and return its exit code; nothing gets out as a traceback."""
-    return cli_support.run(grade, name="grade", arguments=arguments)
+    return command_line.run(grade, name="grade", arguments=arguments)
 
 
 def main() -> None:

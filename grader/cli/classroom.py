@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from grader.terminal import complain, line, show, wrapped
-from sim.cli_support import DONE, INTERRUPTED, NOT_RIGHT
+from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -193,9 +193,9 @@ def _run(
     """Grade what is left; None where it was stopped."""
     from grader.classroom.run import grade_all, plan_grading  # noqa: PLC0415 - --help must not wait
     from grader.classroom.store import Store  # noqa: PLC0415 - the same
-    from sim.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.work.process_pool import available_cores  # noqa: PLC0415 - the same
-    from sim.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
+    from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
+    from sim.support.work.process_pool import available_cores  # noqa: PLC0415 - the same
+    from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     store = Store(out)
     left = plan_grading(work, store, travel=cluster is not None, again=again)

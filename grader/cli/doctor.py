@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from grader.terminal import StyledText, show, wrapped
-from sim.cli_support import DONE, NOT_RIGHT
+from sim.support.command_line import DONE, NOT_RIGHT
 
 
 @click.command()

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from grader.terminal import complain, line, show
-from sim.cli_support import DONE
+from sim.support.command_line import DONE
 
 
 @click.command()

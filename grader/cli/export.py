@@ -7,8 +7,8 @@ import click
 
 from grader.cli.release import PATH, put, refuse_secret_inside, tell_left_out
 from grader.terminal import complain, line, show
-from sim.cli_support import DONE
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.support.command_line import DONE
 
 if TYPE_CHECKING:
     from grader.exercise import Exercise

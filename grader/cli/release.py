@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 import click
 
 from grader.terminal import complain, line, show
-from sim.atomic_file import make_private_folder, write_atomically
-from sim.cli_support import DONE, NOT_RIGHT
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.support.atomic_file import make_private_folder, write_atomically
+from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from sim.dataset.secret import Secret
+    from sim.bench.dataset.secret import Secret
 
 PATH = click.Path(path_type=Path)
 NAMED = 8  # files left out that are named
@@ -110,8 +110,8 @@ def _release(
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
     from grader.release import Package, student_package, zip_files  # noqa: PLC0415 - the same
     from grader.variant import folder_name  # noqa: PLC0415 - the same
-    from sim.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
-    from sim.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
+    from sim.support.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
+    from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     students = tuple(read_members(roster).rows) if roster else ()
     said = other_code(course)

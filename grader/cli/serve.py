@@ -8,8 +8,8 @@ from pathlib import Path
 import click
 
 from grader.terminal import complain, line, show
-from sim.cli_support import COULD_NOT, DONE
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.support.command_line import COULD_NOT, DONE
 
 PATH = click.Path(path_type=Path)
 EVERYWHERE = "0.0.0.0"  # noqa: S104 - a class's browsers are on other machines; codes keep the door
@@ -38,7 +38,7 @@ def serve(
     from grader.serve.login_page import ServedClass, serve_forever  # noqa: PLC0415 - the same
     from grader.serve.student_folders import login_codes, student_folder  # noqa: PLC0415 - the same
     from grader.variant import folder_name  # noqa: PLC0415 - the same
-    from sim.dataset.secret import VARIABLE  # noqa: PLC0415 - the same
+    from sim.bench.dataset.secret import VARIABLE  # noqa: PLC0415 - the same
 
     os.environ.pop(VARIABLE, None)  # neither this process nor a student's needs the secret
     folder = folder.resolve()

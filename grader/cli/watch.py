@@ -3,8 +3,8 @@
 import click
 
 from grader.terminal import line, show
-from sim.cli_support import COULD_NOT, DONE, complain
-from sim.errors import Refusal
+from sim.data.errors import Refusal
+from sim.support.command_line import COULD_NOT, DONE, complain
 
 
 @click.command()

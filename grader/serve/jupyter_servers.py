@@ -15,9 +15,9 @@ from pathlib import Path
 
 from grader.serve.student_folders import assign_account
 from grader.start import QUIET, as_root
-from sim.dataset.secret import VARIABLE
-from sim.errors import BadRequest
-from sim.work.cache import CACHE
+from sim.bench.dataset.secret import VARIABLE
+from sim.data.errors import BadRequest
+from sim.support.work.cache import CACHE
 
 PATIENCE = 60.0  # [s] until a server has to answer; a small laptop takes ten
 IDLE = 3600  # [s] without a word until a server ends: memory for those who are there

@@ -17,9 +17,9 @@ from pathlib import Path
 
 from grader.course import update_progress
 from grader.variant import folder_name, same
-from sim.errors import BadRequest
+from sim.bench.dataset.roster_file import read_roster
+from sim.data.errors import BadRequest
 from sim.report.page_file import write_whole
-from sim.roster import read_roster
 
 CODES = "codes.csv"
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"  # without those that look like others

@@ -7,7 +7,7 @@ from pkgutil import iter_modules
 
 import click
 
-from sim.cli_support import run
+from sim.support.command_line import run
 
 __all__ = ["main", "sysid"]
 

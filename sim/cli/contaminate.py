@@ -37,9 +37,9 @@ def contaminate(
     """
     import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
 
-    from sim.contaminate import contaminate as damage  # noqa: PLC0415
-    from sim.contaminate import parse_fault_request  # noqa: PLC0415
-    from sim.formats import write  # noqa: PLC0415
+    from sim.inspect.contaminate import contaminate as damage  # noqa: PLC0415
+    from sim.inspect.contaminate import parse_fault_request  # noqa: PLC0415
+    from sim.io import write  # noqa: PLC0415
 
     asked = [parse_fault_request(text) for text in faults]
     log = read_together([file], units=units, type=type_, motor=motor, entries=entries)

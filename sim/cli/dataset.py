@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.options import FILE
-from sim.cli_support import DONE, INTERRUPTED, NOT_RIGHT, complain
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, complain
 
 if TYPE_CHECKING:
-    from sim.dataset.plan import LogJob
-    from sim.dataset.run import DatasetPlace
-    from sim.dataset.secret import Secret
-    from sim.dataset.spec import Spec
+    from sim.bench.dataset.plan import LogJob
+    from sim.bench.dataset.run import DatasetPlace
+    from sim.bench.dataset.secret import Secret
+    from sim.bench.dataset.spec import Spec
 
 
 WORTH = 50  # [logs] that a further process has to save, to be worth its start
@@ -50,11 +50,11 @@ def dataset(  # noqa: PLR0917 - click passes options by name
         return _write_example(spec)
     if output is None:
         raise click.UsageError("Missing option '-o': a folder for the logs.")
-    from sim.dataset.key import key_of  # noqa: PLC0415 - as all below: --help must not wait
-    from sim.dataset.plan import plan_jobs  # noqa: PLC0415
-    from sim.dataset.run import DatasetPlace  # noqa: PLC0415
-    from sim.dataset.secret import find_secret  # noqa: PLC0415
-    from sim.dataset.spec import read_spec  # noqa: PLC0415
+    from sim.bench.dataset.key import key_of  # noqa: PLC0415 - as all below: --help must not wait
+    from sim.bench.dataset.plan import plan_jobs  # noqa: PLC0415
+    from sim.bench.dataset.run import DatasetPlace  # noqa: PLC0415
+    from sim.bench.dataset.secret import find_secret  # noqa: PLC0415
+    from sim.bench.dataset.spec import read_spec  # noqa: PLC0415
 
     asked = read_spec(spec)
     place = DatasetPlace(output, key or key_of(output))
@@ -85,12 +85,12 @@ def _make(
     cluster: str | None,
 ) -> int:
     """Make what is not there yet."""
-    from sim.dataset.making import make_log  # noqa: PLC0415 - --help must not wait
-    from sim.dataset.run import check_folder, finish_dataset, rehearse_jobs  # noqa: PLC0415 - the same
-    from sim.work.cluster import run_jobs_on_cluster  # noqa: PLC0415 - the same
-    from sim.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
-    from sim.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
+    from sim.bench.dataset.making import make_log  # noqa: PLC0415 - --help must not wait
+    from sim.bench.dataset.run import check_folder, finish_dataset, rehearse_jobs  # noqa: PLC0415 - the same
+    from sim.support.work.cluster import run_jobs_on_cluster  # noqa: PLC0415 - the same
+    from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
+    from sim.support.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
+    from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     found = check_folder(place, jobs, secret=secret, overwrite=overwrite)
     rehearse_jobs(found.todo)
@@ -137,7 +137,7 @@ def _make(
 
 def _check(place: "DatasetPlace", jobs: "tuple[LogJob, ...]", secret: "Secret") -> int:
     """Say what is not as it was made."""
-    from sim.dataset.checking import verify_dataset  # noqa: PLC0415 - --help must not wait for it
+    from sim.bench.dataset.checking import verify_dataset  # noqa: PLC0415 - --help must not wait for it
 
     wrong = verify_dataset(place.folder, jobs, key=place.key, secret=secret)
     for line in wrong:
@@ -153,7 +153,9 @@ def _write_example(path: Path) -> int:
 
     try:
         with path.open("x", encoding="utf-8", newline="\n") as stream:
-            stream.write(files("sim.dataset").joinpath("example.toml").read_text(encoding="utf-8"))
+            stream.write(
+                files("sim.bench.dataset").joinpath("example.toml").read_text(encoding="utf-8")
+            )
     except OSError as error:
         raise BadRequest(
             f"the example cannot be written ({error.strerror})",

@@ -9,7 +9,7 @@ from sim.cli.options import as_json, list_catalogue
 @as_json
 def effects(*, as_json: bool) -> None:
     """List the effects that a mechanism can hide, and that a model may need."""
-    from sim.effects import EFFECTS  # noqa: PLC0415 - --help must not wait for it
+    from sim.physics.effects import EFFECTS  # noqa: PLC0415 - --help must not wait for it
 
     list_catalogue(
         (

@@ -9,7 +9,7 @@ from sim.cli.options import as_json, list_catalogue
 @as_json
 def faults(*, as_json: bool) -> None:
     """List the faults that a log can have, and that `sysid inspect` looks for."""
-    from sim.faults import FAULTS  # noqa: PLC0415 - --help must not wait for it
+    from sim.inspect.faults import FAULTS  # noqa: PLC0415 - --help must not wait for it
 
     list_catalogue(
         (

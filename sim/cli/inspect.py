@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.options import FILE, as_json, read_together, reading_options
-from sim.cli_support import DONE, NOT_RIGHT
+from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
-    from sim.detect_faults import Inspection
+    from sim.inspect.detect_faults import Inspection
 
 SURE, LIKELY = 0.9, 0.7  # [1] confidence from which a person would say so
 
@@ -34,7 +34,7 @@ def inspect(
 
     Exit code 0 means that no fault was found, 1 that there is one, or that none could be.
     """
-    from sim.detect_faults import inspect as look  # noqa: PLC0415 - --help must not wait for it
+    from sim.inspect.detect_faults import inspect as look  # noqa: PLC0415 - --help must not wait for it
 
     log = read_together(files, units=units, type=type_, motor=motor, entries=entries)
     found = look(log)

@@ -9,7 +9,7 @@ from sim.cli.options import as_json, list_catalogue
 @as_json
 def mechanisms(*, as_json: bool) -> None:
     """List the mechanisms that can be simulated."""
-    from sim.mechanisms import MECHANISMS  # noqa: PLC0415 - --help must not wait for it
+    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - --help must not wait for it
 
     list_catalogue(
         ({"name": name, "summary": found.summary} for name, found in MECHANISMS.items()),

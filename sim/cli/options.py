@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.units import UNITS
-from sim.vocabulary import TYPES
+from sim.data.units import UNITS
+from sim.data.vocabulary import TYPES
 
 if TYPE_CHECKING:
-    from sim.log import Log
+    from sim.data.log import Log
 
 FILE = click.Path(path_type=Path)
 
@@ -71,7 +71,7 @@ def read_together(
     Raises:
         Refusal: a file cannot be read, or one measures a length and another an angle.
     """
-    from sim.formats import read  # noqa: PLC0415 - --help must not wait for it
+    from sim.io import read  # noqa: PLC0415 - --help must not wait for it
 
     named = {signal: entry for signal, entry in entries.items() if entry}
     first, *more = [

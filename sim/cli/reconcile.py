@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.options import FILE, as_json, read_together, reading_options
-from sim.cli_support import DONE, NOT_RIGHT
+from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from contextlib import AbstractContextManager
 
-    from sim.log import Log
+    from sim.data.log import Log
     from sim.reconcile import DamagedInterval, Story
 
 IN_MOMENTS = "voltage-dropout"  # a fault that an inspection tells as one stretch
@@ -92,7 +92,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     if as_json:
         click.echo(json.dumps(story.to_json(), allow_nan=False))
     else:
-        from sim.story_terminal import show_story  # noqa: PLC0415 - only for people
+        from sim.report.story_terminal import show_story  # noqa: PLC0415 - only for people
 
         show_story(story, title=", ".join(map(str, files)))
     return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
@@ -102,7 +102,7 @@ def _watched(*, seen: bool) -> "AbstractContextManager[Callable[[str, float], No
     """A progress bar for people; other programs do not wait for it to load."""
     if not seen:
         return nullcontext(lambda _, __: None)
-    from sim.story_terminal import progress_bar  # noqa: PLC0415 - only for people
+    from sim.report.story_terminal import progress_bar  # noqa: PLC0415 - only for people
 
     return progress_bar()
 
@@ -133,7 +133,7 @@ def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":
     Args:
         log: any.
     """
-    from sim.detect_faults import inspect  # noqa: PLC0415 - --help must not wait for it
+    from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - --help must not wait for it
     from sim.reconcile import DamagedInterval  # noqa: PLC0415
     from sim.reconcile.dropout_intervals import dropout_intervals  # noqa: PLC0415
 

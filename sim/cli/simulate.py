@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sim.battery import CONTROLLERS, Battery
 from sim.cli.options import FILE
-from sim.errors import BadRequest, Refusal
-from sim.vocabulary import KINDS
+from sim.data.errors import BadRequest, Refusal
+from sim.data.vocabulary import KINDS
+from sim.physics.battery import CONTROLLERS, Battery
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from sim.fault import Stretch
-    from sim.log import Log
-    from sim.mechanism import Mechanism
+    from sim.bench.mechanism import Mechanism
+    from sim.data.log import Log
+    from sim.inspect.fault import Stretch
 
 
 @click.command()
@@ -86,11 +86,11 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     """
     import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
 
-    from sim.formats import write  # noqa: PLC0415
-    from sim.ground_truth import write_ground_truth  # noqa: PLC0415
-    from sim.mechanisms import mechanism as find  # noqa: PLC0415
-    from sim.routine import Routine  # noqa: PLC0415
-    from sim.simulate import simulate as record  # noqa: PLC0415
+    from sim.bench.ground_truth import write_ground_truth  # noqa: PLC0415
+    from sim.bench.mechanisms import mechanism as find  # noqa: PLC0415
+    from sim.bench.routine import Routine  # noqa: PLC0415
+    from sim.bench.simulate import simulate as record  # noqa: PLC0415
+    from sim.io import write  # noqa: PLC0415
 
     if seed is not None and seed < 0:
         raise click.BadParameter("a seed is zero or more.", param_hint="'--seed'")
@@ -150,7 +150,7 @@ def _damaged(
     log: "Log", asked: Iterable[str], rng: "np.random.Generator"
 ) -> "tuple[Log, list[tuple[str, float, Stretch]]]":
     """The log with the faults that are asked for, and where each is."""
-    from sim.contaminate import contaminate, parse_fault_request  # noqa: PLC0415 - only with --fault
+    from sim.inspect.contaminate import contaminate, parse_fault_request  # noqa: PLC0415 - only with --fault
 
     where = []
     for one in [parse_fault_request(text) for text in asked]:

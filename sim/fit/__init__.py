@@ -9,11 +9,11 @@ SysId 2026.2.2 to the last digit, with its silent failures spoken aloud: what Sy
 answers; what it answers with NaN or with nonsense, this refuses or doubts, and says why.
 """
 
-from sim.doubt import Doubt
-from sim.errors import BadRequest
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest
+from sim.data.log import Log
+from sim.data.vocabulary import METHODS, TYPES
 from sim.fit.result import Fit
-from sim.log import Log
-from sim.vocabulary import METHODS, TYPES
 
 __all__ = ["Fit", "fit"]
 

@@ -2,14 +2,14 @@
 
 from dataclasses import replace
 
-from sim.errors import NotIdentifiable
-from sim.fit.initial_guess import clamp_to_physical, orient_forward
+from sim.data.errors import NotIdentifiable
+from sim.data.log import Log
+from sim.data.units import unit
+from sim.estimation.initial_guess import clamp_to_physical, orient_forward
+from sim.estimation.measurements import measure_runs
 from sim.fit.likelihood import PredictionErrorProblem
-from sim.fit.measurements import measure_runs
 from sim.fit.open_loop_fallback import OpenLoopReplay, replay_open_loop
 from sim.fit.optimize import fit_tracking
-from sim.log import Log
-from sim.units import unit
 
 PLAINLY = 0.33  # [1] of what a simple model strays, that another may
 ACTS = {

@@ -5,10 +5,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from sim.errors import NotIdentifiable
-from sim.fit.measurements import RunMeasurements
+from sim.data.errors import NotIdentifiable
+from sim.data.log import Log
+from sim.estimation.measurements import RunMeasurements
 from sim.fit.open_loop_fallback import OpenLoopReplay
-from sim.log import Log
 
 TELLS = 0.08  # [share of a gain] of a larger standard error, three are a quarter: no answer
 FOLLOWS = 0.5  # [share of the velocity's variance] a simulation of less is of something else

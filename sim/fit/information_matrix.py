@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.errors import BadRequest
-from sim.log import Array
-from sim.sysid_rows import Rows
-from sim.vocabulary import TYPES
+from sim.data.errors import BadRequest
+from sim.data.log import Array
+from sim.data.vocabulary import TYPES
+from sim.fit.sysid_rows import Rows
 
 NOTHING = 1e-12  # share of the best known combination; below it, the digits are rounding errors
 TAKES_PART = 1e-5  # share of a gain in an unknown combination; below it, the gain is known
@@ -71,7 +71,7 @@ def information_matrix(rows: Mapping[str, Rows], *, type: str, noise: float) -> 
     """Information of rows about kS, kV, kA, and about kG where there is gravity.
 
     Args:
-        rows: test -> its rows, such as ``sim.sysid_rows`` leaves; any tests, at least one.
+        rows: test -> its rows, such as ``sim.fit.sysid_rows`` leaves; any tests, at least one.
         type: ``simple``, ``elevator`` or ``arm``.
         noise: [V] of a row, one standard deviation: kA times that of its acceleration.
 

@@ -12,11 +12,11 @@ from functools import cache
 
 import numpy as np
 
-from sim.engine import NO_TRUST
-from sim.fit.kalman import model_from_values, run_innovations, steady_state_gain
-from sim.fit.measurements import RunMeasurements, SensorNoise
-from sim.log import Array
-from sim.model import Model
+from sim.data.log import Array
+from sim.estimation.kalman import model_from_values, run_innovations, steady_state_gain
+from sim.estimation.measurements import RunMeasurements, SensorNoise
+from sim.physics.engine import NO_TRUST
+from sim.physics.model import Model
 
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
 ASIDE = 0.02  # [m or rad] that slack in a gear or a chain lets a start be from where it is seen

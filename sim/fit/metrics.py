@@ -15,8 +15,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from sim.log import Array
-from sim.sysid_rows import Rows
+from sim.data.log import Array
+from sim.fit.sysid_rows import Rows
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.engine import State, move
-from sim.fit.kalman import model_from_values
+from sim.data.log import Array
+from sim.estimation.kalman import model_from_values
 from sim.fit.optimize import (
     ANEW,
     DEEP,
@@ -23,7 +23,7 @@ from sim.fit.optimize import (
     levenberg_marquardt,
     whiten,
 )
-from sim.log import Array
+from sim.physics.engine import State, move
 
 STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
 SMALL = 0.0125  # [share of the top speed] error that is small whatever the noise

@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from sim.data.log import Array
 from sim.fit.likelihood import FLOOR, POSITIVE, Estimate, PredictionErrorProblem, whiten
-from sim.log import Array
 
 __all__ = [
     "Estimate",

@@ -9,13 +9,15 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from sim.doubt import Doubt
-from sim.errors import BadRequest, NotIdentifiable
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest, NotIdentifiable
+from sim.data.log import Array, Log, Run
+from sim.data.units import unit
+from sim.estimation.initial_guess import clamp_to_physical, orient_forward
+from sim.estimation.measurements import RunMeasurements, estimate_noise, measure_runs
 from sim.fit.fit_doubts import doubt_lags, doubt_misfit, doubt_opposed_signs, doubt_small_misfit
 from sim.fit.gravity_type_hint import hint_gravity_type
 from sim.fit.identifiability import moves_both_ways, refuse_unidentifiable, refuse_unrelated
-from sim.fit.initial_guess import clamp_to_physical, orient_forward
-from sim.fit.measurements import RunMeasurements, estimate_noise, measure_runs
 from sim.fit.open_loop_fallback import (
     LAGS,
     OpenLoopReplay,
@@ -35,8 +37,6 @@ from sim.fit.optimize import (
 )
 from sim.fit.result import Fit
 from sim.fit.sysid_doubts import uncertain_gains
-from sim.log import Array, Log, Run
-from sim.units import unit
 
 WORTH = 8.0  # [of -2 log L] what a lag must explain to be believed: odds of some fifty to one
 HINT = 2.0  # [of -2 log L] what a short one must promise before longer ones are tried

@@ -4,8 +4,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from sim.doubt import Doubt
-from sim.errors import BadRequest
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest
+from sim.data.units import Unit, gains_per, unit
 from sim.feedback import (
     PRESETS,
     Feedback,
@@ -14,7 +15,6 @@ from sim.feedback import (
     position_loop,
     velocity_loop,
 )
-from sim.units import Unit, gains_per, unit
 
 
 @dataclass(frozen=True)

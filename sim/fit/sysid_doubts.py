@@ -4,11 +4,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from sim.doubt import Doubt
+from sim.data.doubt import Doubt
+from sim.data.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
 from sim.fit.metrics import SimulationScore
 from sim.fit.regression import Regression
-from sim.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
-from sim.sysid_rows import NEAR_TOP, Prepared
+from sim.fit.sysid_rows import NEAR_TOP, Prepared
 
 DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA dubious
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good

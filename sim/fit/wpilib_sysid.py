@@ -1,13 +1,13 @@
 """WPILib SysId's recipe from end to end (method ``sysid``)."""
 
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.data.log import DIRECTIONS, FOUR_TESTS, Log
+from sim.data.units import unit
 from sim.fit.metrics import score_simulated_velocity
 from sim.fit.regression import regress
 from sim.fit.result import Fit
 from sim.fit.sysid_doubts import sysid_doubts
-from sim.log import DIRECTIONS, FOUR_TESTS, Log
-from sim.sysid_rows import prepare_rows
-from sim.units import unit
+from sim.fit.sysid_rows import prepare_rows
 
 
 def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A002 - SysId's word

@@ -11,8 +11,8 @@ noises, so a shooter and an arm read alike.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sim.errors import BadRequest
-from sim.fit.measurements import SensorNoise
+from sim.data.errors import BadRequest
+from sim.estimation.measurements import SensorNoise
 from sim.gap.binned_residuals import BinnedResiduals
 from sim.gap.bins import ResidualBins
 from sim.gap.place import Place

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.data.log import Array
 from sim.gap.place import SIGNALS, Place
-from sim.log import Array
 
 FEWEST = 4  # samples of which a cell's mean says anything
 STICKIEST = 0.98  # ρ, beyond which nothing could be told at all

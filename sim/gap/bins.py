@@ -6,11 +6,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.fit.measurements import SensorNoise
+from sim.data.log import Array
+from sim.estimation.measurements import SensorNoise
 from sim.gap.binned_residuals import FEWEST, BinnedResiduals, SampleTable
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
 from sim.gap.residuals import Residuals
-from sim.log import Array
 
 LEAST_TIMES, TIMES, SPEEDS, POSITIONS, VOLTS = 6, 12, 8, 12, 4  # columns
 AFTER = (0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)  # [s] since a jump: short where things happen

@@ -12,8 +12,8 @@ from itertools import combinations
 
 import numpy as np
 
+from sim.data.log import Array
 from sim.gap.residuals import Residuals
-from sim.log import Array
 
 SAME = 0.05  # [share of the largest voltage] RMS by which a repetition's voltage may differ
 STRETCHES, LEAST = 60, 5  # how many at most, and how many samples each at least

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from sim.errors import BadRequest
-from sim.log import FOUR_TESTS, Array, Log
+from sim.data.errors import BadRequest
+from sim.data.log import FOUR_TESTS, Array, Log
+from sim.data.units import Unit, unit
+from sim.fit.sysid_rows import Rows, prepare_rows
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, to_text
-from sim.sysid_rows import Rows, prepare_rows
-from sim.units import Unit, unit
 
 MOST = 300  # samples of a test that are drawn
 FEWEST = 3  # samples that a straight line can miss

@@ -9,12 +9,12 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
+from sim.data.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
+from sim.data.units import Unit, unit
+from sim.fit.sysid_rows import Rows, prepare_rows
 from sim.plot.decimate import decimate_cloud, decimate_curve
 from sim.plot.picture import COLORS, INK, LINES, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table
-from sim.sysid_rows import Rows, prepare_rows
-from sim.units import Unit, unit
 
 KINDS = ("quasistatic", "dynamic")
 MOST = 300  # recorded samples of a test that are drawn as dots

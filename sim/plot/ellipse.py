@@ -10,12 +10,12 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.errors import BadRequest
-from sim.log import Array
+from sim.data.errors import BadRequest
+from sim.data.log import Array
+from sim.fit.sysid_rows import Rows
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, to_text
-from sim.sysid_rows import Rows
 
 LEVEL = 5.991  # of chi square with two degrees of freedom: 95 of 100 fits fall inside
 FLAT = 1e-9  # share of the better known combination; what is below is rounding errors

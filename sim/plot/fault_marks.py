@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Rectangle
 
-from sim.errors import BadRequest
-from sim.fault import Damage, Stretch
-from sim.log import DIRECTIONS, Array, Log, Run
+from sim.data.errors import BadRequest
+from sim.data.log import DIRECTIONS, Array, Log, Run
+from sim.inspect.fault import Damage, Stretch
 from sim.plot.picture import COLORS, INK, LINES, PAPER
 
 HATCHES = ("////", "\\\\\\\\", "xxxx", "----", "..", "++++")

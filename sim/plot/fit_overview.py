@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 
-from sim.errors import BadRequest
-from sim.feedback_trial import FeedbackTrial
-from sim.fit_replay import RunReplay
+from sim.data.errors import BadRequest
+from sim.data.units import Unit
+from sim.fit.feedback_trial import FeedbackTrial
+from sim.fit.replay import RunReplay
 from sim.plot.measured_vs_simulated import EVERY, describe_run, draw_all_runs, error_table
 from sim.plot.picture import Picture
 from sim.plot.step_response import describe_trials, draw_loop, group_by_loop
-from sim.units import Unit
 
 
 def fit_overview(

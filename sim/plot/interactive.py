@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from sim.errors import Refusal
+from sim.data.errors import Refusal
 from sim.plot.picture import Picture
 
 

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.errors import BadRequest
-from sim.log import DIRECTIONS, Array, Log, Run
+from sim.data.errors import BadRequest
+from sim.data.log import DIRECTIONS, Array, Log, Run
+from sim.data.units import Unit, unit
 from sim.plot.decimate import decimate_curve
 from sim.plot.fault_marks import (
     Damaged,
@@ -28,7 +29,6 @@ from sim.plot.picture import (
     panels,
 )
 from sim.plot.table import Cell, Table
-from sim.units import Unit, unit
 
 KINDS = ("quasistatic", "dynamic")
 APART = 0.15  # [share of a panel] between markers: lines can be told apart, and still be seen

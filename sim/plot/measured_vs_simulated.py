@@ -10,12 +10,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from sim.fit_replay import RunReplay
-from sim.log import Array
+from sim.data.log import Array
+from sim.data.units import Unit
+from sim.fit.replay import RunReplay
 from sim.plot.decimate import decimate_curve
 from sim.plot.picture import COLORS, INK, PAPER, Picture
 from sim.plot.table import Table, to_text
-from sim.units import Unit
 
 MOST = 500  # samples of a curve that are drawn: a panel has fewer pixels across
 BAND = 1.96  # [standard deviations] that hold 95 of 100 samples of noise

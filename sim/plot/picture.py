@@ -14,9 +14,9 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sim.atomic_file import atomic_path
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
 from sim.plot.table import Table
+from sim.support.atomic_file import atomic_path
 
 Dash: TypeAlias = str | tuple[float, tuple[float, ...]]  # a line style, as matplotlib takes it
 

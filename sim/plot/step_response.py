@@ -5,13 +5,13 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from sim.errors import BadRequest
-from sim.feedback_trial import FeedbackTrial, format_gain_pair
+from sim.data.errors import BadRequest
+from sim.data.units import Unit
+from sim.fit.feedback_trial import FeedbackTrial, format_gain_pair
 from sim.plot.decimate import decimate_curve
 from sim.plot.measured_vs_simulated import plain_axes, shared_legend
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture
 from sim.plot.table import Table, to_text
-from sim.units import Unit
 
 WIDTH, HEIGHT = 7.6, 4.2  # [in]
 MOST = 500  # points of a curve that are drawn

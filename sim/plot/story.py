@@ -1,12 +1,12 @@
 """A reconcile story in pictures and a table."""
 
+from sim.data.units import unit
 from sim.plot.story_bars import candidate_bars, gap_by_round
 from sim.plot.story_gap import residual_maps
 from sim.plot.story_runs import plot_overlays
 from sim.plot.table import Table
 from sim.reconcile.story import Story
-from sim.story_text import format_gap, format_parameter
-from sim.units import unit
+from sim.reconcile.story_text import format_gap, format_parameter
 
 __all__ = ["candidate_bars", "findings_table", "gap_by_round", "plot_overlays", "residual_maps"]
 

@@ -5,11 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.data.units import unit
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
 from sim.plot.table import Table, to_text
 from sim.reconcile.story import Story, Tried
-from sim.units import unit
 
 BARS = 10  # suspects that are drawn: the others explain nothing
 TAKEN, PASSED, REFUSED = "taken", "also possible", "not admitted"

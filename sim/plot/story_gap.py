@@ -10,15 +10,15 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.data.log import Array
+from sim.data.units import Unit, unit
 from sim.gap import BinnedResiduals, GapMap
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS, format_noises
-from sim.log import Array
 from sim.plot.picture import INK, PAPER, Picture
 from sim.plot.table import Table
 from sim.reconcile.residual_map import residual_map
 from sim.reconcile.story import Story
-from sim.units import Unit, unit
 
 VELOCITY = 1  # of the two signals
 MOST_RUNS = 12  # rows of the first map

@@ -9,14 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from sim.errors import BadRequest
-from sim.log import Array, Run
+from sim.data.errors import BadRequest
+from sim.data.log import Array, Run
+from sim.data.units import Unit, unit
 from sim.plot.decimate import decimate_curve
 from sim.plot.measured_vs_simulated import BAND, plain_axes, shared_legend
 from sim.plot.picture import COLORS, INK, PAPER, Picture
 from sim.plot.table import Table, to_text
 from sim.reconcile.story import Story
-from sim.units import Unit, unit
 
 FEWEST = 4  # samples of a run: a solver simulates no shorter ones
 DRAWN, MOST = 12, 300  # runs in one picture, and points of each curve

@@ -13,9 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from sim.errors import BadRequest
-from sim.log import DIRECTIONS, KINDS, Array, Log, Run
-from sim.log_features import LogFeatures
+from sim.data.errors import BadRequest
+from sim.data.log import DIRECTIONS, KINDS, Array, Log, Run
+from sim.inspect.log_features import LogFeatures
 from sim.plot.decimate import decimate_cloud, decimate_curve
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, to_text

@@ -16,11 +16,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from sim.errors import BadRequest
-from sim.log import Array, Log, Run
+from sim.data.errors import BadRequest
+from sim.data.log import Array, Log, Run
+from sim.data.units import unit
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, to_text
-from sim.units import unit
 
 JUMP = 0.5  # [V] from one sample to the next; a ramp never rises so fast
 CLOSE = (0.0, 0.03, 0.07, 0.11, 0.15, 0.21, 0.31, 0.51, 1.01)  # [s] after a jump, edges of cells

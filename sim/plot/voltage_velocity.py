@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.errors import BadRequest
-from sim.log import DIRECTIONS, Array, Log, Run
+from sim.data.errors import BadRequest
+from sim.data.log import DIRECTIONS, Array, Log, Run
+from sim.data.units import Unit, unit
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, panels
 from sim.plot.table import Table
-from sim.units import Unit, unit
 
 MOST = 150  # samples of a ramp in a panel that shows all of it: more cover each other
 CLOSEST = 500  # samples of a ramp in the panel near standstill

@@ -14,9 +14,10 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from sim.errors import NotIdentifiable
-from sim.fit.initial_guess import clamp_to_physical, first_guess
-from sim.log import Log
+from sim.data.errors import NotIdentifiable
+from sim.data.log import Log
+from sim.data.units import unit
+from sim.estimation.initial_guess import clamp_to_physical, first_guess
 from sim.reconcile.cross_validation import make_folds, missed_motion, open_loop_errors, rms_gap
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.damage_policy import DamageDecision, judge_damage
@@ -34,7 +35,6 @@ from sim.reconcile.slip_detection import detect_slips
 from sim.reconcile.story import Story
 from sim.reconcile.thresholds import LOST, MAJOR, WANDERS
 from sim.reconcile.verdict import verdict_of
-from sim.units import unit
 
 __all__ = ["DamagedInterval", "Story", "reconcile"]
 

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from sim.log import Array
+from sim.data.log import Array
 from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
 
 PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # [1] of half the play

@@ -7,8 +7,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from sim.effects import EFFECTS
-from sim.log import Log
+from sim.data.log import Log
+from sim.physics.effects import EFFECTS
+from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
 from sim.reconcile.cross_validation import Fold, Gap, validation_gap
 from sim.reconcile.likelihood import PredictionErrorProblem
@@ -21,7 +22,6 @@ from sim.reconcile.model_selection import (
 from sim.reconcile.optimize import minimize
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import CLOSE, ONCE, SIMPLER, SURER
-from sim.voltage_residual import compute_voltage_residual
 
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
 

@@ -10,8 +10,9 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from sim.effect import Effect
-from sim.effects import EFFECTS
+from sim.physics.effect import Effect
+from sim.physics.effects import EFFECTS
+from sim.physics.voltage_residual import VoltageResidual
 from sim.reconcile.backlash_phase import backlash_phase_prior
 from sim.reconcile.likelihood import STEPWISE, Estimate, PredictionErrorProblem
 from sim.reconcile.onset_scan import refine_onset, scan_onsets
@@ -27,7 +28,6 @@ from sim.reconcile.optimize import (
 )
 from sim.reconcile.random_friction import laplace_correction
 from sim.reconcile.two_body_starts import SHAKES, TwoBodyStarts
-from sim.voltage_residual import VoltageResidual
 
 TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
 A_LITTLE = 2  # steps

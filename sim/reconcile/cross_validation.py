@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.engine import Track
-from sim.log import Array
+from sim.data.log import Array
+from sim.physics.engine import Track
 from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.optimize import levenberg_marquardt
 from sim.reconcile.random_friction import LEAST_KS

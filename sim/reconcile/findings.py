@@ -7,8 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from sim.effect import ONSET
-from sim.effects import EFFECTS
+from sim.data.units import Unit
+from sim.physics.effect import ONSET
+from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import separating_test
 from sim.reconcile.cross_validation import missed_motion
 from sim.reconcile.damage import DamagedInterval
@@ -27,7 +28,6 @@ from sim.reconcile.thresholds import (
     STRAYS,
     TOLD_FIRST,
 )
-from sim.units import Unit
 
 TURNLESS = (
     "How much free play there is, is known to a factor of two: no run that was fitted turns, and "

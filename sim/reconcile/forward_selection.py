@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from sim.effects import EFFECTS
-from sim.log import Log
+from sim.data.log import Log
+from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import measure_removals, replace_effects, simplify_effects
 from sim.reconcile.candidates import Seeds, score_estimate
 from sim.reconcile.cross_validation import Fold, missed_motion, validation_gap

@@ -7,8 +7,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.data.log import Log
+from sim.data.units import unit
 from sim.gap import Place
-from sim.log import Log
 from sim.reconcile.backlash_phase import estimate_backlash_phase
 from sim.reconcile.cross_validation import open_loop_errors, rms_gap
 from sim.reconcile.damage_policy import DamageDecision
@@ -20,7 +21,6 @@ from sim.reconcile.run_nuisance import RunNuisance
 from sim.reconcile.run_records import run_records, session_length
 from sim.reconcile.selection_round import SelectionRound, reported_estimate
 from sim.reconcile.story import Chapter
-from sim.units import unit
 
 TOLD = 5  # places
 LOOKS = 3  # at where in its free play a run began, each nearer

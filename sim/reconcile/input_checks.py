@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.errors import BadRequest, NotIdentifiable
-from sim.fit.initial_guess import first_guess
-from sim.fit.kalman import model_from_values
-from sim.log import Log, Run
-from sim.units import unit
-from sim.voltage_residual import VoltageResidual, compute_voltage_residual
+from sim.data.errors import BadRequest, NotIdentifiable
+from sim.data.log import Log, Run
+from sim.data.units import unit
+from sim.estimation.initial_guess import first_guess
+from sim.estimation.kalman import model_from_values
+from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
 
 FEWEST_RUNS, FEWEST_SAMPLES = 2, 60
 SHORTEST = 4  # samples of a run that says anything, as ``see`` has it

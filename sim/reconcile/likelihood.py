@@ -15,11 +15,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.engine import EXPECTED, NO_TRUST, RunBatch, Track, follow
-from sim.fit.kalman import steady_state_gain
-from sim.fit.measurements import SensorNoise, estimate_noise
-from sim.log import Array
-from sim.model import Model
+from sim.data.log import Array
+from sim.estimation.kalman import steady_state_gain
+from sim.estimation.measurements import SensorNoise, estimate_noise
+from sim.physics.engine import EXPECTED, NO_TRUST, RunBatch, Track, follow
+from sim.physics.model import Model
 from sim.reconcile.model_structure import ModelStructure
 from sim.reconcile.random_friction import friction_prior, friction_sd
 from sim.reconcile.run_nuisance import RunNuisance

@@ -3,8 +3,9 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from sim.effects import EFFECTS
-from sim.log import Log
+from sim.data.log import Log
+from sim.physics.effects import EFFECTS
+from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import Candidate, rank_candidates
 from sim.reconcile.cross_validation import Fold, Gap, validation_gap
 from sim.reconcile.likelihood import PredictionErrorProblem
@@ -25,7 +26,6 @@ from sim.reconcile.thresholds import (
     SURER,
     WORTH_A_NAME,
 )
-from sim.voltage_residual import compute_voltage_residual
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
 TINY = 1e-300  # no gap at all

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from inspect import signature
 
-from sim.effect import Parameter
-from sim.effects import EFFECTS
-from sim.fit.kalman import model_from_values
-from sim.model import Model, Part
+from sim.estimation.kalman import model_from_values
+from sim.physics.effect import Parameter
+from sim.physics.effects import EFFECTS
+from sim.physics.model import Model, Part
 
 BASE: Mapping[str, tuple[str, ...]] = {
     "simple": ("kS", "kV", "kA"),

@@ -14,10 +14,10 @@ from itertools import pairwise, product
 
 import numpy as np
 
-from sim.effect import ONSET, UNTIL, Effect
-from sim.effects import EFFECTS
-from sim.log import Array
-from sim.model import Part
+from sim.data.log import Array
+from sim.physics.effect import ONSET, UNTIL, Effect
+from sim.physics.effects import EFFECTS
+from sim.physics.model import Part
 from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.optimize import JointJacobian
 from sim.reconcile.run_nuisance import RunNuisance

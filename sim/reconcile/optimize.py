@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.log import Array
+from sim.data.log import Array
 from sim.reconcile.backlash_phase import (
     backlash_phase_prior,
     estimate_backlash_phase,

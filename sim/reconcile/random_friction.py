@@ -13,7 +13,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from sim.log import Array
+from sim.data.log import Array
 from sim.reconcile.run_nuisance import RunNuisance
 
 VARIES = 0.04  # [of kS] τ, measured on logs of one day: two to six hundredths

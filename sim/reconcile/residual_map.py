@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.fit.measurements import RunMeasurements, estimate_noise, measure_runs
+from sim.data.log import Array, Log, Run
+from sim.estimation.measurements import RunMeasurements, estimate_noise, measure_runs
 from sim.gap import GapMap, Residuals, gap_map
-from sim.log import Array, Log, Run
 
 FEWEST = 4  # samples of a run that is simulated, as ``records`` has it
 

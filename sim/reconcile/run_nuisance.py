@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.log import Array
+from sim.data.log import Array
 
 
 @dataclass(frozen=True, eq=False)

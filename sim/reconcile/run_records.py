@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.fit.measurements import ROBUST, RunMeasurements, measure_runs
-from sim.log import Array, Log
-from sim.voltage_residual import run_start_times, share_a_clock
+from sim.data.log import Array, Log
+from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs
+from sim.physics.voltage_residual import run_start_times, share_a_clock
 
 FEWEST = 4  # samples of a run that can be compared, as ``see`` has it
 AT_REST = 0.05  # [share of the top speed] that a position may creep in one sample of a rest

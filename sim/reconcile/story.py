@@ -7,9 +7,9 @@ from typing import Any
 from numpy import bool_
 from numpy.typing import NDArray
 
+from sim.data.log import Array, Log
 from sim.gap.place import Place
-from sim.log import Array, Log
-from sim.model import Model
+from sim.physics.model import Model
 
 NOTHING_MISSING, EXPLAINED = "nothing-missing", "explained"
 AMBIGUOUS, UNEXPLAINED = "ambiguous", "unexplained"

@@ -9,7 +9,7 @@ costs little, and the valleys that these find are tried on all runs.
 from collections.abc import Iterable, Sequence
 from math import isclose, isfinite
 
-from sim.effects import EFFECTS
+from sim.physics.effects import EFFECTS
 from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.model_structure import ModelStructure
 from sim.reconcile.optimize import (

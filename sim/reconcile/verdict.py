@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from sim.effects import EFFECTS
+from sim.data.units import Unit
+from sim.physics.effects import EFFECTS
 from sim.reconcile.cross_validation import missed_motion
 from sim.reconcile.likelihood import PredictionErrorProblem
 from sim.reconcile.model_selection import list_blocked
@@ -11,7 +12,6 @@ from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
 from sim.reconcile.thresholds import LOST, MOSTLY, STRAYS
-from sim.units import Unit
 
 
 def verdict_of(

@@ -13,20 +13,20 @@ from functools import cached_property
 
 from markupsafe import Markup
 
-from sim.doubt import Doubt
-from sim.errors import BadRequest
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest
+from sim.data.log import Log
+from sim.data.units import Unit, unit
 from sim.feedback import Preset
-from sim.feedback_trial import FeedbackTrial
 from sim.fit import Fit
-from sim.fit_replay import RunReplay, replay_fit
-from sim.log import Log
+from sim.fit.feedback_trial import FeedbackTrial
+from sim.fit.replay import RunReplay, replay_fit
 from sim.plot.fit_overview import fit_overview
 from sim.plot.measured_vs_simulated import error_table, measured_vs_simulated
 from sim.plot.picture import Picture
 from sim.plot.step_response import step_responses
 from sim.report.page_file import load_templates, page_path, write_whole
 from sim.report.rows import controller_rows, gain_rows, measure_rows, snippet_rows
-from sim.units import Unit, unit
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from sim.atomic_file import write_atomically
-from sim.errors import BadRequest
-from sim.printable import printable
+from sim.data.errors import BadRequest
+from sim.support.atomic_file import write_atomically
+from sim.support.printable import printable
 
 PAGES = (".html", ".htm")
 FOLDER = Path(__file__).parent

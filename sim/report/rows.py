@@ -4,14 +4,14 @@ import math
 import re
 from dataclasses import dataclass
 
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.data.units import unit
 from sim.feedback import PRESETS, Preset
-from sim.feedback_trial import SUGGESTED, FeedbackTrial, delay_of, try_feedback_gains
 from sim.fit import Fit
-from sim.fit_terminal import format_error
+from sim.fit.feedback_trial import SUGGESTED, FeedbackTrial, delay_of, try_feedback_gains
 from sim.plot.table import to_text
-from sim.robot_code_snippet import LANGUAGES, SEASONS, robot_code_snippet, round_to_error
-from sim.units import unit
+from sim.report.fit_terminal import format_error
+from sim.report.robot_code_snippet import LANGUAGES, SEASONS, robot_code_snippet, round_to_error
 
 SURE = 1.96  # [standard errors] that hold the truth 95 times of a hundred
 MEANS = {

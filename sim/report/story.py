@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.data.units import unit
 from sim.plot.picture import Picture
 from sim.plot.story import (
     candidate_bars,
@@ -20,8 +21,7 @@ from sim.plot.story import (
 from sim.plot.story_bars import candidate_table
 from sim.plot.table import Table
 from sim.reconcile.story import AMBIGUOUS, UNEXPLAINED, Finding, Story
-from sim.report.page_file import load_templates, page_path, write_whole
-from sim.story_text import (
+from sim.reconcile.story_text import (
     FAULT,
     describe,
     describe_parameter,
@@ -32,7 +32,7 @@ from sim.story_text import (
     list_next_tests,
     list_remarks,
 )
-from sim.units import unit
+from sim.report.page_file import load_templates, page_path, write_whole
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from html import escape
 
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
 
 
 class Prediction:

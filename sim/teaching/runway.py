@@ -13,12 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.engine import State, move
-from sim.errors import BadRequest
-from sim.log import Array
-from sim.mechanism import Mechanism
-from sim.routine import Routine
-from sim.simulate import power_path_arrays
+from sim.bench.mechanism import Mechanism
+from sim.bench.routine import Routine
+from sim.bench.simulate import power_path_arrays
+from sim.data.errors import BadRequest
+from sim.data.log import Array
+from sim.physics.engine import State, move
 
 PERIOD = 0.02  # [s] of the robot program's loop
 STANDS = 0.01  # [m/s] slower is standing

@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING, Any
 
 from grader.course import find_course
 from grader.exercise import find_exercise
-from sim.formats import read
-from sim.units import unit
+from sim.data.units import unit
+from sim.io import read
 
 if TYPE_CHECKING:
-    from sim.log import Log
-    from sim.model import Model
+    from sim.data.log import Log
+    from sim.physics.model import Model
 
 SUSPECTS = (
     "velocity-filter",

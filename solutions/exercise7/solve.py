@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from sim.detect_faults import inspect
-from sim.faults import FAULTS
-from sim.formats import read
-from sim.log import Log
+from sim.data.log import Log
+from sim.inspect.detect_faults import inspect
+from sim.inspect.faults import FAULTS
+from sim.io import read
 
 HELPS = {
     "encoder-slip": "rerun",

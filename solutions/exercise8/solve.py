@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from sim.formats import read
-from sim.log import Log, Run
-from sim.units import unit
+from sim.data.log import Log, Run
+from sim.data.units import unit
+from sim.io import read
 
 STANDS = 0.02  # [share of the way] by which a position may move, and still stand
 BEFORE = 0.1  # [s] cut before the stop

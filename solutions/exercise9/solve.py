@@ -6,7 +6,7 @@ The function stands beside this, in ``fit.py``.
 from pathlib import Path
 
 from sim.fit import fit
-from sim.formats import read
+from sim.io import read
 
 
 def solve(exercise: Path, data: Path) -> dict[str, str]:

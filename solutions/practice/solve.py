@@ -6,7 +6,7 @@ from pathlib import Path
 
 from grader.course import find_course
 from sim.fit import fit
-from sim.formats import read
+from sim.io import read
 
 HERE = find_course(Path(__file__).resolve().parent)
 FILES = {

@@ -22,7 +22,7 @@ from bench_grade import loaded, spent
 from class_made import ROOT, SECRET, asked, make
 
 from grader.variant import class_secret
-from sim.work.process_pool import available_cores
+from sim.support.work.process_pool import available_cores
 
 CORES = available_cores()
 TARGET = 300.0  # [s] for 500 students

@@ -16,12 +16,12 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import beta
 
-from sim.errors import NotIdentifiable
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import NotIdentifiable
 from sim.fit import Fit, fit
-from sim.mechanism import Mechanism
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
 
 ROUTINE = Routine(ramp=0.5, step=3.5)
 NORMAL = 1.959964  # standard errors to each side that hold 95 of 100

@@ -12,17 +12,17 @@ import time
 import numpy as np
 from timing import HEADER, line, seconds
 
-from sim.effects import EFFECTS
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
-from sim.work.cache import CACHE
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.physics.effects import EFFECTS
+from sim.support.work.cache import CACHE
 
 ROUTINE = Routine(ramp=0.5, step=3.5)
 VARIANTS = 1000
 PROGRAM = """
 import numpy as np, sim
-from sim.simulate import simulate
+from sim.bench.simulate import simulate
 simulate(sim.MECHANISMS["drivetrain"], sim.Routine(), rng=np.random.default_rng(1))
 """
 

@@ -12,13 +12,13 @@ Memory is what Python and NumPy allocate beyond the log, as tracemalloc sees it,
 import numpy as np
 from timing import HEADER, line, peak, seconds
 
+from sim.bench.simulate import move_gains_only
+from sim.data.log import FOUR_TESTS, Log, Run
+from sim.data.vocabulary import METHODS
 from sim.fit import fit
 from sim.fit.metrics import score_simulated_velocity
 from sim.fit.regression import regress
-from sim.log import FOUR_TESTS, Log, Run
-from sim.simulate import move_gains_only
-from sim.sysid_rows import prepare_rows
-from sim.vocabulary import METHODS
+from sim.fit.sysid_rows import prepare_rows
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 TICK = 1e-4  # [m] of the encoder: none is without steps

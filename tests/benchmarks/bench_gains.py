@@ -12,13 +12,13 @@ from statistics import median
 
 import numpy as np
 
-from sim.errors import NotIdentifiable
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import NotIdentifiable
+from sim.data.log import Log
 from sim.fit import fit
-from sim.log import Log
-from sim.mechanism import Mechanism
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
 
 ROUTINE = Routine(ramp=0.5, step=3.5)
 NOISES = (1.0, 3.0, 10.0)  # times the mechanism's own

@@ -20,13 +20,13 @@ from pathlib import Path
 import numpy as np
 
 import sim
-from sim.errors import Refusal
+from sim.data.errors import Refusal
+from sim.data.log import Log, Run
 from sim.fit import fit
 from sim.fit.regression import regress
-from sim.log import Log, Run
-from sim.model import Model, Part
-from sim.replay import replay
-from sim.sysid_rows import prepare_rows
+from sim.fit.sysid_rows import prepare_rows
+from sim.physics.model import Model, Part
+from sim.physics.replay import replay
 
 LOGS = {
     "sciborgs-2023-elbow-arm": "arm",

@@ -34,7 +34,7 @@ def timed(draw: Callable[..., Any], **knobs: Any) -> Any:
         asked = {one: other.value for one, other in knobs.items()}
         for value in moved(knob):
             begin = time.perf_counter()
-            with contextlib.suppress(sim.errors.Refusal):
+            with contextlib.suppress(sim.Refusal):
                 drawn = draw(**{**asked, name: value})
                 pictures = [drawn] if isinstance(drawn, sim.plot.Picture) else drawn
                 "".join(picture.html for picture in pictures)

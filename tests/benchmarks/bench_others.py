@@ -18,10 +18,10 @@ import numpy as np
 from bench_grade import loaded
 from others_tools import GAINS, Task, Timed, installed, nbgrader, otter, ours
 
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
 
 TIMES = 10.0  # as many submissions a minute, at least
 OFF = 1.5  # [times the key] a wrong number

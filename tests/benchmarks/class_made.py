@@ -18,7 +18,7 @@ import numpy as np
 
 from grader.exercise import Exercise, exercises
 from grader.variant import class_secret, folder_name
-from sim.work.process_pool import run_jobs_locally
+from sim.support.work.process_pool import run_jobs_locally
 
 ROOT = Path(__file__).resolve().parents[2]
 SECRET = b"a benchmark's class, which has nothing to hide"

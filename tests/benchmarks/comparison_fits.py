@@ -7,12 +7,12 @@ from itertools import combinations
 import numpy as np
 from comparison_plan import Row
 
-from sim.errors import NotIdentifiable
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import NotIdentifiable
+from sim.data.log import FOUR_TESTS, Log
 from sim.fit import fit
-from sim.log import FOUR_TESTS, Log
-from sim.mechanisms import MECHANISMS
-from sim.routine import Routine
-from sim.simulate import simulate
 
 RECIPE, OURS = "sysid", "output-error"
 METHODS = (RECIPE, OURS)

@@ -11,7 +11,7 @@ from bench_held_out import HeldOut, held_out
 from comparison_fits import BUILT, METHODS, SUBSETS, Found, found, outcomes
 from comparison_plan import SECTIONS, Row
 
-from sim.mechanisms import MECHANISMS
+from sim.bench.mechanisms import MECHANISMS
 
 SOME = 4  # times fewer logs of each of the 16 subsets of three mechanisms
 DIRTY_PERIOD = 0.02  # [s]

@@ -37,7 +37,7 @@ def main() -> None:
     from reconcile_making import store  # noqa: PLC0415 - the engine counts effects when imported
     from reconcile_recording import on_the_bench as moved  # noqa: PLC0415 - the same
 
-    from sim.engine import load_engine  # noqa: PLC0415 - the same
+    from sim.physics.engine import load_engine  # noqa: PLC0415 - the same
 
     cases = plan(seed=asked.seed, cases=asked.cases, shuffled=asked.shuffled)
     if asked.physics == "mujoco":

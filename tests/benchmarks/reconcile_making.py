@@ -21,10 +21,10 @@ from reconcile_recording import (
 )
 from reconcile_sizes import hide
 
-from sim.contaminate import contaminate
-from sim.formats import write
-from sim.log import Log
-from sim.units import unit
+from sim.data.log import Log
+from sim.data.units import unit
+from sim.inspect.contaminate import contaminate
+from sim.io import write
 
 QUICK = 0.25  # [share] of mechanisms with stops that are logged every 5 ms
 

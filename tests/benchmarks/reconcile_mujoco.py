@@ -21,16 +21,16 @@ import mujoco
 import numpy as np
 from reconcile_strangers import SHAKES
 
-from sim.effect import ASKS
-from sim.effects import effect as find
-from sim.engine.model_arrays import COARSEST
-from sim.log import Array, Run
-from sim.mechanism import Mechanism
-from sim.model import Part
-from sim.routine import Routine
-from sim.sensor_model import read_sensor
-from sim.simulate import PAUSE, _begin, _end, _loops
-from sim.units import unit
+from sim.bench.mechanism import Mechanism
+from sim.bench.routine import Routine
+from sim.bench.sensor_model import read_sensor
+from sim.bench.simulate import PAUSE, _begin, _end, _loops
+from sim.data.log import Array, Run
+from sim.data.units import unit
+from sim.physics.effect import ASKS
+from sim.physics.effects import effect as find
+from sim.physics.engine.model_arrays import COARSEST
+from sim.physics.model import Part
 
 STEP = 0.001  # [s]
 G = 9.81  # [m/s²]

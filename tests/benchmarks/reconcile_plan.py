@@ -11,8 +11,8 @@ from itertools import cycle, islice
 import numpy as np
 from reconcile_strangers import ADMITTED, STRANGERS
 
-from sim.effects import EFFECTS
-from sim.mechanisms import MECHANISMS
+from sim.bench.mechanisms import MECHANISMS
+from sim.physics.effects import EFFECTS
 
 FAULTS = ("encoder-slip", "hard-stop")  # damage that a solver names among its findings
 SINGLES = (("real", False), ("subtle", False), ("real", True), ("subtle", True))

@@ -13,15 +13,15 @@ import numpy as np
 from reconcile_sizes import Hidden
 from reconcile_strangers import SHAKES
 
-from sim.effect import Scale
-from sim.effects import effect as find
-from sim.effects.inertia_change import LATER
-from sim.engine.model_arrays import COARSEST
-from sim.log import Log, Run
-from sim.mechanism import Mechanism
-from sim.model import Part
-from sim.routine import COAST_AFTER, LEVEL_LASTS, LEVELS, TRIANGLE_RISES, Routine
-from sim.simulate import simulate
+from sim.bench.mechanism import Mechanism
+from sim.bench.routine import COAST_AFTER, LEVEL_LASTS, LEVELS, TRIANGLE_RISES, Routine
+from sim.bench.simulate import simulate
+from sim.data.log import Log, Run
+from sim.physics.effect import Scale
+from sim.physics.effects import effect as find
+from sim.physics.effects.inertia_change import LATER
+from sim.physics.engine.model_arrays import COARSEST
+from sim.physics.model import Part
 
 FOUR = ("quasistatic", "dynamic")
 SESSIONS = {

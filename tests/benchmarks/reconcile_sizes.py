@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from reconcile_plan import FAULTS, GIVEN_AS_SIMPLE, SUBTLE, Case
 
-from sim.battery import Battery
-from sim.effect import Scale
-from sim.effects import effect as find
-from sim.mechanism import Mechanism
-from sim.mechanisms import MECHANISMS
-from sim.model import Part
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.physics.battery import Battery
+from sim.physics.effect import Scale
+from sim.physics.effects import effect as find
+from sim.physics.model import Part
 
 ORDINARY = (0.75, 1.35)  # [1] sizes of what is realistic
 A_THIRD = (0.25, 0.40)  # [1] sizes of what is subtle

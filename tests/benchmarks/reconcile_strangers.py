@@ -7,9 +7,9 @@ solver runs in another, which never hears of them.
 import math
 from collections.abc import Callable, Iterator, Mapping
 
-from sim.effect import Effect, Parameter, Scale
-from sim.effects import EFFECTS
-from sim.voltage_residual import VoltageResidual
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.effects import EFFECTS
+from sim.physics.voltage_residual import VoltageResidual
 
 SIX = 6.0  # [V] of an ordinary dynamic test: how fast a place is passed
 CENTER = 0.5  # [share of the reach] where a bump lies if nobody says
@@ -214,5 +214,5 @@ ADMITTED: Mapping[str, Effect] = {**STRANGERS, SHAKES.name: SHAKES}
 
 
 def admit() -> None:
-    """Let this process's engine know them; before ``sim.engine`` is imported, which counts them."""
+    """Let this process's engine know them; before the engine is imported, which counts them."""
     EFFECTS.update(ADMITTED)

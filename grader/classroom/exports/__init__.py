@@ -13,7 +13,7 @@ from pkgutil import iter_modules
 
 from grader.classroom.results import Results
 from grader.classroom.roster import Members
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
 
 
 @dataclass(frozen=True)

@@ -26,12 +26,12 @@ from grader.robotcode.bench.run_facts import (
 from grader.robotcode.bench.run_routine_child import LONGEST
 from grader.robotcode.bench.sandboxed_run import LARGEST
 from grader.robotcode.bench.season import explain_other_season
-from sim.errors import Refusal
-from sim.formats import read
-from sim.formats.wpilog.contents import contents_of
-from sim.formats.wpilog.records import load_records
-from sim.log import Array, Log, Run
-from sim.units import unit
+from sim.data.errors import Refusal
+from sim.data.log import Array, Log, Run
+from sim.data.units import unit
+from sim.io import read
+from sim.io.wpilog.contents import contents_of
+from sim.io.wpilog.records import load_records
 
 STATE = "sysid-test-state-"
 NEEDED = {"voltage", "position", "velocity"}

@@ -12,14 +12,14 @@ import click
 from sim.cli.fit.against import against_physics, parts_of, taken_apart
 from sim.cli.fit.sides import sides_of
 from sim.cli.options import FILE, as_json, read_together, reading_options
-from sim.cli_support import DONE, NOT_RIGHT
+from sim.data.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
-from sim.vocabulary import METHODS
+from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
-    from sim.feedback_trial import FeedbackTrial, OwnGains
+    from sim.data.log import Log
     from sim.fit import Fit
-    from sim.log import Log
+    from sim.fit.feedback_trial import FeedbackTrial, OwnGains
 
 LOOPS = ("velocity", "position")
 
@@ -115,8 +115,8 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     For example: sysid fit drive.wpilog --html drive.html
     """
-    from sim.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as all here: --help must not wait
+    from sim.fit.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415
 
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
@@ -140,7 +140,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     told = _Told(files, found, log, preset, tried, notes)
     _write(told, html=html, plot=plot)
     if paste:
-        from sim.robot_code_snippet import robot_code_snippet  # noqa: PLC0415 - only with --paste
+        from sim.report.robot_code_snippet import robot_code_snippet  # noqa: PLC0415 - only with --paste
 
         click.echo(robot_code_snippet(found, language=paste, season=int(season)), nl=False)
     elif as_json:
@@ -163,7 +163,7 @@ class _Told:
 
     def to_json(self) -> dict[str, object]:
         """Plain data; the learner's own gains only where they were given."""
-        from sim.feedback_trial import OWN  # noqa: PLC0415 - --help must not wait for it
+        from sim.fit.feedback_trial import OWN  # noqa: PLC0415 - --help must not wait for it
 
         own = [
             {"loop": one.loop, "kP": one.gains.kp, "kD": one.gains.kd, **one.verdict.to_json()}
@@ -175,7 +175,7 @@ class _Told:
 
     def show(self) -> None:
         """Print it."""
-        from sim.fit_terminal import show_fit  # noqa: PLC0415 - only for people
+        from sim.report.fit_terminal import show_fit  # noqa: PLC0415 - only for people
 
         title = ", ".join(map(str, self.files))
         preset = PRESETS[self.preset]
@@ -215,7 +215,7 @@ def _go_together(
 
 def _own(loop: str | None, *, kp: float | None, kd: float | None) -> "OwnGains | None":
     """The learner's gains, if some were given."""
-    from sim.feedback_trial import OwnGains  # noqa: PLC0415 - --help must not wait for it
+    from sim.fit.feedback_trial import OwnGains  # noqa: PLC0415 - --help must not wait for it
 
     if kp is None:
         if kd is None and loop is None:

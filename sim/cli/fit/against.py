@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.fit.sides import compare
-from sim.vocabulary import METHODS
+from sim.data.vocabulary import METHODS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from sim.doubt import Doubt
+    from sim.data.doubt import Doubt
+    from sim.data.log import Log
     from sim.fit import Fit
     from sim.fit.physics import Parts
-    from sim.log import Log
 
 MANY = 20_000  # samples: of a longer log the directions take seconds; only a page waits for them
 
@@ -26,7 +26,7 @@ def parts_of(
     if name is None:
         return None
     from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
-    from sim.motors import motor  # noqa: PLC0415
+    from sim.physics.motors import motor  # noqa: PLC0415
 
     found = motor(name)
     if ratio is None:

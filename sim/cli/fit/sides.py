@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from sim.errors import Refusal
+from sim.data.errors import Refusal
 
 if TYPE_CHECKING:
-    from sim.doubt import Doubt
+    from sim.data.doubt import Doubt
+    from sim.data.log import Log
     from sim.fit import Fit
-    from sim.log import Log
 
 SIDES = ("left", "right")
 TOGETHER = "several-motors"  # the doubt of a log whose signals are the mean of several motors'

@@ -3,13 +3,13 @@
 import math
 from dataclasses import replace
 
-from sim.doubt import Doubt
-from sim.errors import NotIdentifiable
+from sim.data.doubt import Doubt
+from sim.data.errors import NotIdentifiable
+from sim.data.log import DIRECTIONS, Log
+from sim.data.units import unit
 from sim.fit.output_error import fit_output_error
 from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.result import Fit, gain_unit
-from sim.log import DIRECTIONS, Log
-from sim.units import unit
 
 APART = 0.05  # [share of a gain] two sides or directions may differ by
 NOTICED = 0.03  # [V] a difference of kS or kG smaller than this is no matter

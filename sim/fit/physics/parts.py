@@ -3,10 +3,10 @@
 import math
 from dataclasses import dataclass
 
-from sim.errors import BadRequest
+from sim.data.errors import BadRequest
+from sim.data.units import unit
 from sim.fit.result import Fit
-from sim.motors import Motor, theoretical_kv
-from sim.units import unit
+from sim.physics.motors import Motor, theoretical_kv
 
 SURELY = 3.0  # [standard errors] beyond which a difference is no accident of noise
 BELOW = 0.97  # [of theory] 12 V over the free speed is at most 2.1 % above the exact back-EMF

@@ -2,11 +2,11 @@
 
 import math
 
-from sim.doubt import Doubt
+from sim.data.doubt import Doubt
+from sim.data.units import unit
 from sim.fit.physics.parts import BELOW, HEAVY, SURELY
 from sim.fit.result import Fit
-from sim.motors import NOMINAL
-from sim.units import unit
+from sim.physics.motors import NOMINAL
 
 GRAVITY = 9.81  # [m/s²]
 WATCH = {"simple": 0.5, "elevator": 0.8, "arm": 0.8}  # [V] kS; arms of real robots read up to 0.74

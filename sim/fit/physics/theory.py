@@ -6,11 +6,11 @@ opposite ways: that tells the two apart.
 
 import math
 
-from sim.doubt import Doubt
+from sim.data.doubt import Doubt
+from sim.data.units import unit
 from sim.fit.physics.parts import BELOW, HEAVY, SURELY, Parts, check_radius_unit
 from sim.fit.result import Fit, gain_unit
-from sim.motors import MOTORS
-from sim.units import unit
+from sim.physics.motors import MOTORS
 
 DRAG = 1.08  # [of theory] kV with more than the ordinary drag
 TIGHT = 1.20  # [of theory] kV that drag alone hardly explains

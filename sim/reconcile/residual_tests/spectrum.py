@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from sim.log import Array
+from sim.data.log import Array
 from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import smooth_innovations
 

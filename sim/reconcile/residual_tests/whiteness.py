@@ -10,8 +10,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from sim.fit.measurements import ROBUST
-from sim.log import Array
+from sim.data.log import Array
+from sim.estimation.measurements import ROBUST
 from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.run_records import RunRecord
 

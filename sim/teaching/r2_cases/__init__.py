@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sim.data.log import Log
 from sim.fit import Fit, fit
-from sim.log import Log
 from sim.teaching.r2_cases import drivetrains, harm
 
 __all__ = ["GOOD", "Case", "make_cases"]

@@ -5,14 +5,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.battery import Battery
-from sim.log import Log
-from sim.mechanism import Mechanism
-from sim.mechanisms import MECHANISMS
-from sim.model import Part
-from sim.motors import motor
-from sim.routine import Routine
-from sim.simulate import simulate
+from sim.bench.mechanism import Mechanism
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.log import Log
+from sim.physics.battery import Battery
+from sim.physics.model import Part
+from sim.physics.motors import motor
 
 NOISE = 0.01  # [m/s] of the velocity while it moves
 ROUTINE = Routine(ramp=1.0, step=3.5, timeout=7.0)

@@ -1,0 +1,1 @@
+"""The simulated mechanism: the truth. Nothing that fits may import from here."""

@@ -1,0 +1,57 @@
+"""Verify a finished dataset against its key and its spec."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from sim.bench.dataset.folder import digest, list_unknown_logs
+from sim.bench.dataset.key import by_file, read_key
+from sim.bench.dataset.plan import LogJob
+from sim.bench.dataset.secret import Secret
+from sim.data.errors import BadRequest
+
+
+def verify_dataset(
+    folder: Path, jobs: Sequence[LogJob], *, key: Path, secret: Secret
+) -> tuple[str, ...]:
+    """What is not as it was made, a line each; empty if all is.
+
+    Args:
+        folder: of the dataset.
+        jobs: what the spec asks for today.
+        key: where its key is.
+        secret: what the key is sealed with.
+
+    Raises:
+        BadRequest: there is no key, or its seal is broken, or a file cannot be read.
+    """
+    entries = read_key(key, secret=secret)
+    if not entries:
+        raise BadRequest(
+            "there is no key",
+            where=str(key),
+            advice="Make the dataset to its end, or name its key with --key.",
+        )
+    files = by_file(entries)
+    asked = {file: job.fingerprint for job in jobs for file in job.files}
+    try:
+        return (
+            *_changed(folder, {file: entry["files"][file] for file, entry in files.items()}),
+            *(f"in no key: {file}" for file in list_unknown_logs(folder, known=files)),
+            *(f"not made yet: {file}" for file in asked if file not in files),
+            *(
+                f"of another spec: {file}"
+                for file, entry in files.items()
+                if asked.get(file) != entry["plan"]
+            ),
+        )
+    except OSError as error:
+        raise BadRequest(
+            f"cannot be read ({error.strerror})", where=str(folder), advice="Allow reading it."
+        ) from None
+
+
+def _changed(folder: Path, hashes: dict[str, str]) -> Iterator[str]:
+    for file, made in hashes.items():
+        found = digest(folder / file)
+        if found != made:
+            yield f"{'changed' if found else 'missing'}: {file}"

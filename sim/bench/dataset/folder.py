@@ -1,0 +1,178 @@
+"""The folder of a dataset: files are written atomically, and foreign files are left alone."""
+
+import hashlib
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from sim.bench.dataset.key import Entry
+from sim.bench.dataset.plan import LogJob
+from sim.data.errors import BadRequest
+
+MOMENT = 946_684_800  # [s] 2000-01-01: when a file was made would tell how long it took, and why
+LISTED = 3  # [files] that a refusal names
+
+
+@dataclass(frozen=True)
+class Survey:
+    """What is there already of a plan.
+
+    Args:
+        kept: the entries of logs that are finished.
+        todo: the jobs that are not.
+        foreign: files that stand where others shall, and are not what the plan makes.
+        stale: entries of finished files that the plan no longer has.
+    """
+
+    kept: tuple[Entry, ...]
+    todo: tuple[LogJob, ...]
+    foreign: tuple[str, ...]
+    stale: tuple[Entry, ...]
+
+
+def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry]) -> Survey:
+    """Look at what is there.
+
+    Args:
+        folder: of the dataset; need not exist.
+        jobs: the plan.
+        known: entries of logs that were finished earlier.
+
+    Raises:
+        BadRequest: it is no folder, or cannot be read.
+    """
+    entries = {entry["plan"]: entry for entry in known}
+    kept, todo, foreign = [], [], []
+    try:
+        if folder.exists() and not folder.is_dir():
+            raise BadRequest(
+                "this is not a folder", where=str(folder), advice="Name another with -o."
+            )
+        for job in jobs:
+            entry = entries.pop(job.fingerprint, None)
+            hashes = {file: digest(folder / file) for file in job.files}
+            there = {file: found for file, found in hashes.items() if found}
+            if entry and hashes == entry["files"]:
+                kept.append(entry)
+                continue
+            todo.append(job)
+            foreign += [
+                file for file, found in there.items() if not entry or entry["files"][file] != found
+            ]
+        stale = [
+            entry
+            for entry in entries.values()
+            if any((folder / file).exists() for file in entry["files"])
+        ]
+    except OSError as error:
+        raise _cannot(error, folder) from None
+    return Survey(tuple(kept), tuple(todo), tuple(foreign), tuple(stale))
+
+
+def digest(path: Path) -> str:
+    """SHA-256 of a file; empty if there is none.
+
+    Raises:
+        OSError: it is there, but cannot be read.
+    """
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except FileNotFoundError:
+        return ""
+
+
+def list_unknown_logs(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
+    """Log files in the folder that are none of those known."""
+    mine = set(known)
+    endings = {Path(file).suffix for file in mine}
+    found = (
+        path.relative_to(folder).as_posix()
+        for path in sorted(folder.rglob("*"))
+        if path.suffix in endings
+    )
+    return tuple(file for file in found if file not in mine)
+
+
+def name_files(files: Sequence[str]) -> str:
+    """The first of some files, and how many more there are."""
+    more = f" and {len(files) - LISTED} more" if len(files) > LISTED else ""
+    return ", ".join(files[:LISTED]) + more
+
+
+class Shelf:
+    """Puts files into the folder, each whole or not at all.
+
+    Args:
+        folder: of the dataset; made when the first file comes.
+        mine: files in it that may be replaced; None if all may.
+    """
+
+    def __init__(self, folder: Path, *, mine: Iterable[str] | None) -> None:
+        self.folder = folder
+        self.mine = None if mine is None else set(mine)
+        self._made: list[Path] = []
+
+    def open(self) -> None:
+        """Make the folder.
+
+        Raises:
+            BadRequest: it cannot be made.
+        """
+        self._folder(self.folder)
+
+    def put(self, contents: Mapping[str, bytes]) -> None:
+        """Write the files of one log.
+
+        Raises:
+            BadRequest: the disk is full, for example, or a file has come there meanwhile.
+        """
+        for file, content in contents.items():
+            path = self.folder / file
+            part = path.with_name(f".{path.name}.part")
+            self._folder(path.parent)
+            if self.mine is not None and file not in self.mine and path.exists():
+                raise BadRequest(
+                    "has come there meanwhile",
+                    where=str(path),
+                    advice="Let the other program finish, then run the same command again.",
+                )
+            try:
+                part.write_bytes(content)
+                os.utime(part, (MOMENT, MOMENT))
+                part.replace(path)
+            except OSError as error:
+                raise _cannot(error, path) from None
+            finally:
+                with suppress(OSError):  # it is there only if something went wrong
+                    part.unlink()
+
+    def tidy(self) -> None:
+        """Remove the folders that were made for nothing."""
+        for folder in reversed(self._made):
+            with suppress(OSError):  # there is a file in it
+                folder.rmdir()
+
+    def _folder(self, folder: Path) -> None:
+        missing = []
+        try:
+            while not folder.exists():
+                missing.append(folder)
+                folder = folder.parent
+            for one in reversed(missing):
+                folder = one
+                folder.mkdir(exist_ok=True)
+                self._made.append(folder)
+        except OSError as error:
+            raise _cannot(error, folder) from None
+
+
+def _cannot(error: OSError, path: Path) -> BadRequest:
+    return BadRequest(
+        f"cannot be written ({error.strerror or error})",
+        where=str(path),
+        advice="Make room there, or name a folder you may write to; then run the same command "
+        "again: what is finished is kept.",
+    )

@@ -1,0 +1,211 @@
+"""One ``[[logs]]`` table of a spec: mechanisms, routine, hidden effects and faults."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from sim.bench.dataset.table import NumberRange, TomlTable, suggest_word
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import FASTEST, SLOWEST
+from sim.data.errors import Refusal
+from sim.data.vocabulary import FOUR_TESTS, KINDS, TESTS
+from sim.inspect.fault import MOST, Fault
+from sim.inspect.faults import FAULTS
+from sim.physics.effects import EFFECTS
+
+MOST_LOGS = 100_000  # [logs of a dataset] its key and plan still fit in memory
+ROUTINE = ("ramp", "step", "timeout", "tests", "period", "duty_cycle", "electrical")
+LOGS = ("mechanisms", "count", "drawn", "routine", "effects", "faults")
+EFFECT = ("name", "size", "chance")
+FAULT = ("name", "severity", "test", "at", "chance")
+
+
+@dataclass(frozen=True)
+class LogSettings:
+    """How the tests of a log are run.
+
+    Args:
+        routine: the voltages.
+        tests: those that the log holds.
+        period: [s] of the robot program's loop.
+        duty_cycle: the program sets a share of the battery, not a voltage.
+        electrical: it also logs the current and the battery's voltage.
+    """
+
+    routine: Routine = field(default_factory=Routine)
+    tests: tuple[str, ...] = FOUR_TESTS
+    period: float = 0.02
+    duty_cycle: bool = False
+    electrical: bool = False
+
+
+@dataclass(frozen=True)
+class Hiding:
+    """An effect to hide, or one of several.
+
+    Args:
+        names: of which one is drawn.
+        size: 1 is what an ordinary robot has.
+        chance: share of the logs that get it.
+    """
+
+    names: tuple[str, ...]
+    size: NumberRange
+    chance: float
+
+
+@dataclass(frozen=True)
+class Spoiling:
+    """A fault to spoil a log with, or one of several.
+
+    Args:
+        names: of which one is drawn.
+        severity: 1 is an ordinary bad day.
+        tests: of which one is drawn; empty leaves it to the fault.
+        at: [s] since the test's first sample; None leaves it to the fault.
+        chance: share of the logs that get it.
+    """
+
+    names: tuple[str, ...]
+    severity: NumberRange
+    tests: tuple[str, ...]
+    at: NumberRange | None
+    chance: float
+
+
+@dataclass(frozen=True)
+class Logs:
+    """Logs of one kind.
+
+    Args:
+        where: its place in the spec, for refusals.
+        mechanisms: each gets its own logs.
+        count: logs of each mechanism, for each student if there are any.
+        drawn: each log's mechanism is another one like the catalogue's.
+        settings: how the tests are run.
+        effects: hidden in this order.
+        faults: made in this order.
+    """
+
+    where: str
+    mechanisms: tuple[str, ...]
+    count: int
+    drawn: bool
+    settings: LogSettings
+    effects: tuple[Hiding, ...]
+    faults: tuple[Spoiling, ...]
+
+
+def read_settings(table: TomlTable, *, default: LogSettings) -> LogSettings:
+    """The settings under ``routine``, each as in the default unless it is there."""
+    if "routine" not in table:
+        return default
+    found = TomlTable(table.content["routine"], where=f"{table.where}, routine", known=ROUTINE)
+    tests = found.choices("tests", TESTS) if "tests" in found else default.tests
+    try:
+        routine = Routine(
+            ramp=found.number("ramp", default=default.routine.ramp),
+            step=found.number("step", default=default.routine.step),
+            timeout=found.number("timeout", default=default.routine.timeout),
+            kinds=tuple(kind for kind in KINDS if any(test.startswith(kind) for test in tests)),
+        )
+    except Refusal as refusal:
+        found.refuse(refusal.what, advice=refusal.advice)
+    period = found.number("period", default=default.period)
+    if not FASTEST <= period <= SLOWEST:
+        found.wrong("period", advice=f"Give {FASTEST:g} to {SLOWEST:g} s; a robot's is 0.02.")
+    return LogSettings(
+        routine=routine,
+        tests=tests,
+        period=period,
+        duty_cycle=found.flag("duty_cycle", default=default.duty_cycle),
+        electrical=found.flag("electrical", default=default.electrical),
+    )
+
+
+def read_logs(table: TomlTable, *, default: LogSettings) -> Logs:
+    """One ``[[logs]]``, checked."""
+    settings = read_settings(table, default=default)
+    mechanisms = table.choices("mechanisms", MECHANISMS)
+    effects = table.tables("effects", name="logs.effects", known=EFFECT)
+    faults = table.tables("faults", name="logs.faults", known=FAULT)
+    found = Logs(
+        where=table.where,
+        mechanisms=mechanisms,
+        count=table.whole("count", default=1, least=1, most=MOST_LOGS),
+        drawn=table.flag("drawn", default=True),
+        settings=settings,
+        effects=tuple(_hiding(one, mechanisms=mechanisms) for one in effects),
+        faults=tuple(_spoiling(one, settings=settings, mechanisms=mechanisms) for one in faults),
+    )
+    named = [name for one in found.effects for name in one.names]
+    for name in named:
+        if named.count(name) > 1:
+            table.refuse(
+                f"effect {name!r} might be hidden twice in one log",
+                advice="Name each effect in one [[logs.effects]] only.",
+            )
+    return found
+
+
+def _hiding(table: TomlTable, *, mechanisms: tuple[str, ...]) -> Hiding:
+    """One ``[[logs.effects]]``, tried on every mechanism at both ends of its size."""
+    found = Hiding(
+        names=table.choices("name", EFFECTS),
+        size=table.span("size", default=1.0),
+        chance=table.number("chance", default=1.0, above=0.0, most=1.0),
+    )
+    if found.size.most == 0.0:
+        table.wrong("size", advice="Leave the effect out, or give a number above 0.")
+    for mechanism in mechanisms:
+        for name in found.names:
+            for size in (found.size.least, found.size.most):
+                try:
+                    MECHANISMS[mechanism].hiding(name, size=size)
+                except Refusal as refusal:
+                    table.refuse(refusal.what, advice=refusal.advice)
+    return found
+
+
+def _spoiling(table: TomlTable, *, settings: LogSettings, mechanisms: tuple[str, ...]) -> Spoiling:
+    """One ``[[logs.faults]]``."""
+    found = Spoiling(
+        names=table.choices("name", FAULTS),
+        severity=table.span("severity", default=1.0, least=0.0, most=MOST),
+        tests=table.texts("test", example=settings.tests[0]) if "test" in table else (),
+        at=table.span("at", default=0.0, least=0.0, most=settings.routine.timeout)
+        if "at" in table
+        else None,
+        chance=table.number("chance", default=1.0, above=0.0, most=1.0),
+    )
+    if found.severity.most == 0.0:
+        table.wrong("severity", advice="Leave the fault out, or give a number above 0.")
+    for name in found.names:
+        for what, advice in _mistakes(FAULTS[name], found, tests=settings.tests):
+            table.refuse(what, advice=advice)
+        for mechanism in mechanisms:
+            if MECHANISMS[mechanism].type not in FAULTS[name].types:
+                table.refuse(
+                    f"{name} cannot strike {mechanism}",
+                    advice=f"It takes a mechanism of type {' or '.join(FAULTS[name].types)}.",
+                )
+    return found
+
+
+def _mistakes(
+    fault: Fault, asked: Spoiling, *, tests: tuple[str, ...]
+) -> Iterator[tuple[str, str]]:
+    """What is impossible about where a fault shall strike, and what to do about it."""
+    possible = tuple(test for test in tests if test.rpartition("-")[0] in fault.kinds)
+    for test in asked.tests:
+        if test not in tests:
+            yield f"test {test!r} is not run", suggest_word(test, tests)
+        elif test not in possible:
+            yield (
+                f"{fault.name} cannot strike in {test}",
+                f"Choose one of: {', '.join(possible)}." if possible else "Leave it out.",
+            )
+    if not possible:
+        yield f"{fault.name} strikes in none of the tests", f"Run one of: {', '.join(fault.kinds)}."
+    if fault.whole and asked.at is not None:
+        yield f"{fault.name} spoils a whole test, so at means nothing", "Leave out at."

@@ -1,0 +1,170 @@
+"""Turn a spec into jobs: one log each, with all random choices and a seed for the rest.
+
+A job needs nothing but itself, so it gives the same bytes on any process of any machine, whatever
+else is made and in whatever order. Logs are numbered in an order that the secret decides: a number
+says nothing about what was done to a log.
+"""
+
+import hashlib
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from sim.bench.dataset.logs import Hiding, Logs, LogSettings, Spoiling
+from sim.bench.dataset.secret import Secret, log_seed
+from sim.bench.dataset.spec import Spec
+from sim.bench.dataset.student import folder_name
+from sim.bench.dataset.table import NumberRange
+
+EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # streams of chance, apart from one another
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """An effect that is hidden in a log's mechanism, and how much of it."""
+
+    effect: str
+    size: float
+
+
+@dataclass(frozen=True)
+class PlannedStrike:
+    """A fault that strikes a log.
+
+    Args:
+        fault: its name.
+        severity: 1 is an ordinary bad day.
+        test: where it strikes; None leaves it to the fault.
+        at: [s] since the test's first sample, drawn when it is made; None leaves it to the fault.
+    """
+
+    fault: str
+    severity: float
+    test: str | None
+    at: NumberRange | None
+
+
+@dataclass(frozen=True)
+class LogJob:
+    """One log to make.
+
+    Args:
+        name: path of its files in the dataset's folder, without the ending.
+        where: its place in the spec, for refusals.
+        student: whose; empty if nobody's.
+        mechanism: its name in the catalogue.
+        drawn: the mechanism is another one like the catalogue's.
+        settings: how the tests are run.
+        effects: hidden in this order.
+        strikes: made in this order.
+        formats: it is written in each of these.
+        seed: of all that chance still has to decide.
+    """
+
+    name: str
+    where: str
+    student: str
+    mechanism: str
+    drawn: bool
+    settings: LogSettings
+    effects: tuple[Hidden, ...]
+    strikes: tuple[PlannedStrike, ...]
+    formats: tuple[str, ...]
+    seed: int
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Its files, as paths in the dataset's folder."""
+        return tuple(f"{self.name}.{ending}" for ending in self.formats)
+
+    @property
+    def fingerprint(self) -> str:
+        """Another one means that the files would be others."""
+        content: dict[str, Any] = asdict(self)
+        del content["where"]
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+    def stream(self, *which: int) -> np.random.Generator:
+        """A source of chance of its own for each purpose: a new fault leaves the rest as it is."""
+        return random_stream(self.seed, *which)
+
+
+def random_stream(seed: int, *which: int) -> np.random.Generator:
+    """One of the unrelated sources of chance that a seed gives."""
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=which)))
+
+
+def plan_jobs(spec: Spec, secret: Secret) -> tuple[LogJob, ...]:
+    """The jobs of a spec, in the order of their names.
+
+    Args:
+        spec: what is asked for.
+        secret: what it is drawn from.
+    """
+    return tuple(
+        job
+        for student in spec.students or ("",)
+        for job in _numbered(list(_seeds(spec, secret, student)), spec, student)
+    )
+
+
+def _seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, Logs, str]]:
+    """Seed, place in the spec and mechanism of each log of a student."""
+    for block, logs in enumerate(spec.logs, start=1):
+        for mechanism in logs.mechanisms:
+            for number in range(1, logs.count + 1):
+                seed = log_seed(
+                    secret,
+                    dataset=spec.name,
+                    student=student,
+                    block=block,
+                    mechanism=mechanism,
+                    number=number,
+                )
+                yield seed, logs, mechanism
+
+
+def _numbered(found: list[tuple[int, Logs, str]], spec: Spec, student: str) -> Iterator[LogJob]:
+    """Jobs, shuffled by their seeds and numbered."""
+    folder = f"{folder_name(student)}/" if student else ""
+    digits = max(2, len(str(len(found))))
+    shuffled = sorted(found, key=lambda one: one[0])
+    for number, (seed, logs, mechanism) in enumerate(shuffled, start=1):
+        yield LogJob(
+            name=f"{folder}log-{number:0{digits}}",
+            where=logs.where,
+            student=student,
+            mechanism=mechanism,
+            drawn=logs.drawn,
+            settings=logs.settings,
+            effects=tuple(_effects(logs.effects, seed)),
+            strikes=tuple(_strikes(logs.faults, seed)),
+            formats=spec.formats,
+            seed=seed,
+        )
+
+
+def _effects(asked: tuple[Hiding, ...], seed: int) -> Iterator[Hidden]:
+    for number, one in enumerate(asked):
+        rng = random_stream(seed, EFFECT, number)
+        if rng.random() < one.chance:
+            yield Hidden(_one_of(one.names, rng), one.size.draw(rng))
+
+
+def _strikes(asked: tuple[Spoiling, ...], seed: int) -> Iterator[PlannedStrike]:
+    for number, one in enumerate(asked):
+        rng = random_stream(seed, FAULT, number)
+        if rng.random() < one.chance:
+            yield PlannedStrike(
+                fault=_one_of(one.names, rng),
+                severity=one.severity.draw(rng),
+                test=_one_of(one.tests, rng) if one.tests else None,
+                at=one.at,
+            )
+
+
+def _one_of(names: tuple[str, ...], rng: np.random.Generator) -> str:
+    return names[int(rng.integers(len(names)))]

@@ -1,0 +1,77 @@
+"""The students of a dataset: a list in the spec, or a column of a CSV file."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from sim.bench.dataset.roster_file import read_roster
+from sim.bench.dataset.student import same, student_name
+from sim.bench.dataset.table import TomlTable
+from sim.data.errors import BadRequest, Refusal
+
+COLUMN = "student"  # [header of a CSV file] unless the spec names another
+EXAMPLE = "roster.csv"
+
+
+def students_of(table: TomlTable, *, folder: Path) -> tuple[str, ...]:
+    """The students, in their own order; empty if the spec has none.
+
+    Args:
+        table: the spec's top.
+        folder: where the spec lies.
+
+    Raises:
+        BadRequest: no such file or column, a name that is none, or one that occurs twice.
+    """
+    given = table.content.get("students")
+    if given is None:
+        return ()
+    if isinstance(given, list):
+        texts = table.texts("students", example="ann")
+        return distinct_names((f"{table.where}, students", text) for text in texts)
+    if isinstance(given, dict):
+        found = TomlTable(given, where=f"{table.where}, students", known=("file", "column"))
+        file = found.text("file", example=EXAMPLE)
+        column = found.text("column", example=COLUMN) if "column" in found else COLUMN
+    else:
+        file, column = table.text("students", example=EXAMPLE), COLUMN
+    return distinct_names(_cells(folder / file, column=column))
+
+
+def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
+    """Place and text of every cell of a column."""
+    advice = "Give the path of a CSV file in UTF-8, seen from the spec's folder."
+    roster = read_roster(path, advice=advice)
+    place = roster.place([column])
+    if place is None:
+        raise BadRequest(
+            f"no column {column!r} in its first line",
+            where=str(path),
+            advice=f'Name one that is there: students = {{ file = "{path.name}", column = "…" }}',
+        )
+    for number, row in roster.rows:
+        yield f"{path}, line {number}", row[place] if place < len(row) else ""
+
+
+def distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+    """Names as they are shown, each of another person.
+
+    Args:
+        found: place and text of each name.
+
+    Raises:
+        BadRequest: a name that is none, or one that occurs twice.
+    """
+    names: dict[str, str] = {}
+    for where, text in found:
+        try:
+            name = student_name(text)
+        except Refusal as refusal:
+            raise BadRequest(refusal.what, where=where, advice=refusal.advice) from None
+        if same(name) in names:
+            raise BadRequest(
+                f"{name!r} and {names[same(name)]!r} are one student",
+                where=where,
+                advice="List each student once, or tell them apart by more than capitals.",
+            )
+        names[same(name)] = name
+    return tuple(names.values())

@@ -1,0 +1,159 @@
+"""The secret or seed from which a dataset is drawn and with which its key is sealed.
+
+    seed = HMAC-SHA256(secret, [dataset, student, which log])
+
+A secret keeps others from drawing the same data. A seed in the spec does not: whoever has the spec
+has the truth, and can seal another one.
+"""
+
+import hashlib
+import hmac
+import json
+import os
+import secrets
+from dataclasses import dataclass
+from pathlib import Path
+
+from sim.bench.dataset.spec import ENDING, Spec
+from sim.bench.dataset.student import same
+from sim.data.errors import BadRequest
+
+VARIABLE = "SYSID_SECRET"  # of the environment; holds the secret itself
+FEWEST = 16  # [characters] a shorter secret could be found by trying
+SIZE = 32  # [bytes] of a new one
+
+
+@dataclass(frozen=True)
+class Secret:
+    """What everything is drawn from.
+
+    Args:
+        value: the secret itself.
+        hidden: whether it is one; false for a seed that stands in the spec.
+        new: the file it has yet to be kept in, if it was made just now.
+    """
+
+    value: bytes
+    hidden: bool
+    new: Path | None = None
+
+    def __repr__(self) -> str:
+        """Without the value: a message may hold this."""
+        return f"Secret(hidden={self.hidden}, new={self.new})"
+
+    def seed(self, *which: str | int) -> int:
+        """The number that one thing is drawn from."""
+        return int.from_bytes(self._code("seed", json.dumps(which).encode()), "big")
+
+    def seal(self, content: bytes) -> str:
+        """A text that only the holder of the secret can find for this content."""
+        return self._code("seal", content).hex()
+
+    def _code(self, purpose: str, content: bytes) -> bytes:
+        own = hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
+        return hmac.digest(own, content, hashlib.sha256)
+
+    def keep(self) -> None:
+        """Write a new secret to its file, for its owner only.
+
+        Raises:
+            BadRequest: the file cannot be written.
+        """
+        if self.new is None:
+            return
+        try:
+            file = os.open(self.new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+            with os.fdopen(file, "wb") as stream:
+                stream.write(self.value + b"\n")
+        except OSError as error:
+            raise BadRequest(
+                f"the new secret cannot be written ({error.strerror})",
+                where=str(self.new),
+                advice=f"Name a file in a folder you may write to, or set {VARIABLE}.",
+            ) from None
+
+
+def log_seed(
+    secret: Secret, *, dataset: str, student: str, block: int, mechanism: str, number: int
+) -> int:
+    """The seed of one log; it does not change when students or further logs are added.
+
+    Args:
+        secret: what all is drawn from.
+        dataset: its name.
+        student: whose log, empty if nobody's.
+        block: which ``[[logs]]`` of the spec, from 1.
+        mechanism: its name.
+        number: which log of that mechanism, from 1.
+    """
+    return secret.seed(dataset, same(student) if student else "", block, mechanism, number)
+
+
+def find_secret(spec: Spec, *, make: bool) -> Secret:
+    """The secret of a spec, or its seed.
+
+    Args:
+        spec: the spec.
+        make: whether to make a new one where its file is not there yet.
+
+    Raises:
+        BadRequest: there is none, it is too short, or file and environment contradict each other.
+    """
+    if spec.seed is not None:
+        return Secret(f"sysid dataset of seed {spec.seed}".encode(), hidden=False)
+    set_ = os.environ.get(VARIABLE, "").strip().encode()
+    kept = kept_in(spec.secret) if spec.secret else b""
+    if set_ and kept and set_ != kept:
+        raise BadRequest(
+            f"the file of the secret and {VARIABLE} differ",
+            where=str(spec.secret),
+            advice=f"Unset {VARIABLE}, or remove the file.",
+        )
+    value = kept or set_
+    if value:
+        if len(value) < FEWEST:
+            raise BadRequest(
+                f"the secret has fewer than {FEWEST} characters",
+                where=str(spec.secret) if kept else VARIABLE,
+                advice="Take a longer one: a short secret can be found by trying.",
+            )
+        return Secret(value, hidden=True)
+    if spec.secret is None:
+        raise BadRequest(
+            "it says neither secret nor seed",
+            where=spec.where,
+            advice=f'Add secret = "class{ENDING}", a file that is made for you, or seed = 1 for '
+            "data that anybody may make again.",
+        )
+    if not make:
+        raise BadRequest(
+            "the secret is not there",
+            where=str(spec.secret),
+            advice=f"Put back the file this dataset was made with, or set {VARIABLE}.",
+        )
+    return Secret(secrets.token_hex(SIZE).encode(), hidden=True, new=spec.secret)
+
+
+def kept_in(path: Path) -> bytes:
+    """The secret in a file; empty if there is no such file.
+
+    Raises:
+        BadRequest: the file cannot be read, or is empty.
+    """
+    try:
+        kept = path.read_bytes().strip()
+    except FileNotFoundError:
+        return b""
+    except OSError as error:
+        raise BadRequest(
+            f"the secret cannot be read ({error.strerror})",
+            where=str(path),
+            advice=f"Allow reading it, or set {VARIABLE}.",
+        ) from None
+    if not kept:
+        raise BadRequest(
+            "the file of the secret is empty",
+            where=str(path),
+            advice="Remove it, to get a new one.",
+        )
+    return kept

@@ -1,0 +1,111 @@
+"""The spec of a dataset: an instructor's TOML file, read and checked as a whole.
+
+``example.toml`` beside this file is one with every key explained.
+"""
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from sim.bench.dataset.logs import LOGS, MOST_LOGS, Logs, LogSettings, read_logs, read_settings
+from sim.bench.dataset.roster import students_of
+from sim.bench.dataset.table import TomlTable
+from sim.data.errors import BadRequest
+
+FORMATS = ("wpilog", "csv")
+ENDING = ".secret"  # of the name of a file with a secret
+LARGEST_SEED = 2**63 - 1  # TOML's largest whole number
+TOP = ("name", "seed", "secret", "students", "formats", "routine", "logs")
+
+
+@dataclass(frozen=True)
+class Spec:
+    """A dataset, as asked for.
+
+    Args:
+        where: the file, as given.
+        name: of the dataset; another name gives other data.
+        seed: what all is drawn from where nothing is secret.
+        secret: the file with the secret that all is drawn from.
+        students: each gets logs of their own; empty if the logs are nobody's.
+        formats: each log is written in each of these.
+        logs: what to make.
+    """
+
+    where: str
+    name: str
+    seed: int | None
+    secret: Path | None
+    students: tuple[str, ...]
+    formats: tuple[str, ...]
+    logs: tuple[Logs, ...]
+
+
+def read_spec(path: Path) -> Spec:
+    """Read a spec and check everything that can be known before a log is made.
+
+    Raises:
+        BadRequest: it cannot be read, or asks for what is not there; the message names the key.
+    """
+    top = TomlTable(_parsed(path), where=str(path), known=TOP)
+    name = top.text("name", example="week3")
+    if len(name) > 64 or not name.isprintable():  # noqa: PLR2004 - as long as a student's name
+        top.wrong("name", advice="Give a name of 1 to 64 characters.")
+    settings = read_settings(top, default=LogSettings())
+    logs = tuple(
+        read_logs(one, default=settings) for one in top.tables("logs", name="logs", known=LOGS)
+    )
+    if not logs:
+        top.refuse("there is no [[logs]] in it", advice="Add one, with mechanisms and count.")
+    spec = Spec(
+        where=str(path),
+        name=name,
+        seed=top.whole("seed", least=0, most=LARGEST_SEED) if "seed" in top else None,
+        secret=_secret(top, folder=path.parent),
+        students=students_of(top, folder=path.parent),
+        formats=top.choices("formats", FORMATS) if "formats" in top else FORMATS[:1],
+        logs=logs,
+    )
+    total = max(len(spec.students), 1) * sum(one.count * len(one.mechanisms) for one in logs)
+    if total > MOST_LOGS:
+        top.refuse(
+            f"{total} logs are asked for", advice=f"Split it: one dataset has at most {MOST_LOGS}."
+        )
+    return spec
+
+
+def _parsed(path: Path) -> object:
+    """What TOML says."""
+    try:
+        return tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+    except FileNotFoundError:
+        raise BadRequest(
+            "there is no such file",
+            where=str(path),
+            advice=f"Write an example there with: sysid dataset --example {path}",
+        ) from None
+    except OSError as error:
+        raise BadRequest(
+            f"cannot be read ({error.strerror})", where=str(path), advice="Give a TOML file."
+        ) from None
+    except UnicodeDecodeError:
+        raise BadRequest("is not UTF-8", where=str(path), advice="Save it as UTF-8.") from None
+    except tomllib.TOMLDecodeError as error:
+        raise BadRequest(
+            f"is not TOML: {error}", where=str(path), advice="Mend that line."
+        ) from None
+
+
+def _secret(top: TomlTable, *, folder: Path) -> Path | None:
+    """The file with the secret. What is named is never repeated: it might be the secret itself."""
+    if "secret" not in top:
+        return None
+    if "seed" in top:
+        top.refuse("both seed and secret are there", advice="Leave one of them out.")
+    name = top.text("secret", example=f"class{ENDING}")
+    if not name.endswith(ENDING) or len(name) == len(ENDING):
+        top.refuse(
+            f"secret is not the name of a file that ends in {ENDING}",
+            advice=f'Write secret = "class{ENDING}", a file made for you: a spec gets shared.',
+        )
+    return folder / name

@@ -1,0 +1,46 @@
+"""A student's name: its normalized form, and the folder named after it."""
+
+import hashlib
+import re
+import unicodedata
+
+from sim.data.errors import BadRequest
+
+LONGEST = 64  # [characters] a student's name; it also names a folder
+LEGIBLE = 32  # [characters] of it that are kept in a folder's name where some have to change
+RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?")  # Windows has no such folders
+PLAIN = re.compile(r"[\w@+-][\w@+. -]*(?<![. ])")
+
+
+def student_name(text: str) -> str:
+    """A student's name as it is shown, or a refusal.
+
+    Raises:
+        BadRequest: it is empty, too long, not printable, or holds a path separator.
+    """
+    name = unicodedata.normalize("NFC", text).strip()
+    advice = f"Give a name of 1 to {LONGEST} characters, such as: ann"
+    if not name:
+        raise BadRequest("the student's name is empty", advice=advice)
+    if len(name) > LONGEST:
+        raise BadRequest(f"the student's name has {len(name)} characters", advice=advice)
+    if not name.isprintable():
+        raise BadRequest(f"the student's name {name!r} has a sign nobody can see", advice=advice)
+    if "/" in name or "\\" in name:
+        raise BadRequest(f"the student's name {name!r} has a path separator", advice=advice)
+    return name
+
+
+def same(student: str) -> str:
+    """The one form of a name: Ann and ann are one person, as they are one folder on most disks."""
+    return student_name(student).casefold()
+
+
+def folder_name(student: str) -> str:
+    """A folder's name that every system accepts, different for different students."""
+    name = same(student)
+    if name.isascii() and PLAIN.fullmatch(name) and not RESERVED.fullmatch(name):
+        return name
+    digest = hashlib.sha256(name.encode()).hexdigest()
+    legible = re.sub(r"[^\w@+-]", "_", name)[:LEGIBLE]
+    return f"{legible}-{digest[:8]}"

@@ -1,0 +1,193 @@
+"""Read a TOML table key by key; an unknown or wrong key is refused by name and place."""
+
+import json
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, NoReturn, TypeVar
+
+from sim.data.errors import BadRequest
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy as np
+
+SHOWN = 40  # [characters] of a wrong value that a refusal repeats
+Kind = TypeVar("Kind")
+
+
+@dataclass(frozen=True)
+class NumberRange:
+    """A number that is fixed, or drawn evenly between two.
+
+    Args:
+        least: the smallest.
+        most: the largest; the same if it is fixed.
+    """
+
+    least: float
+    most: float
+
+    def draw(self, rng: "np.random.Generator") -> float:
+        """A number of the span."""
+        return float(rng.uniform(self.least, self.most))
+
+
+class TomlTable:
+    """A table with the keys it may have.
+
+    Args:
+        content: as TOML holds it.
+        where: the file and the table's place in it, for refusals.
+        known: every key it may have.
+
+    Raises:
+        BadRequest: it has another key; the refusal names the nearest that is known.
+    """
+
+    def __init__(self, content: object, *, where: str, known: Sequence[str]) -> None:
+        self.where = where
+        if not isinstance(content, dict):
+            self.refuse(f"{_shown(content)} stands where keys and values should", advice="Use = .")
+        self.content: Mapping[str, object] = content
+        for key in content:
+            if key not in known:
+                self.refuse(f"unknown key {_shown(key)}", advice=suggest_word(key, known))
+
+    def __contains__(self, key: str) -> bool:
+        return key in self.content
+
+    def refuse(self, what: str, *, advice: str) -> NoReturn:
+        """Refuse this table."""
+        raise BadRequest(what, where=self.where, advice=advice)
+
+    def wrong(self, key: str, *, advice: str) -> NoReturn:
+        """Refuse the value of a key."""
+        self.refuse(f"{key} is {_shown(self.content[key])}", advice=advice)
+
+    def text(self, key: str, *, example: str) -> str:
+        """A text that is not empty.
+
+        Args:
+            key: whose value it is.
+            example: for the advice.
+        """
+        if key not in self:
+            self.refuse(f"{key} is missing", advice=f"Add, for example: {key} = {_shown(example)}")
+        value = self.content[key]
+        if not (isinstance(value, str) and value.strip()):
+            self.wrong(key, advice=f"Give a text: {key} = {_shown(example)}")
+        return value.strip()
+
+    def texts(self, key: str, *, example: str) -> tuple[str, ...]:
+        """One text, or several in a list."""
+        value = self.content.get(key)
+        if not isinstance(value, list):
+            return (self.text(key, example=example),)
+        if not value or not all(isinstance(one, str) and one.strip() for one in value):
+            self.wrong(key, advice=f"Give texts: {key} = [{_shown(example)}]")
+        return tuple(one.strip() for one in value)
+
+    def choices(self, key: str, options: Iterable[str]) -> tuple[str, ...]:
+        """One or several of some names."""
+        options = tuple(options)
+        chosen = self.texts(key, example=options[0] if options else "")
+        for one in chosen:
+            if one not in options:
+                self.refuse(f"{key} {_shown(one)} is unknown", advice=suggest_word(one, options))
+        for one in chosen:
+            if chosen.count(one) > 1:
+                self.refuse(f"{key} names {_shown(one)} twice", advice="Name each once.")
+        return chosen
+
+    def flag(self, key: str, *, default: bool) -> bool:
+        """True or false."""
+        value = self.content.get(key, default)
+        if not isinstance(value, bool):
+            self.wrong(key, advice="Give true or false, without quotes.")
+        return value
+
+    def whole(self, key: str, *, least: int, most: int, default: int | None = None) -> int:
+        """A whole number within limits."""
+        advice = f"Give a whole number from {least} to {most}."
+        if key not in self and default is None:
+            self.refuse(f"{key} is missing", advice=advice)
+        value = self.content.get(key, default)
+        if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+            self.wrong(key, advice=advice)
+        return value
+
+    def number(
+        self, key: str, *, default: float, above: float = -math.inf, most: float = math.inf
+    ) -> float:
+        """A number above one limit and up to another."""
+        value = _number(self.content.get(key, default))
+        if value is None or not above < value <= most:
+            self.wrong(key, advice=f"Give a number{_limits(above, most)}.")
+        return value
+
+    def span(
+        self, key: str, *, default: float, least: float = -math.inf, most: float = math.inf
+    ) -> NumberRange:
+        """A number, or a list of the least and the most it may be."""
+        value = self.content.get(key, default)
+        ends = [_number(end) for end in (value if isinstance(value, list) else [value, value])]
+        advice = (
+            f"Give a number from {least:g} to {most:g}, or the two to draw between: [1.0, 2.0]."
+            if math.isfinite(least)
+            else "Give a number, or the two to draw between: [1.0, 2.0]."
+        )
+        numbers = [end for end in ends if end is not None and least <= end <= most]
+        if len(ends) != 2 or numbers != sorted(numbers) or len(numbers) != len(ends):  # noqa: PLR2004 - the least and the most
+            self.wrong(key, advice=advice)
+        return NumberRange(*numbers)
+
+    def tables(self, key: str, *, name: str, known: Sequence[str]) -> tuple["TomlTable", ...]:
+        """The tables of a list of tables.
+
+        Args:
+            key: whose value they are.
+            name: as it stands in the file, between the double brackets.
+            known: the keys that each may have.
+        """
+        value = self.content.get(key, [])
+        if not isinstance(value, list):
+            self.wrong(key, advice=f"Begin each with a line [[{name}]].")
+        return tuple(
+            TomlTable(one, where=f"{self.where}, [[{name}]] number {number}", known=known)
+            for number, one in enumerate(value, start=1)
+        )
+
+
+def suggest_word(word: str, options: Sequence[str]) -> str:
+    """Advice for a word that is none of some: the one it is likely to mean, or all."""
+    close = get_close_matches(word, options, n=1, cutoff=0.5)
+    if close:
+        return f"Did you mean {_shown(close[0])}?"
+    return f"Choose one of: {', '.join(options)}." if options else "There is none so far."
+
+
+def _number(value: object) -> float | None:
+    """A finite number, or None; true and false are no numbers."""
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _limits(above: float, most: float) -> str:
+    """The limits a number has, in words."""
+    low = f" above {above:g}" if math.isfinite(above) else ""
+    high = f"{',' if low else ''} at most {most:g}" if math.isfinite(most) else ""
+    return low + high
+
+
+def _shown(value: object) -> str:
+    """A value as it stands in the file, cut where it is long."""
+    text = json.dumps(value, ensure_ascii=False, default=str)
+    return text if len(text) <= SHOWN else text[: SHOWN - 1] + "…"

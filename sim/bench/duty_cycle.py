@@ -1,0 +1,64 @@
+"""Simulate a program that commands a share of the battery voltage instead of a voltage.
+
+    D = V/12                          the duty cycle that ``set(volts / 12)`` asks for
+    Vbat = V0 - Rb·D·n·I              what the battery gives while the motors draw from it
+    I = (D·Vbat - Ke·G/r·v) / R       the current of one motor at speed v
+
+so that the motors get D·Vbat, not V.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from sim.bench.mechanism import Mechanism
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.doubt import Doubt
+from sim.data.log import Log
+from sim.physics.battery import CONTROLLERS, Battery
+
+__all__ = ["Battery", "simulate_duty_cycle"]
+
+HEALTHY = Battery()
+LOWEST = CONTROLLERS["roborio2"].brownout  # [V]
+
+
+def simulate_duty_cycle(
+    mechanism: Mechanism,
+    routine: Routine,
+    *,
+    rng: np.random.Generator,
+    battery: Battery = HEALTHY,
+    period: float = 0.02,
+) -> Log:
+    """Run a routine whose drive callback says ``motor.set(volts / 12)``, without any limit.
+
+    Args:
+        mechanism: what is tested.
+        routine: which voltages are asked for.
+        rng: the source of noise and jitter.
+        battery: what feeds it.
+        period: [s] of the robot program's loop.
+
+    Returns:
+        The log with the voltage that really reached the motors, and the battery's as
+        ``bus_voltage``. What was asked for is 12 V times the first over the second. A battery
+        that falls below ``LOWEST`` is a doubt: here it goes on.
+
+    Raises:
+        BadRequest: as for ``simulate``.
+    """
+    unlimited = replace(mechanism, battery=battery, stator=math.inf, supply=math.inf, brownout=0.0)
+    log = simulate(unlimited, routine, rng=rng, period=period, duty_cycle=True, electrical=True)
+    lowest = min(float(np.min(run.bus_voltage)) for run in log.runs if run.bus_voltage is not None)
+    return log.with_doubts(_brownout(lowest)) if lowest < LOWEST else log
+
+
+def _brownout(lowest: float) -> Doubt:
+    return Doubt(
+        "brownout",
+        f"The battery falls to {lowest:.1f} V. Below {LOWEST} V a real robot stops its motors, "
+        "and here it does not. Use a smaller step or a better battery.",
+    )

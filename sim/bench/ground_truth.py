@@ -1,0 +1,56 @@
+"""Write the true gains and effects of a simulated mechanism, for instructors only."""
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict
+from pathlib import Path
+
+from sim.bench.mechanism import Mechanism
+from sim.bench.routine import Routine
+from sim.data.errors import BadRequest
+from sim.data.units import gains_per, unit
+from sim.inspect.fault import Stretch
+
+
+def write_ground_truth(
+    mechanism: Mechanism,
+    routine: Routine,
+    *,
+    path: Path,
+    faults: Iterable[tuple[str, float, Stretch]] = (),
+) -> None:
+    """Write the true gains, per unit of the mechanism's own logs, and what is hidden, as JSON.
+
+    Args:
+        mechanism: as it was simulated.
+        routine: its tests.
+        path: the file.
+        faults: name, severity and place of each damage done to the record.
+
+    Raises:
+        BadRequest: the file cannot be written.
+    """
+    per = unit(mechanism.units)
+    content = {
+        "mechanism": mechanism.name,
+        "type": mechanism.type,
+        "units": per.name,
+        "gains": gains_per(mechanism.gains, factor=per.si),
+        "routine": asdict(routine),
+        "hidden": [
+            {"effect": part.effect, "parameters": part.said(per)} for part in mechanism.hidden
+        ],
+        "faults": [
+            {"fault": name, "severity": severity, "run": where.run, "test": where.test,
+             "start_s": where.start, "end_s": where.end}
+            for name, severity, where in faults
+        ],
+    }  # fmt: skip
+    try:
+        path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise BadRequest(
+            f"cannot write the truth: {error.strerror}",
+            where=str(path),
+            advice="Name a file in a folder that exists and may be written to.",
+        ) from error

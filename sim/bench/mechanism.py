@@ -1,0 +1,185 @@
+"""The contract of a mechanism: motor, gearing, load, sensor and travel.
+
+Its gains follow from its parts:
+
+    kV = Ke·G/r · (1 + drag)        kA = R·r/(n·Kt·G) · m · (1 + spin)
+    kG = R·r/(n·Kt·G) · m · lift    where there is gravity
+
+with ratio G, radius r (1 for what turns), n motors and the moved mass m, or inertia J. A module in
+``sim/bench/mechanisms`` offers one as ``MECHANISM``.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from sim.data.errors import BadRequest
+from sim.data.units import unit
+from sim.physics.battery import CONTROLLERS, Battery
+from sim.physics.effect import Scale
+from sim.physics.effects import effect as find
+from sim.physics.model import Model, Part
+from sim.physics.motors import Motor
+
+if TYPE_CHECKING:
+    import numpy as np
+
+LARGEST = 5.0  # [1] size of a hidden effect beyond which nothing would move as a robot does
+ORDINARY_STEP = 3.5  # [V] dynamic test by which effects are sized
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """What reads the mechanism.
+
+    Args:
+        resolution: [m or rad] smallest step of the position.
+        velocity_noise: [m/s or rad/s] standard deviation while moving; an encoder at rest is quiet.
+        noise_speed: [m/s or rad/s] speed at which the noise has reached about two thirds of that.
+        jitter: [s] standard deviation of the sample times about the loop's period.
+        filter: [s] over which the motor controller averages the velocity.
+        latency: [s] from motion to the value that the robot program reads.
+        frame: [s] between two status frames on the bus; a reading stands until the next. 0 reads at
+            the moment asked.
+    """
+
+    resolution: float
+    velocity_noise: float
+    noise_speed: float
+    jitter: float
+    filter: float = 0.0
+    latency: float = 0.0
+    frame: float = 0.0
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A robot mechanism, as built.
+
+    Args:
+        name: as on the command line.
+        summary: one line for a list.
+        type: ``simple``, ``elevator`` or ``arm``.
+        units: the unit of position a team would log it in.
+        motor: which one drives it.
+        motor_count: how many of them.
+        ratio: motor turns per turn of the output.
+        radius: [m] of wheel or drum; 1 where the output's own angle is the position.
+        load: [kg] moved mass, or [kg·m²] inertia at the output where ``radius`` is 1.
+        friction: [V] kS.
+        drag: share by which kV exceeds the motor's own.
+        spin: share by which rotors and wheels add to the load.
+        travel: [m or rad] how far a test may go; None is without end.
+        sensor: what reads it.
+        spread: field -> (least, most) from which ``draw`` takes a realistic other one.
+        lift: [m/s² or rad/s²] that gravity would give the load by itself, of an arm when level.
+        lowest: [m or rad] position of the lower stop; None has no stops, and a test ends after
+            ``travel`` from where it began.
+        battery: what feeds it.
+        stator: [A] limit of a motor's current.
+        supply: [A] limit of what one controller draws.
+        brownout: [V] below which the motors are taken off.
+        hidden: effects that its team does not know of.
+    """
+
+    name: str
+    summary: str
+    type: str
+    units: str
+    motor: Motor
+    motor_count: int
+    ratio: float
+    radius: float
+    load: float
+    friction: float
+    drag: float
+    spin: float
+    travel: float | None
+    sensor: Sensor
+    spread: Mapping[str, tuple[float, float]]
+    lift: float = 0.0
+    lowest: float | None = None
+    battery: Battery = field(default=Battery())
+    stator: float = 120.0  # Phoenix 6's default
+    supply: float = 70.0  # the same
+    brownout: float = CONTROLLERS["roborio2"].brownout
+    hidden: tuple[Part, ...] = field(default=())
+
+    @property
+    def gains(self) -> dict[str, float]:
+        """The true kS [V], kV, kA [per m or rad], and kG [V] where there is gravity."""
+        volts_per_newton = (
+            self.motor.resistance
+            * self.radius
+            / (self.motor_count * self.motor.torque_constant * self.ratio)
+        )
+        gains = {
+            "kS": self.friction,
+            "kV": self.motor.back_emf * self.ratio / self.radius * (1.0 + self.drag),
+            "kA": volts_per_newton * self.load * (1.0 + self.spin),
+        }
+        if self.lift:
+            gains["kG"] = volts_per_newton * self.load * self.lift
+        return gains
+
+    @property
+    def stops(self) -> tuple[float, float] | None:
+        """[m or rad] the lower and the upper stop; None where there are none."""
+        if self.lowest is None or self.travel is None:
+            return None
+        return self.lowest, self.lowest + self.travel
+
+    @property
+    def model(self) -> Model:
+        """Gains, stops and hidden effects: the truth that a fit and a search are after."""
+        return Model(self.type, self.gains, self.hidden, self.stops)
+
+    @property
+    def scale(self) -> Scale:
+        """What is ordinary for it."""
+        gains = self.gains
+        speed = max(ORDINARY_STEP - gains["kS"], 0.1 * ORDINARY_STEP) / gains["kV"]
+        return Scale(
+            gains["kS"],
+            gains["kV"],
+            gains["kA"],
+            ORDINARY_STEP,
+            self.travel or 10.0 * speed,
+            angular=unit(self.units).angular,
+            bounded=self.travel is not None,
+        )
+
+    def draw(self, rng: "np.random.Generator") -> "Mechanism":
+        """Another one like it: every field in ``spread`` drawn evenly between its bounds."""
+        drawn = {name: float(rng.uniform(*bounds)) for name, bounds in self.spread.items()}
+        return replace(self, **drawn)  # type: ignore[arg-type]  # spread names float fields only
+
+    def hiding(self, effect: str, size: float = 1.0) -> "Mechanism":
+        """The same mechanism with an effect that its team does not know of.
+
+        Args:
+            effect: its name.
+            size: 1 is ordinary, a third of it subtle.
+
+        Raises:
+            BadRequest: no such effect, it is there already, the mechanism cannot have it, or the
+                size is not one.
+        """
+        known = find(effect)
+        if not (math.isfinite(size) and 0.0 <= size <= LARGEST):
+            raise BadRequest(
+                f"{effect} of size {size:g}",
+                advice=f"Choose 0 to {LARGEST:g}; 1 is what an ordinary robot has.",
+            )
+        if any(part.effect == effect for part in self.hidden):
+            raise BadRequest(f"{effect} is hidden twice", advice="Name each effect once.")
+        if why := known.cannot(self.scale):
+            raise BadRequest(f"a {self.name} cannot have {effect}: {why}", advice=OTHER)
+        if size == 0.0:
+            return self
+        part = Part(effect, dict(known.example(self.scale, size)))
+        return replace(self, hidden=(*self.hidden, part))
+
+
+OTHER = "Choose another effect (sysid effects lists them) or another mechanism."

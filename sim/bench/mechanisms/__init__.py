@@ -1,0 +1,26 @@
+"""The mechanisms the bench can build, one file each."""
+
+import sys
+from typing import cast
+
+from sim.bench.mechanism import Mechanism
+from sim.data.errors import BadRequest
+from sim.support.catalogue import members
+
+MECHANISMS: dict[str, Mechanism] = {
+    name: cast("Mechanism", module.MECHANISM)
+    for name, module in members(sys.modules[__name__]).items()
+}
+
+
+def mechanism(name: str) -> Mechanism:
+    """Look up a mechanism.
+
+    Raises:
+        BadRequest: no such mechanism; the message lists those there are.
+    """
+    if name not in MECHANISMS:
+        raise BadRequest(
+            f"unknown mechanism {name!r}", advice=f"Choose one of: {', '.join(MECHANISMS)}."
+        )
+    return MECHANISMS[name]

@@ -1,0 +1,42 @@
+"""An intake: one NEO Vortex at 3:1 spins rollers and belts of 0.0013 kg·m².
+
+Frictionless theory: kV 0.313 V·s/rot, kA 0.0090 V·s²/rot, a timescale of 29 ms: hardly
+longer than one loop of the robot program, so kA is the hard one here.
+"""
+
+import math
+
+from sim.bench.mechanism import Mechanism, Sensor
+from sim.physics.motors import motor
+
+TURN = 2.0 * math.pi  # [rad]
+
+MECHANISM = Mechanism(
+    name="intake",
+    summary="one NEO Vortex at 3:1 on rollers of 0.0013 kg·m², read in rotations",
+    type="simple",
+    units="rotations",
+    motor=motor("neoVortex"),
+    motor_count=1,
+    ratio=3.0,
+    radius=1.0,
+    load=0.0013,
+    friction=0.45,
+    drag=0.0,
+    spin=0.0,
+    travel=None,
+    sensor=Sensor(
+        resolution=TURN / 7168 / 3.0,
+        velocity_noise=0.05 * TURN,
+        noise_speed=0.5 * TURN,
+        jitter=0.0004,
+    ),
+    stator=80.0,
+    spread={
+        "ratio": (2.0, 4.0),
+        "load": (0.0008, 0.002),
+        "friction": (0.3, 0.6),
+        "drag": (0.0, 0.10),
+        "spin": (0.03, 0.10),
+    },
+)

@@ -1,0 +1,107 @@
+"""The voltage that WPILib's SysIdRoutine commands in each test, loop by loop.
+
+    quasistatic   V = ± ramp · t            dynamic   V = ± step
+
+and what tells effects apart that those four tests cannot, within the same bounds:
+
+    coast         ± step, then nothing      triangle  ± up to the step, down to minus it, and back
+    multistep     ± steps of many sizes     chirp     ± swings that get faster
+
+A test starts its timer in one loop of the robot program and drives in the loops after the next, so
+the first voltage of a ramp is ``ramp`` times two periods, not zero. It ends after ``timeout``, or
+when the person at the controller lets go. Source: WPILib 2026.2.2, ``SysIdRoutine``; the number of
+loops from a run of RobotPy's.
+"""
+
+import math
+from dataclasses import dataclass
+
+from sim.data.errors import BadRequest
+from sim.data.log import DIRECTIONS, KINDS
+
+LOOPS_BEFORE_DRIVE = 2  # loops from the start of the timer to the first voltage
+COAST_AFTER = 1.0  # [s] of drive before the motor is left alone
+LEVELS = (0.4, 0.8, -0.4, 0.6, -0.8, 1.0, -0.6, 0.2, -1.0, -0.2)  # [share of the step] of multistep
+LEVEL_LASTS = 0.5  # [s]
+SLOWEST_SWING, FASTEST_SWING = 0.2, 4.0  # [Hz] of a chirp, from its beginning to its timeout
+TRIANGLE_RISES = 2.0  # [s] from nothing to the step
+
+
+@dataclass(frozen=True)
+class Routine:
+    """The Config of a SysIdRoutine; its defaults are WPILib's.
+
+    Args:
+        ramp: [V/s] of the quasistatic tests.
+        step: [V] of the dynamic tests.
+        timeout: [s] after which a test ends by itself.
+        kinds: of test, each forward and reverse; SysIdRoutine itself has the first two.
+
+    Raises:
+        BadRequest: a number is not positive and finite, a voltage beyond the battery's, or a kind
+            that there is not.
+    """
+
+    ramp: float = 1.0
+    step: float = 7.0
+    timeout: float = 10.0
+    kinds: tuple[str, ...] = KINDS[:2]
+
+    def __post_init__(self) -> None:
+        limits = {"ramp": ("V/s", 100.0), "step": ("V", 12.0), "timeout": ("s", 600.0)}
+        for name, (symbol, most) in limits.items():
+            value = getattr(self, name)
+            if not (math.isfinite(value) and 0.0 < value <= most):
+                raise BadRequest(
+                    f"a {name} of {value:g} {symbol}",
+                    advice=f"Choose a number above 0, at most {most:g} {symbol}.",
+                )
+
+        strange = [kind for kind in self.kinds if kind not in KINDS]
+        if strange or not self.kinds or len(set(self.kinds)) < len(self.kinds):
+            raise BadRequest(
+                f"tests of the kinds {', '.join(self.kinds) or '(none)'}",
+                advice=f"Choose from {', '.join(KINDS)}, each at most once.",
+            )
+
+    @property
+    def tests(self) -> tuple[str, ...]:
+        """The tests it runs, in the order one binds them."""
+        return tuple(f"{kind}-{way}" for kind in self.kinds for way in DIRECTIONS)
+
+    def lasts(self, _test: str, /) -> float:
+        """[s] until a test (one of ``tests``) ends, if it comes to no end of the travel before."""
+        return self.timeout
+
+    def voltage(self, test: str, time: float) -> float:
+        """The voltage of a test.
+
+        Args:
+            test: one of ``tests``.
+            time: [s] since its timer started.
+
+        Returns:
+            [V], negative in a reverse test.
+        """
+        kind, _, way = test.rpartition("-")
+        return (1.0 if way == "forward" else -1.0) * self._forward(kind, time)
+
+    def _forward(self, kind: str, time: float) -> float:
+        """[V] of a forward test."""
+        match kind:
+            case "quasistatic":
+                return self.ramp * time
+            case "coast":
+                return self.step if time < COAST_AFTER else 0.0
+            case "triangle":  # up, down through nothing to the other side, and back
+                phase = (time / TRIANGLE_RISES) % 4.0
+                return self.step * (abs((phase + 3.0) % 4.0 - 2.0) - 1.0)
+            case "multistep":
+                return self.step * LEVELS[int(time / LEVEL_LASTS) % len(LEVELS)]
+            case "chirp":  # the phase is the integral of a frequency that rises evenly
+                rise = (FASTEST_SWING - SLOWEST_SWING) / self.timeout
+                return self.step * math.sin(
+                    2.0 * math.pi * (SLOWEST_SWING + 0.5 * rise * time) * time
+                )
+            case _:
+                return self.step

@@ -1,0 +1,79 @@
+"""The sensor model: filter, latency, frames, resolution and noise."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sim.bench.mechanism import Sensor
+from sim.data.log import Array
+
+
+class SensorReading(NamedTuple):
+    """What the robot program reads.
+
+    Args:
+        position: (n,) [m or rad] in steps of the resolution.
+        velocity: (n,) [m/s or rad/s].
+    """
+
+    position: Array
+    velocity: Array
+
+
+def read_sensor(
+    sensor: Sensor,
+    *,
+    position: Array,
+    velocity: Array,
+    rng: np.random.Generator,
+    time: Array | None = None,
+) -> SensorReading:
+    """What a sensor reports of a motion.
+
+    Args:
+        sensor: the sensor.
+        position: (n,) [m or rad].
+        velocity: (n,) [m/s or rad/s].
+        rng: the source of noise.
+        time: (n,) [s]; needed by a sensor that is late, filters or sends frames.
+    """
+    noise = rng.standard_normal(velocity.size)
+    if time is not None and (sensor.latency or sensor.filter or sensor.frame):
+        at = time - sensor.latency
+        if sensor.frame:
+            phase = sensor.frame * rng.random()
+            frame = np.floor((at - phase) / sensor.frame)
+            at = frame * sensor.frame + phase
+            first = np.searchsorted(frame, frame)  # a frame is read as often as it is there
+            noise = noise[first]
+        way = np.concatenate(
+            ([0.0], np.cumsum(0.5 * (velocity[1:] + velocity[:-1]) * np.diff(time)))
+        )
+        if sensor.filter:
+            velocity = (
+                interpolate_cubic(at, time, way, velocity)
+                - interpolate_cubic(at - sensor.filter, time, way, velocity)
+            ) / sensor.filter
+        else:
+            velocity = np.interp(at, time, velocity)
+        position = interpolate_cubic(at, time, position, np.gradient(position, time))
+    spread = sensor.velocity_noise * -np.expm1(-np.abs(velocity) / sensor.noise_speed)
+    return SensorReading(
+        np.round(position / sensor.resolution) * sensor.resolution, velocity + spread * noise
+    )
+
+
+def interpolate_cubic(at: Array, time: Array, value: Array, slope: Array) -> Array:
+    """(m,) of a curve with known slopes, at some times (n,).
+
+    Between two of them it is the cubic with both values and both slopes; before the first it is
+    flat, since a test begins at rest.
+    """
+    k = np.clip(np.searchsorted(time, at, side="right") - 1, 0, time.size - 2)
+    span = time[k + 1] - time[k]
+    part = np.clip((at - time[k]) / span, 0.0, 1.0)
+    rest = 1.0 - part
+    return np.asarray(
+        rest**2 * ((1.0 + 2.0 * part) * value[k] + part * span * slope[k])
+        + part**2 * ((1.0 + 2.0 * rest) * value[k + 1] - rest * span * slope[k + 1])
+    )

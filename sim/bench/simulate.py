@@ -1,0 +1,180 @@
+"""Simulate a mechanism under a routine and record what its sensor reports.
+
+    kA·v' = u - kV·v - kS·sgn(v) - gravity - hidden effects
+
+A test begins at rest: where there are stops, a forward test at the lower one and a reverse test
+near the upper one, as someone who drives it back between tests would have it. Someone at the
+controller also ends a test shortly before the end of the travel.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from sim.bench.mechanism import Mechanism
+from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
+from sim.bench.sensor_model import read_sensor
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest
+from sim.data.log import Array, Log, Run
+from sim.physics.engine import State, Track, move
+from sim.physics.engine.one_body import OFF_UNTIL
+from sim.physics.model import Model
+from sim.physics.replay import let_cool
+
+__all__ = ["move_gains_only", "read_sensor", "simulate"]
+
+PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
+FASTEST, SLOWEST = 0.0005, 0.5  # [s] loop periods that make sense
+FEWEST = 10  # [samples] a shorter test has nothing to say
+MARGIN = 0.04  # [share of the travel] before a stop at which someone ends the test
+
+
+def simulate(
+    mechanism: Mechanism,
+    routine: Routine,
+    *,
+    rng: np.random.Generator,
+    period: float = 0.02,
+    duty_cycle: bool = False,
+    electrical: bool = False,
+) -> Log:
+    """Run the tests of a routine one after another.
+
+    Args:
+        mechanism: what is tested.
+        routine: which voltages.
+        rng: the source of noise and jitter; the same state gives the same log.
+        period: [s] of the robot program's loop.
+        duty_cycle: the program asks for a share of the battery, ``set(volts / 12)``, and nothing
+            makes up for what the battery has; without, for a voltage.
+        electrical: record one motor's current and the battery's voltage, too.
+
+    Returns:
+        The log, in the unit the mechanism's team thinks in, with the voltage that reached the
+        motors.
+
+    Raises:
+        BadRequest: a period no robot has, or a test that is over before it has moved.
+    """
+    if not FASTEST <= period <= SLOWEST:
+        raise BadRequest(
+            f"a period of {period:g} s",
+            advice=f"Choose {FASTEST:g} to {SLOWEST:g} s; a robot program loops every 0.02 s.",
+        )
+    model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)
+    runs: list[Run] = []
+    state, start, last, cut = State(), PAUSE, 0.0, False
+    for test in routine.tests:
+        time = _loops(routine.lasts(test), period=period, jitter=mechanism.sensor.jitter, rng=rng)
+        voltage = np.array([routine.voltage(test, t) for t in time.tolist()])
+        cut = state.body[OFF_UNTIL] > 0.0 or cut
+        began = runs[0].time[0] if runs else start + time[0]
+        state.clock = float(start + time[0] - began)  # what the log's own times say
+        begun = replace(state, memory=state.memory.copy())
+        begun.body = State.at(_begin(mechanism, test, last)).body
+        state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
+        track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+        end = _end(track, mechanism, test=test)
+        if end < FEWEST:
+            raise BadRequest(
+                f"{test} lasts {end} loops",
+                advice="Ask for a longer timeout, a shorter period or a smaller step.",
+            )
+        time, voltage = time[:end], voltage[:end]
+        if end < track.position.size:
+            if state.memory.any():  # nothing that someone ended goes on to warm a motor
+                state = begun
+                track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+            else:
+                track = track.until(end)
+        seen = read_sensor(
+            mechanism.sensor, position=track.position, velocity=track.seen, time=time, rng=rng
+        )
+        extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
+        runs.append(Run(test, start + time, track.applied, *seen, **extra))
+        let_cool(state, model, PAUSE)
+        start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
+    log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
+    return log.with_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
+
+
+def _brownout(mechanism: Mechanism) -> Doubt:
+    return Doubt(
+        "brownout",
+        f"The battery falls below {mechanism.brownout:g} V, and the robot controller takes the "
+        "motors off again and again. Use a smaller step or a better battery.",
+    )
+
+
+def power_path_arrays(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
+    """(9,) the wires of a mechanism, in the order of ``sim.physics.engine.power_path``."""
+    return np.array(
+        [
+            mechanism.battery.rest,
+            mechanism.battery.resistance,
+            mechanism.motor_count,
+            mechanism.motor.resistance,
+            mechanism.motor.back_emf * mechanism.ratio / mechanism.radius,
+            mechanism.stator,
+            mechanism.supply,
+            mechanism.brownout,
+            float(duty_cycle),
+        ]
+    )
+
+
+def move_gains_only(
+    gains: Mapping[str, float], *, time: Array, voltage: Array
+) -> tuple[Array, Array]:
+    """Move from rest at zero, with friction, back-EMF and inertia alone.
+
+    Args:
+        gains: kS [V], kV [V·s/unit], kA [V·s²/unit].
+        time: (n,) [s].
+        voltage: (n,) [V], each held until the next time.
+
+    Returns:
+        Position (n,) and velocity (n,), before the sensor.
+    """
+    track = move(Model("simple", gains), time=time, voltage=voltage, state=State())
+    return track.position, track.velocity
+
+
+def _loops(timeout: float, *, period: float, jitter: float, rng: np.random.Generator) -> Array:
+    """[s] when a test drives: loops from the second on, each a little early or late."""
+    count = math.floor(timeout / period + 1e-9) - LOOPS_BEFORE_DRIVE + 1
+    if count < FEWEST:
+        raise BadRequest(
+            f"a timeout of {timeout:g} s has {max(count, 0)} loops of {period:g} s",
+            advice="Ask for a longer timeout or a shorter period.",
+        )
+    late = np.clip(jitter * rng.standard_normal(count), -0.2 * period, 0.2 * period)
+    return np.asarray((np.arange(count) + LOOPS_BEFORE_DRIVE) * period + late)
+
+
+def _begin(mechanism: Mechanism, test: str, last: float) -> float:
+    """[m or rad] where a test begins: at its end of the travel, or where the last one ended."""
+    if mechanism.stops is None:
+        return last
+    low, high = mechanism.stops
+    return low if test.endswith("forward") else high - 0.5 * MARGIN * (high - low)
+
+
+def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
+    """How many samples there are before someone ends the test."""
+    if mechanism.travel is None:
+        return int(track.position.size)
+    if mechanism.stops is None:
+        beyond = np.abs(track.position - track.position[0]) > mechanism.travel
+    else:
+        low, high = mechanism.stops
+        margin = MARGIN * (high - low)
+        far, near = (track.position > high - margin), (track.position < low + margin)
+        if test.endswith("reverse"):
+            far, near = near, far
+        left = np.maximum.accumulate(~near)  # back where it began, after it had left
+        beyond = far | (near & left)
+    return int(np.argmax(beyond)) if beyond.any() else int(beyond.size)

@@ -1,0 +1,170 @@
+"""Log and Run: the recorded tests of one mechanism, from a robot or from the simulation.
+
+Everything is in SI: seconds, volts, meters or radians. The unit the owner of the log thinks in
+travels along as a name (``Log.units``); conversion happens where a file is read and where a
+number is shown, nowhere between.
+"""
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest, BadSample
+from sim.data.units import unit
+from sim.data.vocabulary import DIRECTIONS, FOUR_TESTS, KINDS, TESTS, TYPES
+
+__all__ = [  # the words come along, for those who work on logs
+    "DIRECTIONS",
+    "FOUR_TESTS",
+    "KINDS",
+    "LARGEST",
+    "TESTS",
+    "TYPES",
+    "Array",
+    "Log",
+    "Run",
+]
+
+Array: TypeAlias = NDArray[np.float64]
+
+LARGEST = 1e9  # [any SI unit] no robot shows a reading this large; squares of it still fit a double
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One test, sampled: what was applied and what was seen.
+
+    Args:
+        test: which test, one of ``TESTS``: ``quasistatic-forward``.
+        time: (n,) [s], strictly increasing.
+        voltage: (n,) [V], applied from this sample until the next.
+        position: (n,) [m or rad].
+        velocity: (n,) [m/s or rad/s].
+        current: (n,) [A], where it was recorded.
+        bus_voltage: (n,) [V], where it was recorded.
+
+    Raises:
+        BadRequest: ``test`` is not the name of a test.
+        BadSample: lengths differ, a value is not finite or is absurd, or time stands still.
+    """
+
+    test: str
+    time: Array
+    voltage: Array
+    position: Array
+    velocity: Array
+    current: Array | None = None
+    bus_voltage: Array | None = None
+
+    def __post_init__(self) -> None:
+        if self.test not in TESTS:
+            raise BadRequest(
+                f"{self.test!r} is not the name of a test",
+                advice=f"Tests are {'|'.join(KINDS)}, then -{' or -'.join(DIRECTIONS)}.",
+            )
+        for name in ("time", "voltage", "position", "velocity", "current", "bus_voltage"):
+            values = getattr(self, name)
+            if values is not None:
+                object.__setattr__(self, name, _frozen(values))
+                self._check(name, getattr(self, name))
+        late = np.flatnonzero(np.diff(self.time) <= 0)
+        if late.size:
+            raise BadSample(
+                f"time does not increase at sample {late[0] + 1} (t = {self.time[late[0]]:.6g} s)",
+                where=self.test,
+                advice="Every sample of a run needs a later time than the one before it.",
+            )
+
+    @cached_property
+    def top_speed(self) -> float:
+        """[m/s or rad/s] the speed of the fastest samples, whatever a single one says."""
+        return float(np.percentile(np.abs(self.velocity), 98)) if len(self) else 0.0
+
+    def _check(self, name: str, values: Array) -> None:
+        if values.shape != (self.time.size,):
+            raise BadSample(
+                f"{name} has shape {values.shape} where time has {self.time.size} samples",
+                where=self.test,
+                advice="Give every signal one value per sample.",
+            )
+        bad = np.flatnonzero(~(np.abs(values) < LARGEST))
+        if bad.size:
+            raise BadSample(
+                f"{name} is {values[bad[0]]:.6g} at sample {bad[0]}",
+                where=self.test,
+                advice="Remove that sample, or record the run again.",
+            )
+
+    def __len__(self) -> int:
+        return int(self.time.size)
+
+    @property
+    def kind(self) -> str:
+        """What the voltage does, the first half of the test's name: ``quasistatic``."""
+        return self.test.rpartition("-")[0]
+
+    @property
+    def direction(self) -> str:
+        """``forward`` or ``reverse``."""
+        return self.test.rpartition("-")[2]
+
+
+@dataclass(frozen=True, eq=False)
+class Log:
+    """The runs of one mechanism, and what is known of where they come from.
+
+    Args:
+        runs: in the order they were recorded.
+        units: the unit of position its owner thinks in, a name in ``sim.data.units.UNITS``.
+        mechanism: its name, where the source says it.
+        type: ``simple``, ``elevator`` or ``arm`` where the source says it, else empty.
+        source: the file it was read from, for messages; empty if none.
+        doubts: what was odd about the source.
+    """
+
+    runs: tuple[Run, ...]
+    units: str = "meters"
+    mechanism: str = ""
+    type: str = ""
+    source: str = ""
+    doubts: tuple[Doubt, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "runs", tuple(self.runs))
+        object.__setattr__(self, "units", unit(self.units).name)
+        if self.type and self.type not in TYPES:
+            raise BadRequest(
+                f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
+            )
+
+    def of(self, test: str) -> tuple[Run, ...]:
+        """All runs of one test, in order; empty if it was not recorded."""
+        return tuple(run for run in self.runs if run.test == test)
+
+    def and_also(self, other: "Log") -> "Log":
+        """The runs of two logs of one mechanism together.
+
+        Raises:
+            BadRequest: one measures a length, the other an angle.
+        """
+        if unit(self.units).angular != unit(other.units).angular:
+            raise BadRequest(
+                f"{self.source} is in {self.units}, {other.source} in {other.units}",
+                advice="Fit one mechanism at a time, or say --units if a file is mislabeled.",
+            )
+        return replace(self, runs=self.runs + other.runs, doubts=self.doubts + other.doubts)
+
+    def with_doubts(self, *doubts: Doubt) -> "Log":
+        """The same log with more doubts."""
+        return replace(self, doubts=self.doubts + doubts)
+
+
+def _frozen(values: ArrayLike) -> Array:
+    """A read-only copy in double precision."""
+    copy = np.array(values, dtype=np.float64)
+    copy.setflags(write=False)
+    return copy

@@ -1,0 +1,61 @@
+"""Units of position of a log. Inside, everything is SI: meters or radians, and seconds."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from sim.data.errors import BadRequest
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit of position.
+
+    Args:
+        name: as on the command line: ``meters``.
+        symbol: as in a table: ``m``.
+        si: how many meters or radians one of it is.
+        angular: whether it measures an angle.
+    """
+
+    name: str
+    symbol: str
+    si: float
+    angular: bool
+
+
+UNITS: dict[str, Unit] = {
+    unit.name: unit
+    for unit in (
+        Unit("meters", "m", 1.0, angular=False),
+        Unit("feet", "ft", 0.3048, angular=False),
+        Unit("inches", "in", 0.0254, angular=False),
+        Unit("radians", "rad", 1.0, angular=True),
+        Unit("rotations", "rot", 2.0 * math.pi, angular=True),
+        Unit("degrees", "deg", math.pi / 180.0, angular=True),
+    )
+}
+
+
+def gains_per(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
+    """The same gains when positions are counted in a unit ``factor`` times as large.
+
+    Args:
+        gains: gain -> value; only kV and kA depend on the unit of position.
+        factor: ``unit("rotations").si`` turns gains per radian into gains per rotation.
+    """
+    return {
+        name: value * factor if name in {"kV", "kA"} else value for name, value in gains.items()
+    }
+
+
+def unit(name: str) -> Unit:
+    """Look up a unit by name, in any case.
+
+    Raises:
+        BadRequest: no such unit; the message lists those there are.
+    """
+    found = UNITS.get(name.strip().lower())
+    if found is None:
+        raise BadRequest(f"unknown units {name!r}", advice=f"Choose one of: {', '.join(UNITS)}.")
+    return found

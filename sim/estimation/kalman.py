@@ -1,0 +1,134 @@
+"""Innovations of a log: one-step prediction errors of a steady-state Kalman filter.
+
+Each sample is first expected, from the last state and the voltage since; the difference to what was
+measured is the innovation; then the state is moved by a share K of it. K is the steady state of a
+Kalman filter for
+
+    d(x, v) = (v, -kV/kA·v + ...)·dt + (0, √q)·dW        measured with noise of known size
+
+With q = 0 nothing is corrected, and the simulation is open loop; the larger q, the less one run's
+small unknowns (a slope in the floor, a worn tooth) are charged to the gains.
+"""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from sim.data.log import Array
+from sim.estimation.measurements import RunMeasurements, SensorNoise
+from sim.physics.engine import NO_TRUST, State, move
+from sim.physics.model import Model, Part
+
+DOUBLINGS = 40  # rounds; 2⁴⁰ samples are for ever
+
+
+def model_from_values(type: str, values: Mapping[str, float]) -> Model:  # noqa: A002 - the field's own word
+    """The model for given parameter values.
+
+    Args:
+        type: ``simple``, ``elevator`` or ``arm``.
+        values: kS, kV, kA; ``kG`` or ``level`` and ``upright``; and ``window`` and ``lag`` [s]
+            where the velocity is averaged and the command is late.
+    """
+    gains = {name: values[name] for name in ("kS", "kV", "kA")}
+    if type == "elevator":
+        gains["kG"] = values["kG"]
+    elif type == "arm":
+        gains["kG"] = math.hypot(values["level"], values["upright"])
+        gains["offset_rad"] = math.atan2(-values["upright"], values["level"])
+    parts = []
+    if "window" in values:
+        parts.append(Part("velocity-filter", {"window": values["window"]}))
+    if "lag" in values:
+        parts.append(Part("delay", {"lag": values["lag"]}))
+    return Model(type, gains, tuple(parts))
+
+
+def steady_state_gain(model: Model, *, noise: SensorNoise, q: float, period: float) -> Array:
+    """(2, 2) steady-state Kalman gain for position and velocity.
+
+    Args:
+        model: whose kV/kA is the rate at which velocity forgets.
+        noise: of the measurements.
+        q: [unit²/s³] size of what pushes the velocity at random; 0 corrects nothing.
+        period: [s] between samples.
+    """
+    if q <= 0.0:
+        return NO_TRUST
+    rate, dt = model.gains["kV"] / model.gains["kA"], period
+    # velocities in units of their noise and positions in as many: so the numbers are near one
+    kept = math.exp(-rate * dt)
+    step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]])
+    push = (q / noise.velocity**2) * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
+    rough = np.array([(noise.position / noise.velocity) ** 2, 1.0])
+    spread = _steady(step, push, rough)
+    return np.ascontiguousarray(spread @ np.linalg.inv(spread + np.diag(rough)))
+
+
+def _steady(step: Array, push: Array, rough: Array) -> Array:
+    """(2, 2) spread of what is expected, in the long run, by doubling.
+
+    X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q        each round looks twice as far ahead
+
+    Source: the structure-preserving doubling of Chu, Fan and Lin (2005).
+    """
+    a, g, x = _four(step.T), _four(np.diag(1.0 / rough)), _four(push)
+    for _ in range(DOUBLINGS):
+        p, q, r, s = _times(g, x)
+        size = (1.0 + p) * (1.0 + s) - q * r
+        middle = ((1.0 + s) / size, -q / size, -r / size, (1.0 + p) / size)
+        onward = _times(middle, a)
+        more = _times(_turned(a), _times(x, onward))
+        after = _plus(x, more)
+        g = _plus(g, _times(a, _times(_times(middle, g), _turned(a))))
+        a = _times(a, onward)
+        done = max(map(abs, more)) <= 1e-9 * max(map(abs, after))
+        x = after
+        if done:
+            break
+    return np.array(x).reshape(2, 2)
+
+
+# Two by two in plain numbers: of so little, NumPy makes ten times as much work.
+_Four = tuple[float, float, float, float]
+
+
+def _four(matrix: Array) -> _Four:
+    a, b, c, d = matrix.ravel().tolist()
+    return a, b, c, d
+
+
+def _times(a: _Four, b: _Four) -> _Four:
+    return (
+        a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3],
+        a[2] * b[0] + a[3] * b[2], a[2] * b[1] + a[3] * b[3],
+    )  # fmt: skip
+
+
+def _plus(a: _Four, b: _Four) -> _Four:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
+
+
+def _turned(a: _Four) -> _Four:
+    return a[0], a[2], a[1], a[3]
+
+
+def run_innovations(model: Model, run: RunMeasurements, *, start: float, trust: Array) -> Array:
+    """(n, 2) innovations of one run: measured minus predicted; nan where nothing was measured.
+
+    Args:
+        model: what is believed.
+        run: the measurements.
+        start: [unit] true position at the first sample, less the one that is seen there.
+        trust: (2, 2) as of ``trust_for``.
+    """
+    track = move(
+        model, time=run.time, voltage=run.voltage,
+        state=State.at(run.position + start, run.velocity), measured=run.measured, trust=trust,
+    )  # fmt: skip
+    ahead = run.measured - np.column_stack([track.expected, track.seen])
+    ahead[~run.telling] = np.nan
+    ahead[run.resting, 0] = np.nan
+    ahead[0] = np.nan
+    return np.asarray(ahead)

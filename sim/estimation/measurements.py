@@ -1,0 +1,208 @@
+"""The measurements of a log: fresh samples, their noise, and where each test begins.
+
+A reading that stands because no new frame has come is no measurement; noise is measured without a
+model, from third differences, which a smooth motion hardly has:
+
+    σ² = mean((x₃ - 3 x₂ + 3 x₁ - x₀)²)/20
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.data.log import Array, Log, Run
+
+HELD = 0.3  # [share of fast samples] that repeat the one before them, from which it is frames
+FAST = 0.3  # [share of a run's top speed] above which a sensor should say something new each time
+SOON = 0.2  # [share of gaps] between changes that are no longer than a frame
+DIGITS = 1e-7  # [share of the range] that is below what any log resolves
+THIRD = 20.0  # sum of the squares of 1, 3, 3, 1
+ROBUST = 1.4826  # standard deviations in a median absolute deviation
+GIVES = 0.03  # [share of the way] that a mechanism gives where it leans on a stop
+GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] how a stop yields
+MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
+AROUND = 5  # samples before a motion and after it that say when it began and ended
+MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
+
+
+@dataclass(frozen=True, eq=False)
+class RunMeasurements:
+    """The measurements of one run.
+
+    Args:
+        time: (n,) [s].
+        voltage: (n,) [V].
+        measured: (n, 2) position and velocity, nan where they are not fresh.
+        moving: (n,) where it moves.
+        telling: (n,) where it moves, or is about to: what is compared. That must not depend on a
+            model, or a model could gain by looking away.
+        resting: (n,) where a position is the one read at rest, and its error of rounding, too: so
+            often repeated it would pass for knowledge.
+        velocity: [m/s or rad/s] it begins with.
+        position: [m or rad] it begins at.
+    """
+
+    time: Array
+    voltage: Array
+    measured: Array
+    moving: NDArray[np.bool_]
+    telling: NDArray[np.bool_]
+    resting: NDArray[np.bool_]
+    position: float
+    velocity: float
+
+
+@dataclass(frozen=True)
+class SensorNoise:
+    """Standard deviations of single samples, estimated without a model.
+
+    Args:
+        position: [m or rad].
+        velocity: [m/s or rad/s].
+        grain: of both, what no number of a log is better than.
+    """
+
+    position: float
+    velocity: float
+    grain: tuple[float, float]
+
+
+def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, ...]:
+    """The measurements of every run that has enough fresh samples.
+
+    Args:
+        log: any runs.
+        friction: [V] about kS of a mechanism with gravity, which may lean on a stop before it
+            moves: then a run begins where friction alone would hold it. None keeps all.
+    """
+    top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
+    return tuple(_seen(run, top=top, friction=friction) for run in log.runs if len(run) > 3)  # noqa: PLR2004 - fewer have no third difference
+
+
+def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
+    """Noise of fresh samples while the mechanism moves."""
+    thirds: list[list[Array]] = [[], []]
+    steps = [math.inf, math.inf]
+    for run in seen:
+        for column in (0, 1):
+            there = run.moving & ~np.isnan(run.measured[:, column])
+            fresh = run.measured[there, column]
+            if fresh.size > 3:  # noqa: PLR2004 - as above
+                thirds[column].append(third_differences(run.time[there], fresh))
+                change = np.abs(np.diff(fresh))
+                change = change[change > 0.0]
+                if change.size:
+                    steps[column] = min(steps[column], float(change.min()))
+    sizes = []
+    for third, step in zip(thirds, steps, strict=True):
+        every = np.concatenate(third) if third else np.zeros(1)
+        spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
+        least = step / math.sqrt(12.0) if math.isfinite(step) else 1e-9  # what rounding leaves
+        sizes.append(max(spread, least, 1e-12))
+    columns = [np.concatenate([run.measured[:, column] for run in seen]) for column in (0, 1)]
+    grain = tuple(DIGITS * float(np.nanmax(one) - np.nanmin(one)) + 1e-12 for one in columns)
+    return SensorNoise(sizes[0], sizes[1], (grain[0], grain[1]))
+
+
+def third_differences(time: Array, values: Array) -> Array:
+    """(n - 3,) what is left of values when a parabola through each four is taken away.
+
+    With even times these are 1, -3, 3, -1; with others the weights of a divided difference, scaled
+    so that independent noise makes as much of them.
+    """
+    four = np.lib.stride_tricks.sliding_window_view(time, 4)
+    apart = four[:, :, None] - four[:, None, :]
+    apart[:, range(4), range(4)] = 1.0
+    weights = 1.0 / np.prod(apart, axis=2)
+    weights *= math.sqrt(THIRD) / np.linalg.norm(weights, axis=1)[:, None]
+    return np.asarray(np.sum(weights * np.lib.stride_tricks.sliding_window_view(values, 4), axis=1))
+
+
+def _seen(run: Run, *, top: float, friction: float | None) -> RunMeasurements:
+    measured = np.column_stack([run.position, run.velocity])
+    fast = np.abs(run.velocity) > FAST * float(np.max(np.abs(run.velocity), initial=0.0))
+    for column in (0, 1):
+        measured[~_fresh(measured[:, column], fast=fast), column] = np.nan
+    moving = np.abs(run.velocity) > MOVING * top
+    first = 0
+    if friction is not None and moving.any() and not moving[0]:
+        go = _leaves(run, moving)
+        if _yields(run, go):
+            first = _gone(run)
+        else:
+            near = np.abs(run.voltage[: go + 1] - run.voltage[go]) <= friction
+            first = go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0
+            first = min(first, max(go - 1, 0))
+    cut = slice(first, None)
+    start = float(run.velocity[first]) if moving[first] else 0.0
+    return RunMeasurements(
+        run.time[cut], run.voltage[cut], np.ascontiguousarray(measured[cut]), moving[cut],
+        _telling(run, moving)[cut], _resting(run, moving)[cut], float(run.position[first]), start,
+    )  # fmt: skip
+
+
+def _fresh(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) where a reading is new: where it changes, and once per frame where it stays.
+
+    A coarse reading may say the same in the next frame, and that is as good as another; one that
+    only counts where it changes would count where it is wrong by half a step.
+    """
+    new = np.concatenate(([True], np.diff(values) != 0.0))
+    pairs = fast[1:] & fast[:-1]
+    if not pairs.any() or float(np.mean(~new[1:][pairs])) <= HELD:
+        return np.ones(values.size, dtype=bool)
+    at = np.flatnonzero(new[1:] & pairs) + 1
+    frame = round(float(np.quantile(np.diff(at), SOON))) if at.size > 1 else values.size
+    index = np.arange(values.size)
+    last = np.maximum.accumulate(np.where(new, index, 0))
+    ends = np.append(np.flatnonzero(new)[1:], values.size)[np.cumsum(new) - 1]
+    whole = (index - last) % max(frame, 1) == 0
+    return np.asarray(new | (whole & (ends - index > 0.5 * frame)))
+
+
+def _leaves(run: Run, moving: NDArray[np.bool_]) -> int:
+    """The sample at which it leaves for good; leaning on a stop a mechanism only gives a little."""
+    rests = np.flatnonzero(~moving[: _gone(run) + 1])
+    return int(rests[-1]) + 1 if rests.size else 0
+
+
+def _gone(run: Run) -> int:
+    """The sample at which it is farther from where it began than any stop would give."""
+    far = np.abs(run.position - run.position[0]) > GIVES * float(np.ptp(run.position))
+    return int(np.argmax(far))
+
+
+def _yields(run: Run, go: int) -> bool:
+    """Whether it creeps before it leaves: pressed onto a stop of rubber, or a chain that gives.
+
+    Such a stop holds it back longer than friction and weight would, so what the voltage was when it
+    came off says nothing about either.
+    """
+    way = np.abs(run.position[: go + 1] - run.position[0])
+    creeps = run.time[go] - run.time[int(np.argmax(way > CREPT * way[-1]))]
+    return bool(way[-1] > GIVEN * float(np.ptp(run.position)) and creeps > CREEPS)
+
+
+def _stirs(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) where a sensor that is quiet at rest is not; if it trembles, where it moves."""
+    stirs = np.abs(run.velocity) > 0.0
+    return np.asarray(stirs if stirs.mean() < MOSTLY else moving)
+
+
+def _telling(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) where it moves, and a little around where the sensor stirs."""
+    wide = np.convolve(_stirs(run, moving), np.ones(2 * AROUND + 1), mode="same") > 0.0
+    return np.asarray(wide[: len(run)] | moving)
+
+
+def _resting(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) where a position is what is read at rest, creeping within one step of it included.
+
+    A motion through a whole step of the sensor is read too low as often as too high. From rest it
+    only goes through a part of one, and all readings of that part err the same way.
+    """
+    step = np.cumsum(np.diff(run.position, prepend=run.position[:1]) != 0.0)
+    rests = np.bincount(step, weights=~_stirs(run, moving)) > 0.0
+    return np.asarray(rests[step])

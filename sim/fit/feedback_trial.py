@@ -1,0 +1,164 @@
+"""Step responses of the suggested feedback gains and of the learner's own.
+
+SysId's recipe makes up for a delay by looking ahead: K ← K (A - BK)^(delay/period). Where the delay
+is longer than the mechanism takes, what it sees ahead has turned round, and so has the sign of kP.
+That is its arithmetic and stays so; but such gains, and any that do not settle in simulation, are
+not handed over without a word, nor without others that do.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from sim.data.doubt import Doubt
+from sim.data.units import unit
+from sim.feedback import (
+    PRESETS,
+    Feedback,
+    Plant,
+    Preset,
+    StepResponse,
+    Verdict,
+    allowed_velocity_error,
+    judge_step_response,
+    position_loop,
+    step_response,
+    velocity_loop,
+)
+from sim.feedback.regulator import POSITION_ERROR
+from sim.fit import Fit
+
+SUGGESTED, OWN = "suggested", "your own"
+GENTLER = tuple(2.0**k for k in range(1, 11))  # times SysId's allowed errors
+STIFFER = tuple(2.0**-k for k in range(1, 7))  # times its allowed error of position
+WEAK = ("slow", "stays-short")
+LEAST_DELAY = 5e-4  # [s] a shorter one is not worth a word
+
+
+@dataclass(frozen=True)
+class OwnGains:
+    """The learner's gains of one loop, in the output units of the preset."""
+
+    loop: str
+    gains: Feedback
+
+
+@dataclass(frozen=True, eq=False)
+class FeedbackTrial:
+    """Feedback gains and the step response that they give.
+
+    Args:
+        whose: ``suggested`` or ``your own``.
+        loop: ``velocity`` or ``position``.
+        gains: in the output units of the preset.
+        preset: the motor controller.
+        delay: [s] of its measurement.
+        response: to a step, in the fit's unit.
+        verdict: of that response.
+    """
+
+    whose: str
+    loop: str
+    gains: Feedback
+    preset: Preset
+    delay: float
+    response: StepResponse
+    verdict: Verdict
+
+    @property
+    def good(self) -> bool:
+        """Whether these gains are fit to begin with: of one sign, and they settle."""
+        return self.verdict.good and min(self.gains.kp, self.gains.kd) >= 0.0
+
+
+def try_feedback_gains(
+    found: Fit, preset: Preset, *, own: OwnGains | None = None
+) -> tuple[FeedbackTrial, ...]:
+    """Simulate a fit's suggested gains and the learner's own; none if nothing can be suggested.
+
+    Args:
+        found: the fit, in the unit that the gains count in.
+        preset: the motor controller.
+        own: the learner's, to try beside them.
+    """
+    tried = [(SUGGESTED, loop, gains) for loop, gains in found.feedback(preset).items()]
+    if own is not None and tried:
+        tried.append((OWN, own.loop, own.gains))
+    done = (
+        _tried(found, preset, whose=whose, loop=loop, gains=gains) for whose, loop, gains in tried
+    )
+    return tuple(trial for trial in done if trial is not None)
+
+
+def _tried(
+    found: Fit, preset: Preset, *, whose: str, loop: str, gains: Feedback
+) -> FeedbackTrial | None:
+    held = {**found.gains, "kS": max(found.gains["kS"], 0.0)}  # friction below zero would push
+    plant = Plant(found.type, held, angle=unit(found.units).si)
+    target, delay = plant.step(loop), delay_of(found, preset, loop=loop)
+    if not target > 0.0:
+        return None
+    response = step_response(
+        plant, loop=loop, feedback=gains, target=target, preset=preset, delay=delay
+    )
+    return FeedbackTrial(whose, loop, gains, preset, delay, response, judge_step_response(response))
+
+
+def delay_of(found: Fit, preset: Preset, *, loop: str) -> float:
+    """[s] the delay that gains are computed for: the log's with the default, else the preset's."""
+    if preset is not PRESETS["default"]:
+        return preset.delay
+    return max(0.0, found.velocity_delay if loop == "velocity" else found.position_delay)
+
+
+def trial_doubts(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tuple[Doubt, ...]:
+    """Suggestions that are no place to start from, each with gains that are, if there are any.
+
+    Args:
+        found: the fit, in the unit that the gains count in.
+        tried: what ``trials`` gave of it.
+    """
+    return tuple(
+        _doubt(found, trial) for trial in tried if trial.whose == SUGGESTED and not trial.good
+    )
+
+
+def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
+    late = f" with {1000 * trial.delay:.3g} ms of delay" if trial.delay > LEAST_DELAY else ""
+    other = next((one for one in _others(found, trial) if one.good), None)
+    cure = (
+        f"Start from {format_gain_pair(other.gains)} instead: it {other.verdict.words}."
+        if other
+        else "Nor does any other choice of its allowed error settle: move the target along a "
+        "profile, so that the feedforward does the work, and use a signal with less delay."
+    )
+    return Doubt(
+        "unsettled-feedback",
+        f"SysId's recipe suggests {format_gain_pair(trial.gains)} for the {trial.loop} loop "
+        f"({trial.preset.name}); simulated{late}, that loop {trial.verdict.words}. {cure}",
+    )
+
+
+def _others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
+    """What the same recipe suggests for other allowed errors; what is too weak, for smaller."""
+    kv, ka, preset, delay = found.gains["kV"], found.gains["kA"], trial.preset, trial.delay
+    allowed = allowed_velocity_error(ks=found.gains["kS"], kv=kv)
+    weak = trial.verdict.kind in WEAK and trial.gains.kp > 0.0
+    for times in STIFFER if weak else GENTLER:
+        least = max(times, 1.0) * allowed
+        if trial.loop == "velocity":
+            gains = velocity_loop(
+                kv=kv, ka=ka, preset=preset, velocity_error=times * allowed, delay=delay
+            )
+        else:
+            gains = position_loop(
+                kv=kv, ka=ka, preset=preset, position_error=times * POSITION_ERROR,
+                velocity_error=least, delay=delay,
+            )  # fmt: skip
+        other = _tried(found, preset, whose=trial.whose, loop=trial.loop, gains=gains)
+        if other is not None:
+            yield other
+
+
+def format_gain_pair(gains: Feedback) -> str:
+    """Both gains with four digits."""
+    return f"kP {gains.kp:.4g}, kD {gains.kd:.4g}"

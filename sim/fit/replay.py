@@ -1,0 +1,140 @@
+"""Simulate a fit's gains under each run's voltage and compare with the measurement.
+
+Open loop, from where each run began, with the lag and the averaging of the velocity that the fit
+found: what remains is what the gains do not explain, and the noise that no gains could.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.data.errors import BadRequest
+from sim.data.log import Array, Log, Run
+from sim.data.units import unit
+from sim.estimation.measurements import ROBUST, THIRD, RunMeasurements, estimate_noise, measure_runs
+from sim.fit import Fit
+from sim.physics.engine import State, Track, move
+from sim.physics.model import Model, Part
+
+FEWEST = 4  # samples of a run: shorter ones are no test
+SHORTEST = 1e-5  # [s] a lag below it is none
+
+
+@dataclass(frozen=True, eq=False)
+class RunReplay:
+    """One run, measured and simulated.
+
+    Args:
+        run: from its first sample that a fit uses.
+        position: (n,) [m or rad] simulated.
+        velocity: (n,) [m/s or rad/s] simulated, as its sensor would say it.
+        moving: (n,) where it moves.
+        position_noise: [m or rad] standard deviation of one sample, measured without a model.
+        velocity_noise: [m/s or rad/s] the same.
+    """
+
+    run: Run
+    position: Array
+    velocity: Array
+    moving: NDArray[np.bool_]
+    position_noise: float
+    velocity_noise: float
+
+    @property
+    def position_error(self) -> Array:
+        """(n,) [m or rad] measured less simulated."""
+        return self.run.position - self.position
+
+    @property
+    def velocity_error(self) -> Array:
+        """(n,) [m/s or rad/s] measured less simulated."""
+        return self.run.velocity - self.velocity
+
+
+def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
+    """Simulate every run of a log with a fit's gains.
+
+    Args:
+        found: the fit, in any unit.
+        log: what it was fitted to, or any other of the same mechanism.
+
+    Raises:
+        BadRequest: one measures a length, the other an angle, or nothing moves with these gains.
+    """
+    fitted = found.in_units("radians" if unit(log.units).angular else "meters")
+    way, model = _model(fitted)
+    runs = [run for run in log.runs if len(run) >= FEWEST]
+    friction = None if fitted.type == "simple" else model.gains["kS"]
+    seen = measure_runs(replace(log, runs=tuple(runs)), friction=friction)
+    if not seen:
+        return ()
+    tracks = [
+        move(
+            model, time=part.time, voltage=way * part.voltage,
+            state=State.at(part.position, part.velocity),
+        )
+        for part in seen
+    ]  # fmt: skip
+    position_noise, velocity_noise = _position_noise(seen, tracks), estimate_noise(seen).velocity
+    return tuple(
+        RunReplay(
+            _last(run, part.time.size),
+            track.position,
+            track.seen,
+            part.moving,
+            position_noise,
+            velocity_noise,
+        )
+        for run, part, track in zip(runs, seen, tracks, strict=True)
+    )
+
+
+def _model(found: Fit) -> tuple[float, Model]:
+    """What moves, and the sign of the voltage that moves it forward."""
+    way = -1.0 if found.gains["kV"] < 0.0 and found.gains["kA"] < 0.0 else 1.0
+    gains = {
+        name: value if name == "offset_rad" else way * value for name, value in found.gains.items()
+    }
+    gains["kS"] = max(gains["kS"], 0.0)  # friction below zero would push
+    if not (gains["kV"] > 0.0 and gains["kA"] > 0.0):
+        raise BadRequest(
+            f"nothing can be simulated with kV = {found.gains['kV']:.3g}, "
+            f"kA = {found.gains['kA']:.3g}",
+            advice="Settle first why the fit finds a gain below zero.",
+        )
+    return way, Model(found.type, gains, tuple(_lags(found)))
+
+
+def _lags(found: Fit) -> list[Part]:
+    """The lag and the averaging of the velocity that the fit found; the recipe's are no model's."""
+    if found.method != "output-error":
+        return []
+    window = 2.0 * (found.velocity_delay - found.position_delay)
+    sizes = {
+        "velocity-filter": ("window", window),
+        "delay": ("lag", found.position_delay),
+    }
+    return [Part(effect, {name: size}) for effect, (name, size) in sizes.items() if size > SHORTEST]
+
+
+def _position_noise(seen: Sequence[RunMeasurements], tracks: Sequence[Track]) -> float:
+    """[m or rad] from third differences of what is left, which hardly know a wrong model.
+
+    Of what is left, and not of the position: there a late sample looks like noise.
+    """
+    thirds = [
+        np.diff((run.measured[:, 0] - track.position)[run.moving], 3)
+        for run, track in zip(seen, tracks, strict=True)
+    ]
+    every = np.abs(np.concatenate(thirds))
+    every = every[~np.isnan(every)]
+    return ROBUST * float(np.median(every)) / math.sqrt(THIRD) if every.size else 0.0
+
+
+def _last(run: Run, count: int) -> Run:
+    """The last samples of a run."""
+    cut = slice(len(run) - count, None)
+    return Run(run.test, run.time[cut], run.voltage[cut], run.position[cut], run.velocity[cut])

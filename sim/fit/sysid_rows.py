@@ -1,0 +1,300 @@
+"""Prepare the rows of SysId's regression, step for step as WPILib SysId does.
+
+Source: WPILib SysId 2026.2.2, ``analysis/FilteringUtils`` and ``analysis/AnalysisManager``. Where
+SysId goes on with samples that cannot give an answer, this refuses and says why; where SysId gives
+an answer, these rows are the rows it used.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.data.errors import BadRequest, NotIdentifiable
+from sim.data.log import FOUR_TESTS, Array, Log, Run
+
+NOISE_WINDOW = 9  # [samples] SysId's noise floor looks at a moving mean this long
+LONGEST_GAP = 0.5  # [s] a longer step between samples does not count toward the mean period
+MOVED = 0.8  # [share of the peak acceleration] where the velocity is taken to have begun to move
+NEAR_TOP = 0.9  # [share of the top speed] where a dynamic test has nothing more to say
+MEDIAN_WINDOWS = range(1, 16)  # [samples] what SysId's own slider offers
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """The samples of one test that are left.
+
+    Args:
+        time: (n,) [s].
+        period: (n,) [s], from each sample to the next one recorded.
+        voltage: (n,) [V].
+        position: (n,) [m or rad].
+        velocity: (n,) [m/s or rad/s].
+        acceleration: (n,) [m/s² or rad/s²].
+    """
+
+    time: Array
+    period: Array
+    voltage: Array
+    position: Array
+    velocity: Array
+    acceleration: Array
+
+    def __len__(self) -> int:
+        return int(self.time.size)
+
+    def where(self, keep: "np.ndarray[tuple[int], np.dtype[np.bool_]] | slice") -> "Rows":
+        """The rows that a mask or a slice keeps."""
+        return Rows(
+            self.time[keep],
+            self.period[keep],
+            self.voltage[keep],
+            self.position[keep],
+            self.velocity[keep],
+            self.acceleration[keep],
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """What the regression and the metrics work on.
+
+    Args:
+        rows: test name -> filtered and trimmed rows, for the regression.
+        raw: test name -> rows as recorded (a quasistatic test without its standstill).
+        threshold: [m/s or rad/s] below which a quasistatic sample counts as standstill.
+        step_duration: [s] how much of a dynamic test after its peak acceleration is used.
+        position_delay: [s] from voltage to motion, seen in the position; a mean over both tests.
+        velocity_delay: [s] the same, seen in the velocity.
+    """
+
+    rows: Mapping[str, Rows]
+    raw: Mapping[str, Rows]
+    threshold: float
+    step_duration: float
+    position_delay: float
+    velocity_delay: float
+
+
+def prepare_rows(log: Log, *, median: int = 1) -> Prepared:
+    """Trim, filter and differentiate the four tests of a log.
+
+    Args:
+        log: with at least one run of each of the four tests; the first of each is used.
+        median: [samples] window of the median filter on velocity; 1 is none.
+
+    Raises:
+        BadRequest: the window is not one SysId offers.
+        NotIdentifiable: a test is missing, too short, never moves, or its times make no sense.
+    """
+    if median not in MEDIAN_WINDOWS:
+        raise BadRequest(
+            f"a median window of {median} samples",
+            advice=f"Choose {MEDIAN_WINDOWS[0]} (no filter) to {MEDIAN_WINDOWS[-1]}.",
+        )
+    raw = {test: _recorded(run) for test, run in _four(log).items()}
+    threshold = min(noise_floor(raw[t].velocity) for t in FOUR_TESTS if t.startswith("quasi"))
+    rows: dict[str, Rows] = {}
+    duration, delays = 0.0, []
+    longest = max(_length(raw[test]) for test in FOUR_TESTS if test.startswith("dyn"))
+    for test in sorted(raw):  # SysId's order: the forward step sets the duration for both
+        if test.startswith("quasi"):
+            raw[test] = _moving(raw[test], threshold=threshold, test=test)
+        rows[test] = _differentiated(raw[test], median=median, test=test)
+        raw[test] = rows[test] if median == 1 else _differentiated(raw[test], median=1, test=test)
+        if test.startswith("dyn"):
+            step = trim_step(
+                rows[test], threshold=threshold, duration=duration, longest=longest, test=test
+            )
+            rows[test], duration = step.rows, step.duration
+            delays.append((step.position_delay, step.velocity_delay))
+    position_delay, velocity_delay = np.mean(delays, axis=0)
+    return Prepared(
+        {test: _accelerating(rows[test], test=test) for test in FOUR_TESTS},
+        {test: _accelerating(raw[test], test=test) for test in FOUR_TESTS},
+        threshold,
+        duration,
+        float(position_delay),
+        float(velocity_delay),
+    )
+
+
+def noise_floor(velocity: Array, *, window: int = NOISE_WINDOW) -> float:
+    """How far a velocity strays from its own moving mean [m/s or rad/s].
+
+        sqrt( Σ (v[i - step] - mean(v[i - window + 1 … i]))² / (n - step) ),  step = window // 2
+
+    The history before the first sample counts as zeros. Source: SysId, ``GetNoiseFloor``.
+
+    Args:
+        velocity: (n,) [m/s or rad/s], n > window // 2.
+        window: [samples] length of the moving mean.
+    """
+    step = window // 2
+    summed = np.concatenate((np.zeros(window), np.cumsum(velocity)))
+    mean = (summed[window:] - summed[:-window]) / window
+    stray = velocity[: velocity.size - step] - mean[step:]
+    return float(np.sqrt(stray @ stray / stray.size))
+
+
+def median_filter(values: Array, *, window: int) -> Array:
+    """A centered running median that starts and ends as SysId's does.
+
+    Its buffer is full of the first value when sample ``(window - 1) // 2`` comes in, so the samples
+    between the two never count; behind the end the last value is repeated.
+
+    Args:
+        values: (n,), n >= window.
+        window: [samples].
+    """
+    ahead = (window - 1) // 2
+    fed = np.concatenate(
+        (np.full(window - 1, values[0]), values[ahead:], np.full(ahead, values[-1]))
+    )
+    return np.asarray(np.median(np.lib.stride_tricks.sliding_window_view(fed, window), axis=1))
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """A dynamic test cut to the part that tells the acceleration gain.
+
+    Args:
+        rows: from the peak acceleration on, ``duration`` long.
+        duration: [s].
+        position_delay: [s] from voltage to a change of position; negative where noise came first.
+        velocity_delay: [s] from voltage to the rise of velocity.
+    """
+
+    rows: Rows
+    duration: float
+    position_delay: float
+    velocity_delay: float
+
+
+def trim_step(
+    rows: Rows, *, threshold: float, duration: float, longest: float, test: str = "dynamic"
+) -> Step:
+    """Cut a dynamic test to the stretch from its peak acceleration to 90 % of its top speed.
+
+    Args:
+        rows: the test, differentiated.
+        threshold: [m/s or rad/s] below which a change of position is no motion.
+        duration: [s] how much to keep; 0 finds it in the data.
+        longest: [s] never keep more than this.
+        test: its name, for messages.
+
+    Raises:
+        NotIdentifiable: no voltage was ever applied.
+    """
+    if not np.any(rows.voltage):
+        raise NotIdentifiable(
+            f"{test} never applies a voltage",
+            advice="Log the voltage that was applied, and run the test with the robot enabled.",
+        )
+    start = int(np.argmax(np.abs(rows.voltage) > 0))
+    begin = rows.time[start]
+    moved = np.abs(rows.position - rows.position[start]) > threshold * rows.period
+    surge = np.sign(rows.velocity) * rows.acceleration
+    peak = int(np.argmax(surge))
+    rising = int(np.argmax(surge > MOVED * surge[peak]))
+    speed = np.abs(rows.velocity[peak:])
+    if duration == 0.0:
+        near_top = rows.time[peak + int(np.argmax(speed > NEAR_TOP * speed.max()))]
+        duration = float(min(near_top - rows.time[peak] + min(rows.time[peak] - begin, 0), longest))
+    cut = rows.where(slice(peak, None))
+    return Step(
+        cut.where(cut.time - cut.time[0] <= duration),
+        duration,
+        float(rows.time[int(np.argmax(moved))] - begin) if moved.any() else 0.0,
+        float(rows.time[rising] - begin),
+    )
+
+
+def _four(log: Log) -> dict[str, Run]:
+    """The first run of each of the four tests."""
+    missing = [test for test in FOUR_TESTS if not log.of(test)]
+    if missing:
+        raise NotIdentifiable(
+            f"no {' and no '.join(missing)} test in this log",
+            where=log.source,
+            advice="SysId's recipe needs all four: quasistatic and dynamic, forward and reverse. "
+            "Run the missing one, or hold the button longer so that it is logged.",
+        )
+    return {test: log.of(test)[0] for test in FOUR_TESTS}
+
+
+def _recorded(run: Run) -> Rows:
+    """A run as SysId takes it in: every sample with the time to the next, so the last one goes."""
+    if len(run) <= NOISE_WINDOW:
+        raise NotIdentifiable(
+            f"{run.test} has {len(run)} samples, too few to tell motion from noise",
+            advice="Hold the button until the mechanism has moved for a second or more.",
+        )
+    period = np.diff(run.time)
+    if not np.any(period < LONGEST_GAP):
+        raise NotIdentifiable(
+            f"the samples of {run.test} are {np.median(period):.3g} s apart",
+            advice="Times look like milliseconds: divide them by 1000 so that they are in seconds.",
+        )
+    return Rows(
+        run.time[:-1],
+        period,
+        run.voltage[:-1],
+        run.position[:-1],
+        run.velocity[:-1],
+        np.zeros(period.size),
+    )
+
+
+def _length(rows: Rows) -> float:
+    return float(rows.time[-1] - rows.time[0])
+
+
+def _moving(rows: Rows, *, threshold: float, test: str) -> Rows:
+    """A quasistatic test without the samples that stand still or have no voltage."""
+    left = rows.where((np.abs(rows.voltage) > 0) & (np.abs(rows.velocity) >= threshold))
+    if not len(left):
+        raise NotIdentifiable(
+            f"{test} never moves: no sample has a voltage and a speed above {threshold:.3g}, the "
+            "noise floor",
+            advice="Check that the encoder is read, the motor was enabled, and the test ran until "
+            "the mechanism moved.",
+        )
+    return left
+
+
+def _differentiated(rows: Rows, *, median: int, test: str) -> Rows:
+    """Rows with a median-filtered velocity and its central difference over the mean period.
+
+    SysId divides by the mean period of the test, not by each sample's own, and its first value is
+    half of the true slope, its last one zero.
+    """
+    if len(rows) < max(3, median):
+        raise NotIdentifiable(
+            f"{test} has {len(rows)} samples in motion, too few for an acceleration",
+            advice="Let the mechanism move longer, or log faster.",
+        )
+    velocity = rows.velocity if median == 1 else median_filter(rows.velocity, window=median)
+    counted = rows.period[rows.period < LONGEST_GAP]
+    if not counted.size:
+        raise NotIdentifiable(
+            f"the moving samples of {test} are all more than {LONGEST_GAP} s apart",
+            advice="Log every loop of the robot program, 20 ms or faster.",
+        )
+    span = 2.0 * float(np.mean(counted))
+    acceleration = np.empty_like(velocity)
+    acceleration[0] = (velocity[1] - velocity[0]) / span
+    acceleration[1:-1] = (velocity[2:] - velocity[:-2]) / span
+    acceleration[-1] = 0.0
+    return Rows(rows.time, rows.period, rows.voltage, rows.position, velocity, acceleration)
+
+
+def _accelerating(rows: Rows, *, test: str) -> Rows:
+    """Rows without those whose acceleration is exactly zero, which SysId takes for no data."""
+    left = rows.where(rows.acceleration != 0.0)
+    if not len(left):
+        raise NotIdentifiable(
+            f"the velocity of {test} never changes",
+            advice="Check that the velocity is read from the encoder on every loop.",
+        )
+    return left

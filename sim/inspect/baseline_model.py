@@ -1,0 +1,227 @@
+"""Robust regression of kS, kV, kA and gravity, so that one bad stretch of a log does not spoil it.
+
+    ∫V dt = kV·∫v dt + kA·Δv + kS·∫sgn v dt + ∫(k0 + kc·cos x + ks·sin x) dt
+
+over windows of a tenth of a second. No acceleration is needed, so noise does little; the last term
+takes up gravity of any kind, without asking which. Rows that disagree with the rest lose their
+vote. This is no fit to publish: it only has to be near enough for what is odd to stand out.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.data.log import Array, Run
+
+WINDOW = 0.1  # [s] a row of the balance; at least three samples
+ROWS = 150  # per run: more tell no more
+START, FADES = 0.6, 0.15  # [s] after a step of voltage its acceleration tells kA, first of all
+AGREES = 0.5  # [V] a row that is further off than this is not any further off
+STEP = 0.5  # [share of the largest voltage] a change this large within two samples is a step
+ROUNDS, GENTLE = 8, 3  # reweightings in all, and those that only lessen a far row's vote
+TUNING = 4.685  # [robust deviations] where Tukey's weight reaches zero
+FEWEST = 12  # [rows] fewer cannot carry the six numbers
+RIDGE = 1e-4  # [share of the largest] keeps apart what a short travel cannot tell apart
+QUICK, SLOW = 0.004, 5.0  # [s] timescales a mechanism can have
+
+
+@dataclass(frozen=True, eq=False)
+class BaselineModel:
+    """Gains that describe most of a log.
+
+    Args:
+        kv: [V·s/m or V·s/rad] positive.
+        ka: [V·s²/m or V·s²/rad] positive.
+        ks: [V] not negative.
+        load: (3,) [V] of 1, cos x and sin x.
+        spread: [V] robust standard deviation of the rows about it.
+    """
+
+    kv: float
+    ka: float
+    ks: float
+    load: Array
+    spread: float
+
+    def top_speed(self, run: Run) -> Array:
+        """(n,) [m/s or rad/s] where each voltage of a run would take it, given time."""
+        pull = run.voltage - self.gravity(run.position)
+        return np.asarray(np.sign(pull) * np.maximum(np.abs(pull) - self.ks, 0.0) / self.kv)
+
+    def replay(self, run: Run, *, voltage: Array, first: int, last: int, velocity: float) -> Array:
+        """The velocity that a voltage would bring about, friction and load included.
+
+        Args:
+            run: whose times and positions count.
+            voltage: (n,) [V] in place of the run's own.
+            first: the sample to begin at.
+            last: the sample to end before.
+            velocity: [m/s or rad/s] at the first sample.
+
+        Returns:
+            (last - first,) [m/s or rad/s].
+        """
+        part = slice(first, last)
+        pull = (voltage[part] - self.gravity(run.position[part])) / self.kv
+        keep = np.exp(-np.diff(run.time[part]) / self.timescale)
+        hold, speed = self.ks / self.kv, float(velocity)
+        speeds = [speed]
+        for want, share in zip(pull.tolist(), keep.tolist(), strict=False):
+            if speed == 0.0 and abs(want) <= hold:
+                speeds.append(0.0)
+                continue
+            way = (want > 0.0) - (want < 0.0) if speed == 0.0 else (speed > 0.0) - (speed < 0.0)
+            toward = want - way * hold
+            speed = toward + (speed - toward) * share
+            if speed * way < 0.0:
+                speed = 0.0  # friction holds it for the rest of this sample at least
+            speeds.append(speed)
+        return np.array(speeds[: max(last - first, 0)])
+
+    @property
+    def timescale(self) -> float:
+        """[s] kA/kV."""
+        return self.ka / self.kv
+
+    def gravity(self, position: Array) -> Array:
+        """(n,) [V] what the load takes at these positions (n,) [m or rad]."""
+        k0, kc, ks = self.load
+        return np.asarray(k0 + kc * np.cos(position) + ks * np.sin(position))
+
+
+def fit_baseline(runs: Sequence[Run], *, still: float, period: float) -> BaselineModel | None:
+    """Fit kS, kV, kA and gravity robustly, by iteratively reweighted least squares.
+
+    Args:
+        runs: of the log.
+        still: [m/s or rad/s] at most this fast counts as standing.
+        period: [s] usual time between samples.
+
+    Returns:
+        None if there is too little motion, or what there is makes no sense, as with opposed signs.
+    """
+    parts = [_rows(run, still=still, period=period) for run in runs]
+    rows = np.concatenate([part for part in parts if part.size] or [np.zeros((0, 8))])
+    part = np.repeat(np.arange(len(parts)), [len(one) for one in parts])
+    if len(rows) < FEWEST:
+        return None
+    volts, terms, start = rows[:, 0], rows[:, 1:7], rows[:, 7]
+    scale = np.maximum(np.sqrt(np.mean(terms**2, axis=0)), 1e-300)
+    gains = _robust(terms / scale, volts) / scale
+    for _ in range(2):  # kA by the starts of steps alone, where it shows; the rest without it
+        gains[1] = _acceleration(
+            volts - np.delete(terms, 1, 1) @ np.delete(gains, 1), terms, start, part
+        )
+        if not np.isfinite(gains[1]):
+            return None
+        rest = np.delete(terms / scale, 1, 1)
+        others = _robust(rest, volts - gains[1] * terms[:, 1])
+        gains = np.insert(others / np.delete(scale, 1), 1, gains[1])
+    kv, ka = float(gains[0]), float(gains[1])
+    if not (kv > 0.0 and ka > 0.0):
+        return None
+    left = volts - terms @ gains
+    ka = float(np.clip(ka, QUICK * kv, SLOW * kv))
+    spread = float(np.median(np.abs(left)) / 0.6745)
+    return BaselineModel(kv, ka, max(float(gains[2]), 0.0), gains[3:], spread)
+
+
+def _rows(run: Run, *, still: float, period: float) -> Array:
+    """(m, 8): volts, their six causes, and how much a row tells of kA."""
+    wide = max(3, round(WINDOW / period)) if period > 0.0 else 3
+    last = len(run) - wide
+    if last < 1:
+        return np.zeros((0, 8))
+    first = np.arange(0, last, max(1, last // ROWS))
+    span = run.time[first + wide] - run.time[first]
+    dt = np.diff(run.time)
+
+    def mean(held: Array) -> Array:
+        total = np.concatenate(([0.0], np.cumsum(held * dt)))
+        return np.asarray((total[first + wide] - total[first]) / span)
+
+    middle = (run.velocity[1:] + run.velocity[:-1]) / 2.0
+    place = (run.position[1:] + run.position[:-1]) / 2.0
+    speed = np.abs(run.velocity)
+    way = np.sign(run.velocity) * (speed > still)
+    total = np.concatenate(([0.0], np.cumsum(way)))
+    constant = np.abs(total[first + wide + 1] - total[first]) > wide  # moves one way throughout
+    rows = np.stack(
+        (
+            mean(run.voltage[:-1]),
+            mean(middle),
+            (run.velocity[first + wide] - run.velocity[first]) / span,
+            np.sign(mean(middle)),
+            np.ones(first.size),
+            mean(np.cos(place)),
+            mean(np.sin(place)),
+            _after_step(run)[first],
+        ),
+        axis=1,
+    )
+    begins = rows[:, 7] > 0.0
+    keep = constant | (begins & (np.abs(rows[:, 1]) > still))
+    return np.asarray(rows[keep])
+
+
+def _after_step(run: Run) -> Array:
+    """(n,) what a sample tells of kA: 1 just after a step of the voltage, less later, then 0."""
+    size = float(np.max(np.abs(run.voltage), initial=0.0))
+    jump = np.abs(run.voltage - np.concatenate(([0.0, 0.0], run.voltage[:-2])))[: len(run)]
+    at = np.flatnonzero(jump > STEP * size) if size > 0.0 else np.zeros(0, dtype=np.intp)
+    after = np.zeros(len(run))
+    if at.size:
+        latest = np.searchsorted(at, np.arange(len(run)), side="right") - 1
+        ago = run.time - run.time[at[np.maximum(latest, 0)]]
+        soon = (latest >= 0) & (ago < START)
+        after[soon] = np.exp(-ago[soon] / FADES)
+    return after
+
+
+def _acceleration(left: Array, terms: Array, start: Array, part: NDArray[np.int_]) -> float:
+    """KA as the rows after a step want it: of what each run wants, that which suits most of all."""
+    change = terms[:, 1]
+    with_it = (np.sign(change) == np.sign(terms[:, 0])) & (change != 0.0)
+    if np.any(with_it & (start > 0.0)):
+        with_it &= start > 0.0
+    else:
+        start = np.ones(start.size)
+    left, change, start, part = left[with_it], change[with_it], start[with_it], part[with_it]
+    wanted = [
+        _weighted_median(left[mine] / change[mine], np.abs(change[mine]) * start[mine])
+        for mine in (part == one for one in np.unique(part))
+    ]
+    return min(
+        wanted,
+        key=lambda ka: float(start @ np.minimum(np.abs(left - ka * change), AGREES)),
+        default=float("nan"),
+    )
+
+
+def _weighted_median(values: Array, weights: Array) -> float:
+    order = np.argsort(values)
+    share = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(share, 0.5 * share[-1])])
+
+
+def _robust(terms: Array, volts: Array) -> Array:
+    """Least squares in which rows far from the rest lose their weight (Tukey's biweight)."""
+    weight: Array = np.ones(volts.size)
+    ridge = RIDGE * np.eye(terms.shape[1])
+    gains: Array = np.zeros(terms.shape[1])
+    for turn in range(ROUNDS):
+        weighted = terms * weight[:, None]
+        tied = weighted.T @ terms + ridge * max(float(weight.sum()), 1e-300)
+        gains = np.asarray(np.linalg.solve(tied, weighted.T @ volts))
+        left = np.abs(volts - terms @ gains)
+        spread = float(np.median(left)) / 0.6745
+        if spread <= 0.0:
+            break
+        near = left / (TUNING * spread)
+        if turn < GENTLE:
+            weight = np.asarray(1.0 / np.maximum(left / spread, 1.0))
+        else:
+            weight = np.asarray(np.square(np.maximum(1.0 - near**2, 0.0)))
+    return gains

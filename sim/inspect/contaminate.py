@@ -1,0 +1,192 @@
+"""Damage a log on purpose with a fault of the catalogue.
+
+contaminate(log, "encoder-slip", severity=0.5, test="dynamic-forward", at=0.4, rng=rng)
+"""
+
+import math
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.data.errors import BadRequest
+from sim.data.log import Log, Run
+from sim.data.vocabulary import TESTS
+from sim.inspect.fault import MOST, Fault, Spoilt, Strike
+from sim.inspect.faults import fault as find
+
+FEWEST = 10  # [samples] a shorter run has no room for damage
+MOVING = 0.1  # [share of a run's top speed] from here on it counts as being in motion
+SPEC = re.compile(
+    r"(?P<name>[^:@]+)(?::(?P<severity>[^@]*))?(?:@(?P<test>[^+]*)(?:\+(?P<at>.*))?)?"
+)
+
+
+@dataclass(frozen=True)
+class FaultRequest:
+    """A fault as a person asks for it.
+
+    Args:
+        name: of the fault.
+        severity: 0 to ``MOST``; 1 is what one meets on an ordinary bad day.
+        test: the name of the test to strike; None leaves it to chance.
+        at: [s] since that test's first sample; None leaves it to chance.
+    """
+
+    name: str
+    severity: float = 1.0
+    test: str | None = None
+    at: float | None = None
+
+
+def parse_fault_request(text: str) -> FaultRequest:
+    """Read ``NAME[:SEVERITY][@TEST[+SECONDS]]``: ``encoder-slip:0.5@dynamic-forward+0.4``.
+
+    Args:
+        text: as typed.
+
+    Raises:
+        BadRequest: a part is missing or is no number; whether there is such a fault and such a
+            test is for ``contaminate`` to say.
+    """
+    parts = SPEC.fullmatch(text.strip())
+    if parts is None:
+        raise _misspelled(text, "it has no name")
+    name, test = parts["name"].strip(), parts["test"]
+    if test is not None and not test.strip():
+        raise _misspelled(text, "no test is named after @")
+    return FaultRequest(
+        name,
+        severity=_number(text, parts["severity"], default=1.0),
+        test=None if test is None else test.strip(),
+        at=None if parts["at"] is None else _number(text, parts["at"], default=math.nan),
+    )
+
+
+def contaminate(
+    log: Log,
+    name: str,
+    *,
+    severity: float = 1.0,
+    test: str | None = None,
+    at: float | None = None,
+    rng: np.random.Generator,
+) -> Spoilt:
+    """Let a fault strike a log.
+
+    Args:
+        log: the record to damage; it is left as it is.
+        name: of the fault, one of ``sim.inspect.faults.FAULTS``.
+        severity: 0 changes nothing, 1 is an ordinary bad day, at most ``MOST``.
+        test: which test; its first run is struck. None leaves it to chance.
+        at: [s] since that run's first sample; None leaves it to chance.
+        rng: the source of chance; the same state gives the same log.
+
+    Returns:
+        The damaged log, and where the damage is.
+
+    Raises:
+        BadRequest: no such fault, test or time; a severity out of range; a test or a mechanism
+            this fault cannot strike; a run too short for it, or too still for it to show.
+    """
+    fault = find(name)
+    if not 0.0 <= severity <= MOST:
+        raise BadRequest(
+            f"{name} of severity {severity:g}",
+            advice=f"Choose 0 (nothing) to {MOST:g}; 1 is {fault.ordinary}.",
+        )
+    if log.type and log.type not in fault.types:
+        raise BadRequest(
+            f"{name} cannot strike a mechanism of type {log.type}",
+            where=log.source,
+            advice=f"It takes one of type {' or '.join(fault.types)}.",
+        )
+    run = _run(log, fault, test=test, rng=rng)
+    start = _start(log.runs[run], fault, at=at, rng=rng)
+    if severity == 0.0:
+        return Spoilt(log, ())
+    spoilt = fault.spoil(log, Strike(run, start, severity), rng)
+    if not spoilt.where:
+        raise BadRequest(
+            f"{name} of severity {severity:g} would not show at {start:.2f} s",
+            where=_place(log, log.runs[run].test),
+            advice="Choose a moment when it moves, a longer test, or a higher severity.",
+        )
+    return spoilt
+
+
+def _run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Generator) -> int:
+    """Which run is struck."""
+    kinds = " or ".join(fault.kinds)
+    if test is not None:
+        if test not in TESTS:
+            raise BadRequest(
+                f"{test!r} is not the name of a test", advice=f"Choose one of: {', '.join(TESTS)}."
+            )
+        there = [index for index, run in enumerate(log.runs) if run.test == test]
+        if not there:
+            names = dict.fromkeys(run.test for run in log.runs)
+            raise BadRequest(
+                f"there is no {test} test in this log",
+                where=log.source,
+                advice=f"It holds {', '.join(names) or 'none at all'}: choose one of its own.",
+            )
+        if log.runs[there[0]].kind not in fault.kinds:
+            raise BadRequest(
+                f"{fault.name} cannot strike a {test} test", advice=f"Choose a {kinds} test."
+            )
+        there = there[:1]
+    else:
+        there = [index for index, run in enumerate(log.runs) if run.kind in fault.kinds]
+        there = [index for index in there if len(log.runs[index]) >= FEWEST] or there
+    if not there:
+        raise BadRequest(
+            f"no test in this log that {fault.name} could strike",
+            where=log.source,
+            advice=f"It takes a {kinds} test.",
+        )
+    index = there[int(rng.integers(len(there)))]
+    if len(log.runs[index]) < FEWEST:
+        raise BadRequest(
+            f"the run has {len(log.runs[index])} samples, too few to damage",
+            where=_place(log, log.runs[index].test),
+            advice=f"Choose a run of at least {FEWEST}.",
+        )
+    return index
+
+
+def _start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Generator) -> float:
+    """[s] since the run's first sample; by chance a moment when it is in motion."""
+    span = float(run.time[-1] - run.time[0])
+    if at is not None:
+        if not 0.0 <= at < span:
+            raise BadRequest(
+                f"{at:g} s is not within {run.test}, which lasts {span:.2f} s",
+                advice=f"Choose a time from 0 to {span:.2f} s.",
+            )
+        return at
+    speed = np.abs(run.velocity)
+    moving = np.flatnonzero(speed > MOVING * float(np.quantile(speed, 0.98)))
+    first, last = (moving[0], moving[-1]) if moving.size else (0, -1)
+    begin, end = (float(run.time[i] - run.time[0]) for i in (first, last))
+    return begin + float(rng.uniform(*fault.when)) * (end - begin)
+
+
+def _place(log: Log, test: str) -> str:
+    return f"{log.source}, {test}" if log.source else test
+
+
+def _number(text: str, part: str | None, *, default: float) -> float:
+    if part is None:
+        return default
+    try:
+        return float(part)
+    except ValueError:
+        raise _misspelled(text, f"{part!r} is not a number") from None
+
+
+def _misspelled(text: str, why: str) -> BadRequest:
+    return BadRequest(
+        f"{text!r} is no fault to ask for: {why}",
+        advice="Write NAME[:SEVERITY][@TEST[+SECONDS]], as encoder-slip:0.5@dynamic-forward+0.4.",
+    )

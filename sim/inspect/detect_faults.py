@@ -1,0 +1,133 @@
+"""Run every fault detector on a log and combine their results.
+
+    inspect(log).damages
+
+Each fault of ``faults/`` looks at the same features. Where two of them explain the same moment, the
+one that explains more of it is kept: damage at one moment has one cause.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.log import Log
+from sim.inspect.diagnostics import diagnose_log
+from sim.inspect.fault import Damage, Fault
+from sim.inspect.faults import FAULTS
+from sim.inspect.log_features import LogFeatures
+
+FASTEST, SLOWEST = 1e-4, 1.0  # [s] between samples; other clocks do not tell seconds
+CERTAIN = 1e-3  # [1] nothing is surer than this, for all that two explanations are compared
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """What an inspection found.
+
+    Args:
+        damages: in the order of time; those that concern the whole log first.
+        doubts: what is odd and no known fault: about the file, and about what it holds.
+    """
+
+    damages: tuple[Damage, ...]
+    doubts: tuple[Doubt, ...] = ()
+
+    @property
+    def clean(self) -> bool:
+        """Whether no fault was found, and nothing that would hide one."""
+        return not self.damages and not any(doubt.grave for doubt in self.doubts)
+
+    def to_json(self) -> dict[str, Any]:
+        """As ``sysid inspect --json`` prints it."""
+        return {
+            "faults": [
+                {
+                    "fault": damage.fault,
+                    "run": damage.where.run,
+                    "test": damage.where.test,
+                    "start_s": damage.where.start,
+                    "end_s": damage.where.end,
+                    "confidence": round(damage.confidence, 3),
+                    "evidence": damage.evidence,
+                    "advice": damage.advice,
+                }
+                for damage in self.damages
+            ],
+            "clean": self.clean,
+            "doubts": [asdict(doubt) for doubt in self.doubts],
+        }
+
+
+def inspect(log: Log) -> Inspection:
+    """Look for every known fault in a log, of a robot or of the bench.
+
+    Args:
+        log: with any number of runs.
+
+    Returns:
+        What was found. A confidence is 0 to 1: the share of what is odd in that stretch which this
+        fault alone would explain, less where the same could be an accident. Above 0.5 it is
+        likelier than not.
+    """
+    clues = LogFeatures(log)
+    if clues.period < FASTEST or clues.period > SLOWEST:
+        return Inspection((), (*log.doubts, _odd_clock(clues.period)))
+    # numbers at the edge of what a double holds overflow somewhere, and then say nothing
+    with np.errstate(all="ignore"):
+        found = [damage for fault in FAULTS.values() for damage in _asked(fault, clues)]
+        return Inspection(
+            tuple(sorted(_settled(found), key=_when)), (*log.doubts, *diagnose_log(clues))
+        )
+
+
+def _asked(fault: Fault, clues: LogFeatures) -> list[Damage]:
+    """What one detector finds; nothing where the log leaves its equations without a solution."""
+    try:
+        return list(fault.detect(clues))
+    except np.linalg.LinAlgError:
+        return []
+
+
+def _odd_clock(period: float) -> Doubt:
+    return Doubt(
+        "odd-clock",
+        f"The samples are {period:.3g} s apart, where a robot logs every 0.001 to 0.1 s: nothing "
+        "was inspected. Give times in seconds.",
+        grave=True,
+    )
+
+
+def _settled(found: Iterable[Damage]) -> list[Damage]:
+    """The damages without those whose moment another fault explains better.
+
+    What spoils whole runs, or the time, stands beside what happens to the motion in a moment.
+    """
+    kept: list[Damage] = []
+    for damage in sorted(found, key=_weight, reverse=True):
+        if not any(_rivals(damage, other) for other in kept):
+            kept.append(damage)
+    return kept
+
+
+def _weight(damage: Damage) -> float:
+    """How much a damage explains, as a likelihood counts: its length, and what it leaves over."""
+    left = max(1.0 - damage.confidence, CERTAIN)
+    return (damage.where.end - damage.where.start) * -math.log(left)
+
+
+def _rivals(one: Damage, other: Damage) -> bool:
+    """Whether two damages are different explanations of one moment."""
+    mine, others = FAULTS[one.fault], FAULTS[other.fault]
+    if mine is others or mine.about != others.about or mine.whole or others.whole:
+        return False
+    shared = min(one.where.end, other.where.end) - max(one.where.start, other.where.start)
+    return one.where.run == other.where.run and shared > 0.0
+
+
+def _when(damage: Damage) -> tuple[int, float, str]:
+    run = damage.where.run
+    return (-1 if run is None else run, damage.where.start, damage.fault)

@@ -1,0 +1,98 @@
+"""Compare forward and reverse: whether one kS and one kV describe both."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.log import DIRECTIONS, Array, Run
+from sim.data.units import unit
+from sim.inspect.log_features import MOVING, LogFeatures
+
+FEWEST = 10  # [samples in motion] less says little
+APART_KS = 0.12, 0.35  # [V, share of their mean] two directions' kS further apart are two
+APART_KV = 0.05  # [share] two directions' kV further apart are two
+SETTLED, SMOOTH = 3.0, 0.1  # [timescales, s] a ramp's first motion; half of a slope's width
+SIGMAS = 5.0  # [standard errors] of either
+
+
+@dataclass(frozen=True)
+class _Line:
+    """What a direction's ramps need: kS [V], kV [V per m/s or rad/s], and their standard errors."""
+
+    ks: float
+    kv: float
+    ks_error: float
+    kv_error: float
+
+
+def check_directions(clues: LogFeatures) -> list[Doubt]:
+    """Forward and reverse ramps that need different voltages for the same speed."""
+    forward, reverse = (_line(clues, way) for way in DIRECTIONS)
+    if forward is None or reverse is None:
+        return []
+    ks, kv = 0.5 * (forward.ks + reverse.ks), 0.5 * (forward.kv + reverse.kv)
+    doubts = []
+    apart = abs(forward.ks - reverse.ks)
+    noise = SIGMAS * float(np.hypot(forward.ks_error, reverse.ks_error))
+    simple = clues.log.type not in ("elevator", "arm")
+    if simple and apart > max(APART_KS[0], APART_KS[1] * abs(ks), noise):
+        doubts.append(
+            Doubt(
+                "friction-differs",
+                f"Forward needs {forward.ks:.2f} V before it moves, reverse {reverse.ks:.2f} V: "
+                "friction that differs, or a weight that the type leaves out. One kS fits "
+                "neither, and kA pays for it; look for a rubbing part, or choose another type.",
+            )
+        )
+    apart = abs(forward.kv - reverse.kv)
+    noise = SIGMAS * float(np.hypot(forward.kv_error, reverse.kv_error))
+    if apart > max(APART_KV * kv, noise):
+        doubts.append(
+            Doubt(
+                "back-emf-differs",
+                f"Forward takes {forward.kv:.4g} V per unit of speed, reverse {reverse.kv:.4g}, "
+                f"{apart / kv:.0%} apart: a load that grows with speed one way only, a sensor "
+                "with two scales, or a voltage that is read differently. Plot voltage over "
+                "velocity.",
+            )
+        )
+    return doubts
+
+
+def _line(clues: LogFeatures, way: str) -> _Line | None:
+    """The line through a direction's first ramp, gravity and acceleration taken off."""
+    runs = [i for i, run in enumerate(clues.log.runs) if run.test == f"quasistatic-{way}"]
+    if not runs or clues.baseline is None:
+        return None
+    run, balance = clues.log.runs[runs[0]], clues.baseline
+    if len(run) < FEWEST:
+        return None
+    sign = 1.0 if way == "forward" else -1.0
+    fast = sign * run.velocity > max(MOVING * run.top_speed, clues.still)
+    begins = run.time[int(np.argmax(fast))] + SETTLED * balance.timescale
+    fast &= (run.time > begins) & (run.time < run.time[-1] - SMOOTH)
+    if fast.sum() < 3 * FEWEST:
+        return None
+    load = np.zeros(len(run))
+    if clues.log.type in ("elevator", "arm"):
+        load = balance.gravity(run.position)
+    elif unit(clues.log.units).angular:  # it may be an arm; what differs is sought, not its mean
+        load = balance.gravity(run.position)
+        load = load - load.mean()
+    volts = (sign * (run.voltage - load - balance.ka * _acceleration(run, clues.period)))[fast]
+    speed = np.abs(run.velocity[fast])
+    if not np.ptp(speed):  # readings so coarse that they know one speed only: no line
+        return None
+    (kv, ks), covariance = np.polyfit(speed, volts, 1, cov=True)
+    errors = np.sqrt(np.maximum(np.diag(covariance), 0.0))
+    return _Line(float(ks), float(kv), float(errors[1]), float(errors[0]))
+
+
+def _acceleration(run: Run, period: float) -> Array:
+    """(n,) [m/s² or rad/s²] the slope of the velocity over a while."""
+    reach = max(1, round(SMOOTH / period))
+    late = np.minimum(np.arange(len(run)) + reach, len(run) - 1)
+    early = np.maximum(np.arange(len(run)) - reach, 0)
+    slope = (run.velocity[late] - run.velocity[early]) / (run.time[late] - run.time[early])
+    return np.asarray(slope)

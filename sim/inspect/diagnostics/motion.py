@@ -1,0 +1,158 @@
+"""Check the motion: whether there is enough of it, and whether the gains reproduce it."""
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.errors import Refusal
+from sim.data.log import Array, Run
+from sim.fit import Fit, fit
+from sim.inspect.baseline_model import BaselineModel
+from sim.inspect.log_features import MOVING, LogFeatures
+
+GOOD_R2 = 0.9  # simulated velocity R² that WPILib's documentation calls good
+ASTRAY = 0.12  # [share of the top speed] a simulation should not stray for longer than a moment
+MOMENT = 0.1  # [s]
+SAME = 0.06  # [share of the top speed] two runs of one test should not differ more
+FEWEST = 10  # [samples in motion] less says little
+RISE = 2  # [samples] between 10 % and 90 % of the top speed
+INTERCEPT = 0.35  # [V] by which a fast ramp may shift the line one would draw by hand
+
+
+def check_r2_hides_misfit(clues: LogFeatures) -> list[Doubt]:
+    """A simulated velocity R² above 0.9 over a simulation that leaves the log for a while."""
+    try:
+        found = fit(clues.log, method="sysid")
+    except Refusal:
+        return []
+    model = _model(found)
+    if model is None or found.simulated_velocity_r2 < GOOD_R2:
+        return []
+    worst, said = ASTRAY, ""
+    for run in clues.log.runs:
+        strays = _strays(run, model, clues.period)
+        if strays.size and strays.max() > worst:
+            worst = float(strays.max())
+            said = f"{run.test} at {run.time[int(np.argmax(strays))]:.2f} s"
+    if not said:
+        return []
+    return [
+        Doubt(
+            "fine-r2",
+            f"The simulated velocity R² is {found.simulated_velocity_r2:.2f}, which passes for "
+            f"good, and yet the fitted gains miss the velocity by {worst:.0%} of its top in {said}"
+            ". Plot that stretch before believing kA.",
+        )
+    ]
+
+
+def _model(found: Fit) -> BaselineModel | None:
+    """The fitted gains as something that can replay a run."""
+    gains = found.gains
+    if not (gains["kV"] > 0.0 and gains["kA"] > 0.0):
+        return None
+    kg, tilt = gains.get("kG", 0.0), gains.get("offset_rad")
+    load = (kg, 0.0, 0.0) if tilt is None else (0.0, kg * np.cos(tilt), -kg * np.sin(tilt))
+    return BaselineModel(gains["kV"], gains["kA"], max(gains["kS"], 0.0), np.array(load), 0.0)
+
+
+def _strays(run: Run, model: BaselineModel, period: float) -> Array:
+    """(n,) [share of the top speed] how far a replay is off, for longer than a moment."""
+    top = run.top_speed
+    wide = 2 * round(0.5 * MOMENT / period) + 1
+    if not top or len(run) <= wide or not run.kind.startswith(("quasi", "dynamic")):
+        return np.zeros(0)
+    moving = np.flatnonzero(np.abs(run.velocity) > MOVING * top)
+    first, last = int(moving[0]), int(moving[-1]) + 1
+    velocity = float(run.velocity[first])
+    replay = model.replay(run, voltage=run.voltage, first=first, last=last, velocity=velocity)
+    off = np.zeros(len(run))
+    off[first:last] = np.abs(run.velocity[first:last] - replay) / top
+    off = np.pad(off, wide // 2, mode="edge")
+    return np.asarray(np.lib.stride_tricks.sliding_window_view(off, wide).min(axis=1))
+
+
+def check_repeated_tests(clues: LogFeatures) -> list[Doubt]:
+    """A test that was recorded more than once and did not go the same way."""
+    doubts = []
+    for test in dict.fromkeys(run.test for run in clues.log.runs):
+        runs = [i for i, run in enumerate(clues.log.runs) if run.test == test]
+        if len(runs) < 2 or not clues.expected:  # noqa: PLR2004 - of one run there is no second
+            continue
+        ahead = [_ahead(clues, i) for i in runs]
+        apart = max(ahead) - min(ahead)
+        if apart > SAME:
+            doubts.append(
+                Doubt(
+                    "repeats-differ",
+                    f"The {len(runs)} runs of {test} differ by {apart:.0%} of their speed for the "
+                    "same voltage, and SysId reads only the first. Find out what changed between "
+                    "them: battery, load, temperature, a slip.",
+                )
+            )
+    return doubts
+
+
+def _ahead(clues: LogFeatures, index: int) -> float:
+    """[share of its top speed] by which a run usually goes faster than its voltage says."""
+    run, moving = clues.log.runs[index], clues.moving[index]
+    if not moving.any():
+        return 0.0
+    ahead = (run.velocity - clues.expected[index]) * np.sign(clues.expected[index])
+    return float(np.median(ahead[moving])) / run.top_speed
+
+
+def check_too_little_motion(clues: LogFeatures) -> list[Doubt]:
+    """Tests that hardly move, and steps that are over before they are seen."""
+    doubts = []
+    for index, run in enumerate(clues.log.runs):
+        moving = int((clues.moving[index] & (np.abs(run.velocity) > clues.still)).sum())
+        if moving < FEWEST and run.kind in ("quasistatic", "dynamic"):
+            doubts.append(
+                Doubt(
+                    "little-motion",
+                    f"Only {moving} of the {len(run)} samples of {run.test} are in motion: it "
+                    "tells next to nothing. Let it run longer, or ask for more voltage.",
+                )
+            )
+        elif run.kind == "dynamic" and (samples := _rising(run)) < RISE:
+            doubts.append(
+                Doubt(
+                    "short-rise",
+                    f"{run.test} is at 90 % of its top speed within {samples} samples of moving: "
+                    "kA is read off next to nothing. Log faster, 5 ms if the controller sends it.",
+                )
+            )
+    return doubts
+
+
+def _rising(run: Run) -> int:
+    """[samples] between 10 % and 90 % of the top speed; many if it starts in motion."""
+    speed, top = np.abs(run.velocity), run.top_speed
+    up, done = int(np.argmax(speed > MOVING * top)), int(np.argmax(speed > 0.9 * top))
+    return done - up if speed[0] <= MOVING * top else len(run)
+
+
+def check_ramp_rate(clues: LogFeatures) -> list[Doubt]:
+    """Ramps so fast that the line through their voltages misses kS."""
+    ramps = [run for run in clues.log.runs if run.kind == "quasistatic" and len(run) > FEWEST]
+    if clues.baseline is None or not ramps:
+        return []
+    rate = float(np.median([_rate(run) for run in ramps]))
+    shift = clues.baseline.timescale * rate
+    if shift < INTERCEPT:
+        return []
+    return [
+        Doubt(
+            "fast-ramp",
+            f"The ramp rises by {rate:.2g} V/s on a mechanism with a timescale of "
+            f"{clues.baseline.timescale:.2g} s: a line drawn through voltage over velocity meets "
+            f"the axis {shift:.2f} V above kS. SysId is not fooled, a ruler is; halve the ramp.",
+        )
+    ]
+
+
+def _rate(run: Run) -> float:
+    """[V/s] of a ramp, before a battery or the end of the test can flatten it."""
+    size = np.abs(run.voltage)
+    low, high = (int(np.argmax(size > share * size.max())) for share in (0.1, 0.6))
+    return float((size[high] - size[low]) / (run.time[high] - run.time[low])) if high > low else 0.0

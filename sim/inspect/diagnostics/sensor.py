@@ -1,0 +1,119 @@
+"""Check the sensor: lag, noise and scale of its readings."""
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.log import Array, Run
+from sim.data.units import unit
+from sim.fit.sysid_rows import noise_floor
+from sim.inspect.log_features import MOVING, LogFeatures
+
+SLOWEST_FILTER = 0.3  # [s] no velocity is older
+LAGS = 61  # lags that are tried
+LAG = 0.02, 1.5  # [s, periods] what is no filter yet
+FILTERS = {  # [s] WPILib's own figures of how old a velocity is
+    "REV's own encoder of a NEO": 0.112,
+    "CTRE Phoenix 5, or REV's data port": 0.0815,
+}
+ALIKE = 0.15  # [share] how near a lag has to be to one of them
+FEWEST = 10  # [samples in motion] less says little
+PASSES = 0.1  # [share of a ramp's rows] that may stand and be taken for motion
+SCALE = 0.03  # [share] by which velocity and position may differ
+FASTEST = 60.0  # [m/s] nothing on a robot is faster
+FULL = 12.0  # [V]
+FAR = 2.5  # [times] what is this far off is a fault, not a look
+
+
+def check_velocity_lag(clues: LogFeatures) -> list[Doubt]:
+    """Velocities that come later than the slope of the positions beside them."""
+    found = [
+        lag
+        for index, run in enumerate(clues.log.runs)
+        if run.kind == "dynamic" and (lag := _lag(run, clues.slopes[index])) is not None
+    ]
+    lag = float(np.median(found)) if found else 0.0
+    if lag <= max(LAG[0], LAG[1] * clues.period):
+        return []
+    made = [name for name, age in FILTERS.items() if abs(lag / age - 1.0) < ALIKE]
+    likely = f", as {made[0]} does" if made else ""
+    return [
+        Doubt(
+            "velocity-lags",
+            f"The velocity comes {lag * 1e3:.0f} ms later than the slope of the position: most "
+            f"likely the motor controller averages it{likely}. kA and the feedback gains suffer; "
+            "shorten the filter, or tell SysId the measurement delay.",
+        )
+    ]
+
+
+def _lag(run: Run, slope: Array) -> float | None:
+    """[s] by which the slope has to be late to look most like the velocity; None if unclear."""
+    speed = np.abs(run.velocity)
+    top = run.top_speed
+    rising = np.flatnonzero(np.abs(slope) > MOVING * top)
+    if not top or rising.size < FEWEST:
+        return None
+    first = int(rising[0])
+    end = int(np.searchsorted(run.time, run.time[first] + 2.0 * SLOWEST_FILTER))
+    near = slice(max(first - 1, 0), max(end, first + FEWEST))
+    if float(np.ptp(speed[near])) < 0.5 * top:  # it does not start here
+        return None
+    lags = np.linspace(0.0, SLOWEST_FILTER, LAGS)
+    missed = [
+        float(np.mean((run.velocity[near] - np.interp(run.time[near] - lag, run.time, slope)) ** 2))
+        for lag in lags
+    ]
+    best = int(np.argmin(missed))
+    return float(lags[best])
+
+
+def check_velocity_scale(clues: LogFeatures) -> list[Doubt]:
+    """Velocity and position that count the same motion a little differently."""
+    usual = float(np.median(clues.scales)) if clues.scales else 1.0
+    if abs(usual - 1.0) < SCALE or not 1.0 / FAR < usual < FAR:
+        return []
+    return [
+        Doubt(
+            "scales-differ",
+            f"Velocity is {usual:.3f} times the slope of position throughout: one of the two has "
+            "a conversion factor of its own. kV and kA follow the velocity; settle which one is "
+            "right by measuring a distance.",
+        )
+    ]
+
+
+def check_plausible_speed(clues: LogFeatures) -> list[Doubt]:
+    """A length that nothing on a robot covers in a second."""
+    per = unit(clues.log.units)
+    if clues.baseline is None or per.angular or FULL / clues.baseline.kv <= FASTEST:
+        return []
+    return [
+        Doubt(
+            "too-fast",
+            f"At {FULL:g} V it would go {FULL / clues.baseline.kv:.3g} m/s: its position is hardly "
+            f"in {per.name}. Say --units radians, rotations or degrees, whichever it is.",
+        )
+    ]
+
+
+def check_rest_noise(clues: LogFeatures) -> list[Doubt]:
+    """Standstill whose noise is small, and yet enough to pass SysId's own threshold."""
+    both = zip(clues.log.runs, clues.standing, strict=True)
+    ramps = {run: n for run, n in both if run.kind == "quasistatic" and len(run) > FEWEST}
+    if not ramps:
+        return []
+    threshold = min(noise_floor(run.velocity) for run in ramps)
+    rests = [run.velocity[:still] for run, still in ramps.items()]
+    noisy = [rest for rest in rests if rest.size and np.any(np.diff(rest))]
+    passed = sum(int(np.sum(np.abs(rest) >= threshold)) for rest in noisy)
+    counted = sum(int(np.sum(np.abs(run.velocity) >= threshold)) for run in ramps)
+    if passed <= PASSES * counted:
+        return []
+    return [
+        Doubt(
+            "standstill-counted",
+            f"{passed} of the {counted} samples that SysId takes for quasistatic motion stand "
+            f"still: their noise passes its threshold of {threshold:.2g}. Set the threshold by "
+            "hand, above the noise.",
+        )
+    ]

@@ -1,0 +1,211 @@
+"""The contract of a fault: damage to a recording, made on purpose and detected again.
+
+A fault is not physics: an effect is something a model ought to include, a fault is something a
+log ought not to contain. A module of ``faults/`` defines one as ``FAULT``: ``spoil`` makes the
+damage, and ``detect`` finds it.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.data.errors import BadRequest
+from sim.data.log import Array, Log, Run
+from sim.data.vocabulary import KINDS, TYPES
+from sim.inspect.log_features import LogFeatures
+
+ABOUT = ("motion", "time")  # what a fault can make odd
+MOST = 3.0  # [1] largest severity that makes sense; 1 is what one meets on an ordinary bad day
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A part of a log: some seconds of one run, one whole run, or the log as a whole.
+
+    Args:
+        run: which run of the log, from 0; None if it is not in the log, or the whole log is meant.
+        test: the name of its test; empty for the log as a whole.
+        start: [s] in the log's own time.
+        end: [s] the same.
+    """
+
+    run: int | None
+    test: str
+    start: float
+    end: float
+
+    def overlap(self, other: "Stretch") -> float:
+        """Shared time over the time that either covers: 1 if equal, 0 if apart or other runs."""
+        if (self.run, self.test) != (other.run, other.test):
+            return 0.0
+        shared = min(self.end, other.end) - max(self.start, other.start)
+        either = max(self.end, other.end) - min(self.start, other.start)
+        return max(shared, 0.0) / either if either > 0.0 else 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Spoilt:
+    """A damaged log, and where the damage is.
+
+    Args:
+        log: as a robot with this fault would have recorded it.
+        where: the damaged parts.
+    """
+
+    log: Log
+    where: tuple[Stretch, ...]
+
+
+@dataclass(frozen=True)
+class Damage:
+    """A fault that was found in a log.
+
+    Args:
+        fault: its name.
+        where: the damaged part.
+        confidence: 0 to 1; near 1 nothing else would look like this.
+        evidence: one sentence with a number, for people.
+        advice: what to do about it, one sentence: re-run, trim, filter, or fix the code.
+    """
+
+    fault: str
+    where: Stretch
+    confidence: float
+    evidence: str
+    advice: str
+
+
+@dataclass(frozen=True)
+class Strike:
+    """Where and how hard a fault strikes.
+
+    Args:
+        run: which run, from 0; every fault has one, even if it spoils the whole log.
+        start: [s] since the run's first sample.
+        severity: above 0, at most ``MOST``; 1 is ordinary.
+    """
+
+    run: int
+    start: float
+    severity: float
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One kind of damage.
+
+    Args:
+        name: as on the command line: ``encoder-slip``.
+        summary: one line for a list.
+        ordinary: what severity 1 means, in plain words with a number.
+        spoil: damages a log. Takes the log, a ``Blow`` and a generator; the same state of the
+            generator gives the same log. Never called with severity 0.
+        detect: finds this fault and only this fault, from what any log shows.
+        kinds: the kinds of test it can strike.
+        types: the types of mechanism it can strike; a log that does not say its type is let pass.
+        about: what it makes odd: ``motion``, as voltage and motion do not agree, or ``time``. Of
+            those about the same, only one is believed to be behind one moment.
+        whole: it spoils whole runs, so the start in a ``Blow`` means nothing.
+        when: the share (earliest, latest) of the time a run is in motion, where it starts if nobody
+            says.
+    """
+
+    name: str
+    summary: str
+    ordinary: str
+    spoil: Callable[[Log, Strike, np.random.Generator], Spoilt]
+    detect: Callable[[LogFeatures], Iterable[Damage]]
+    kinds: tuple[str, ...] = ("quasistatic", "dynamic")
+    types: tuple[str, ...] = TYPES
+    about: str = "motion"
+    whole: bool = False
+    when: tuple[float, float] = (0.3, 0.6)
+
+
+def rescale_motion(run: Run, pace: Array) -> Run:
+    """A run in which the mechanism, or what reads it, goes at another pace.
+
+    Velocities are multiplied, and positions put together again from their multiplied steps, so that
+    a sensor's noise, its steps and its held readings stay what they are.
+
+    Args:
+        run: as it was.
+        pace: (n,) 1 where nothing changes, 0 where it stands.
+    """
+    renewed = np.concatenate(([True], np.diff(run.velocity) != 0.0))
+    latest = np.maximum.accumulate(np.where(renewed, np.arange(len(run)), 0))
+    steps = np.diff(run.position) * pace[1:]
+    position = run.position[0] + np.concatenate(([0.0], np.cumsum(steps)))
+    same = np.cumprod(pace == 1.0) > 0.0  # not a digit changes before it begins
+    return replace(
+        run,
+        velocity=run.velocity * pace[latest],
+        position=np.where(same, run.position, position),
+    )
+
+
+def select_samples(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
+    """The samples of a run that a mask or a slice keeps."""
+    return replace(
+        run,
+        time=run.time[keep],
+        voltage=run.voltage[keep],
+        position=run.position[keep],
+        velocity=run.velocity[keep],
+        current=None if run.current is None else run.current[keep],
+        bus_voltage=None if run.bus_voltage is None else run.bus_voltage[keep],
+    )
+
+
+def replace_run(log: Log, index: int, run: Run) -> Log:
+    """The log with another run in the place of one of its own."""
+    return replace(log, runs=(*log.runs[:index], run, *log.runs[index + 1 :]))
+
+
+def fault_of(module: ModuleType, *, name: str) -> Fault:
+    """The fault that a file of ``sim/inspect/faults`` offers, once it is sure that it is one.
+
+    Args:
+        module: the file, imported.
+        name: of its file, with which the fault's own name begins: ``encoder-slip``.
+
+    Raises:
+        BadRequest: the file breaks the contract; the sentence says where.
+    """
+    found = getattr(module, "FAULT", None)
+    if isinstance(found, Fault):
+        broken = _broken(found, name=name, caption=module.__doc__ or "")
+    else:
+        broken = ["offers no FAULT = Fault(...)"]
+    if broken or not isinstance(found, Fault):
+        raise BadRequest(
+            "; ".join(broken),
+            where=f"sim/inspect/faults/{name.replace('-', '_')}.py",
+            advice="Mend it as sim/inspect/fault.py says, or take it out of the folder.",
+        )
+    return found
+
+
+def _broken(fault: Fault, *, name: str, caption: str) -> list[str]:
+    """What a fault's file does not keep of the contract."""
+    earliest, latest = fault.when
+    rules = {
+        f"is named {fault.name!r} and not {name!r}, as its file says": (
+            f"{fault.name}-".startswith(f"{name}-")
+        ),
+        "opens with no sentence that says what it is": bool(caption.strip()),
+        "has no line in the module's text that begins with Fingerprint:": "Fingerprint:" in caption,
+        "has no summary of one line": len(fault.summary) > 0 and "\n" not in fault.summary,
+        "says what severity 1 means without a number": any(c.isdigit() for c in fault.ordinary),
+        f"strikes kinds {fault.kinds}, which are not all tests": {*fault.kinds} <= {*KINDS},
+        "strikes no kind of test": bool(fault.kinds),
+        f"strikes types {fault.types}, which are not all types": {*fault.types} <= {*TYPES},
+        f"is about {fault.about!r}, which is neither motion nor time": fault.about in ABOUT,
+        f"may start at {fault.when}, which are no shares in order": 0 <= earliest <= latest <= 1,
+        "has a spoil that cannot be called": callable(fault.spoil),
+        "has a detect that cannot be called": callable(fault.detect),
+    }
+    return [rule for rule, kept in rules.items() if not kept]

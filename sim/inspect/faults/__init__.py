@@ -1,0 +1,25 @@
+"""The faults that a record may have, one file each."""
+
+import sys
+
+from sim.data.errors import BadRequest
+from sim.inspect.fault import Fault, fault_of
+from sim.support.catalogue import members
+
+FAULTS: dict[str, Fault] = {
+    found.name: found
+    for found in (
+        fault_of(module, name=name) for name, module in members(sys.modules[__name__]).items()
+    )
+}
+
+
+def fault(name: str) -> Fault:
+    """Look up a fault.
+
+    Raises:
+        BadRequest: no such fault; the message lists those there are.
+    """
+    if name not in FAULTS:
+        raise BadRequest(f"unknown fault {name!r}", advice=f"Choose one of: {', '.join(FAULTS)}.")
+    return FAULTS[name]

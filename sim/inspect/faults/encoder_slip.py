@@ -1,0 +1,139 @@
+"""Encoder slip: the sensor loses its grip on the shaft for a while.
+
+On a robot: a set screw, a magnet, a belt or a coupling that lets go under load and grips again. The
+motion itself is unharmed; position and velocity both read too little of it, or the coupling skips a
+tooth and both hop.
+
+To the gains: the same voltage seems to bring less speed, and speed to come and go in no time. kA
+and kV are too large, kS far too small (a slip of 30 % from mid-run on: kV +71 %, kA more than
+fivefold), while the simulated velocity still fits at R² 0.9.
+
+Fingerprint: the velocity falls by a share of itself from one sample to the next and comes back as
+suddenly, which no voltage can do to a mass.
+"""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from sim.data.log import Array, Log
+from sim.inspect.anomalies import Anomaly
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
+from sim.inspect.log_features import LogFeatures
+
+SLIP = 0.4  # [s] as long as a slip lasts, or half of what is left of the run
+HOP = 0.08  # [s] as long as a skipped tooth takes, at least four samples
+SKIPS = 0.25  # [share] of slips that are skipped teeth
+LOSS = 0.7  # reads exp(-LOSS·severity) of the speed: one half at severity 1
+SKIP = 1.3  # [times the speed] that a tooth skipped at severity 1 takes off or adds
+SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
+BRIEF = 0.15  # [s] a longer surprise that swells and fades is no slip
+LEAST = 0.15  # [share of the speed] a smaller loss is not told from an effect
+SURE = 0.97  # the same at the start of a run, and of a few samples, where less proves nothing
+FEWEST = 3  # [samples]
+MOST = 2.0  # [s] what lasts longer is no slip but a wrong scale
+BACK = 2  # [samples] that read right again before the run ends
+BELIEVED = 0.92  # [share explained] less is something else
+AT_END = 0.005  # [share of the travel] within which it stands, at the end of it
+
+
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+    """Let the sensor read too little, or hop, for a moment."""
+    run = log.runs[blow.run]
+    start = float(run.time[0]) + blow.start
+    left = float(run.time[-1]) - start
+    if rng.random() < SKIPS:
+        period = float(np.median(np.diff(run.time)))
+        lasts = max(HOP, 4.0 * period)
+        pace = 1.0 - float(rng.choice((-1.0, 1.0))) * SKIP * blow.severity
+    else:
+        lasts, pace = min(SLIP, left / 2.0), float(np.exp(-LOSS * blow.severity))
+    slips = (run.time > start) & (run.time <= start + lasts)
+    if not np.any(run.velocity[slips]):
+        return Spoilt(log, ())
+    spoilt = rescale_motion(run, np.where(slips, pace, 1.0))
+    where = Stretch(blow.run, run.test, start, min(start + lasts, float(run.time[-1])))
+    return Spoilt(replace_run(log, blow.run, spoilt), (where,))
+
+
+def detect(clues: LogFeatures) -> Iterable[Damage]:
+    """Find surprises that a share of the speed explains, which goes and comes back at once."""
+    for surprise in clues.anomalies:
+        if surprise.again:
+            continue
+        share, loss, first, last = _best(surprise, clues.period)
+        run = clues.log.runs[surprise.run]
+        back = surprise.begin + last <= len(run) - BACK
+        proof = SURE if surprise.starting or last - first < FEWEST else BELIEVED
+        start, end = (float(run.time[surprise.begin + i]) for i in (first, last - 1))
+        if share < proof or abs(loss) < LEAST or not back or end - start > MOST:
+            continue
+        if _stands_at_its_end(clues, run.position[surprise.begin + first : surprise.begin + last]):
+            continue
+        yield Damage(
+            fault="encoder-slip",
+            where=Stretch(surprise.run, run.test, start, end),
+            confidence=share,
+            evidence=f"The velocity reads {abs(loss):.0%} too {'little' if loss > 0 else 'much'} "
+            f"from one sample to the next for {end - start:.2f} s, and then fits again: faster "
+            "than any voltage can change it.",
+            advice="Tighten what holds the sensor to the shaft, and run this test again; until "
+            "then leave the stretch out.",
+        )
+
+
+def _stands_at_its_end(clues: LogFeatures, position: Array) -> bool:
+    """Whether it stands where it can go no further: steps up and down end on a stop."""
+    every = np.concatenate([run.position for run in clues.log.runs])
+    lowest, highest = float(every.min()), float(every.max())
+    near = AT_END * (highest - lowest)
+    usual = float(np.median(position))
+    return usual - lowest < near or highest - usual < near
+
+
+def _best(surprise: Anomaly, period: float) -> tuple[float, float, int, int]:
+    """Share explained, share of the speed lost, first sample and the one behind the last.
+
+    What swells and fades over a longer time is no slip, whatever share of it a slip explains.
+    """
+    sudden, swelling = (
+        _over_spans(surprise, swells=swells, slack=max(3, round(SLACK / period)))
+        for swells in (False, True)
+    )
+    if swelling[0] <= sudden[0]:
+        return sudden
+    brief = (swelling[3] - swelling[2]) * period <= BRIEF
+    return swelling if brief else (0.0, *sudden[1:])
+
+
+def _over_spans(surprise: Anomaly, *, swells: bool, slack: int) -> tuple[float, float, int, int]:
+    """The same over all spans, for one of the two shapes."""
+    best = (0.0, 0.0, 0, 1)
+    for span in surprise.spans(slack=slack):
+        best = max(best, _loss(surprise, span, swells=swells))
+    for span in surprise.spans_near(best[2:], slack=slack):
+        best = max(best, _loss(surprise, span, swells=swells))
+    return best
+
+
+def _loss(
+    surprise: Anomaly, span: tuple[int, int], *, swells: bool
+) -> tuple[float, float, int, int]:
+    """The same for one span: all at once, or swelling and fading."""
+    first, last = span
+    shape = np.zeros(surprise.left.size)
+    shape[first:last] = surprise.expected[first:last]
+    if swells:
+        shape[first:last] *= np.hanning(last - first + 2)[1:-1]
+    size = float(shape @ shape)
+    loss = -float(shape @ surprise.left) / size if size > 0.0 else 0.0
+    return (surprise.explained(-loss * shape), loss, first, last)
+
+
+FAULT = Fault(
+    name="encoder-slip",
+    summary="the sensor loses its grip on the shaft, or skips a tooth",
+    ordinary="it reads one half of the speed for 0.4 s, or hops for 0.08 s",
+    spoil=spoil,
+    detect=detect,
+)

@@ -1,0 +1,91 @@
+"""Loop overrun: the robot program misses its beat, and samples are lost.
+
+On a robot: a loop that should take 20 ms waits for a camera, a file or the garbage collector. While
+it hangs nothing is logged; then time has jumped by 40 to 300 ms.
+
+To the gains: SysId divides every difference of velocity by the mean period of the test, so a jump
+reads as an acceleration that never was. kA comes out too large (5 % of gaps of 100 ms: by 9 %),
+kS too small; kV hardly moves.
+
+Fingerprint: a step between two times of at least 1.75 usual ones. A robot's own jitter is a few
+percent of a loop, or a millisecond.
+"""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from sim.data.log import Log
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, select_samples
+from sim.inspect.log_features import LogFeatures
+
+SHORTEST, LONGEST = 0.04, 0.3  # [s] a stall; shorter ones are jitter, longer ones trip a watchdog
+SPREAD = 1.5  # [s] over which stalls come at severity 1, one about every quarter of a second
+BETWEEN = 0.25  # [s]
+LATE = 1.75  # [usual steps] what is no jitter any more
+GAP = 0.035  # [s] a shorter step in time does no harm, however fast the log
+TOGETHER = 1.0  # [s] stalls no further apart than this are one stretch of trouble
+PROOF = 2.0  # [usual steps] lost in all: one might be a hiccup, ten are none
+
+
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+    """Lose the samples of a few stalls."""
+    run = log.runs[blow.run]
+    start = float(run.time[0]) + blow.start
+    end = min(start + SPREAD * blow.severity, float(run.time[-1]))
+    keep = np.ones(len(run), dtype=bool)
+    stalls = []
+    moment = start
+    while moment < end:
+        until = moment + rng.uniform(2.0 * SHORTEST, LONGEST * min(1.0, 0.5 + 0.25 * blow.severity))
+        lost = (run.time > moment) & (run.time < until)
+        lost[-1] = False  # the test ends when it ends, and its last sample says so
+        if lost.any():
+            keep &= ~lost
+            stalls.append(np.flatnonzero(lost))
+        moment = until + rng.uniform(0.5, 1.5) * BETWEEN
+    if not stalls:
+        return Spoilt(log, ())
+    first, last = run.time[stalls[0][0] - 1], run.time[stalls[-1][-1] + 1]
+    spoilt = replace_run(log, blow.run, select_samples(run, keep))
+    return Spoilt(spoilt, (Stretch(blow.run, run.test, float(first), float(last)),))
+
+
+def detect(clues: LogFeatures) -> Iterable[Damage]:
+    """Find steps in time that no jitter explains."""
+    for index, run in enumerate(clues.log.runs):
+        step = np.diff(run.time)
+        if step.size < 2:  # noqa: PLR2004 - of one step nobody can say that it is unusual
+            continue
+        usual = float(np.median(step))
+        late = np.flatnonzero((step > LATE * usual) & (step > GAP))
+        if not late.size:
+            continue
+        for gaps in np.split(late, np.flatnonzero(np.diff(run.time[late]) > TOGETHER) + 1):
+            lost = float(np.sum(step[gaps] / usual - 1.0))
+            yield Damage(
+                fault="loop-overrun",
+                where=Stretch(
+                    index, run.test, float(run.time[gaps[0]]), float(run.time[gaps[-1] + 1])
+                ),
+                confidence=1.0 - 0.5 ** (1.0 + lost / PROOF),
+                evidence=f"{_times(gaps.size)} the time jumps, by up to "
+                f"{step[gaps].max() * 1e3:.0f} ms where {usual * 1e3:.3g} ms is usual: about "
+                f"{lost:.0f} samples are lost.",
+                advice="Find what stalls the robot program (the console prints overruns), and "
+                "record again; until then distrust kA.",
+            )
+
+
+def _times(count: int) -> str:
+    return "Once" if count == 1 else f"{count} times"
+
+
+FAULT = Fault(
+    name="loop-overrun",
+    summary="the robot program's loop stalls: gaps in time, samples lost",
+    ordinary="about five stalls of 80 to 225 ms within 1.5 s",
+    spoil=spoil,
+    detect=detect,
+    about="time",
+)

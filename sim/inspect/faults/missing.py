@@ -1,0 +1,71 @@
+"""Missing test: one of the four tests was never recorded, or its part of the log was lost.
+
+On a robot: somebody forgot a button, the log was split, or the mechanism could not be brought back.
+
+To the gains: without a dynamic test nothing tells kA, without a quasistatic one nothing tells kS
+from kV; without one direction friction that differs between the two goes unnoticed, and an
+elevator's kG cannot be told from its kS. SysId refuses such a log since 2025.
+
+Fingerprint: none of the four tests can stay away. One that was filed under the name of another is
+not missing, and a log with none of the four was never meant for SysId.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from sim.data.log import FOUR_TESTS, Log
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.log_features import LogFeatures
+
+CONFIDENCE = 0.98  # what is not in a log may still be in another one
+
+_COST = {
+    "quasistatic": "a ramp tells kS from kV",
+    "dynamic": "only a step tells kA",
+}
+
+
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+    """Lose the struck test, and beyond severity 1 others with it; one test always stays."""
+    struck = log.runs[blow.run].test
+    others = sorted({run.test for run in log.runs} - {struck})
+    further = rng.permutation(len(others))[: max(0, min(round(blow.severity), len(others)) - 1)]
+    lost = {struck, *(others[index] for index in further)} if others else set()
+    kept = tuple(run for run in log.runs if run.test not in lost)
+    return Spoilt(replace(log, runs=kept), tuple(_nowhere(test) for test in sorted(lost)))
+
+
+def detect(clues: LogFeatures) -> Iterable[Damage]:
+    """Name those of the four tests that are neither filed nor recognized."""
+    there = {run.test for run in clues.log.runs} | set(clues.seems)
+    if not there & set(FOUR_TESTS):
+        return
+    for test in FOUR_TESTS:
+        if test not in there:
+            kind = test.partition("-")[0]
+            yield Damage(
+                fault="missing-test",
+                where=_nowhere(test),
+                confidence=CONFIDENCE,
+                evidence=f"{len(there & set(FOUR_TESTS))} of the four tests are there, and no "
+                f"{test}: {_COST[kind]}, and each direction its own friction.",
+                advice=f"Run {test} and add its log; if the mechanism cannot, say so beside the "
+                "gains.",
+            )
+
+
+def _nowhere(test: str) -> Stretch:
+    """A stretch for what is not there: it has a name and no time."""
+    return Stretch(None, test, 0.0, 0.0)
+
+
+FAULT = Fault(
+    name="missing-test",
+    summary="one of the four tests is not in the log",
+    ordinary="one test is lost; at severity 2 two, at severity 3 three",
+    spoil=spoil,
+    detect=detect,
+    whole=True,
+)

@@ -1,0 +1,124 @@
+"""Noisy standstill: the velocity trembles although nothing moves.
+
+On a robot: velocity is the slope of an analog or absolute encoder, a gyro stands for a wheel, or
+the frame shakes. A counting encoder at rest says zero, and nothing else.
+
+To the gains: SysId tells motion from rest by a threshold it draws from the noise, and about every
+third noisy sample passes it. These rows have a voltage and no motion; they pull kS down and make
+kA too large, most of all for an elevator, which stands longest before it lifts (kA several times
+its size). A threshold set by hand repairs it.
+
+Fingerprint: the position stands at the beginning of a ramp, and the velocity does not.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from sim.data.log import Array, Log, Run
+from sim.fit.sysid_rows import noise_floor
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.log_features import LogFeatures
+
+ORDINARY = 0.06  # [share of the log's top speed] standard deviation at severity 1
+LOUD = 0.014  # [share of the log's top speed] less is a doubt rather than a fault
+FEWEST = 8  # [samples] standing; fewer do no harm
+ADDED = 0.8  # [s] of standstill put before a test that starts in motion; the log pauses for longer
+HERE = 0.3  # [share of the log's noise at rest] that a run must have to be named
+SURE = 3.0  # [times LOUD] at which the confidence is 0.95
+
+
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+    """Let the velocity tremble while the mechanism stands, in every quasistatic test."""
+    ramps = [i for i, run in enumerate(log.runs) if run.kind == "quasistatic"]
+    still = LogFeatures(log).standing
+    if all(still[i] < FEWEST for i in ramps):
+        rested = (_with_rest(run) if i in ramps else run for i, run in enumerate(log.runs))
+        log = replace(log, runs=tuple(rested))
+        still = LogFeatures(log).standing
+    runs = list(log.runs)
+    size = ORDINARY * blow.severity * max(run.top_speed for run in runs)
+    where = []
+    for index in ramps:
+        run = runs[index]
+        if still[index] >= FEWEST:
+            velocity = run.velocity.copy()
+            velocity[: still[index]] += size * rng.standard_normal(still[index])
+            runs[index] = replace(run, velocity=velocity)
+            where.append(_stretch(index, run, still[index]))
+    return Spoilt(replace(log, runs=tuple(runs)), tuple(where))
+
+
+def detect(clues: LogFeatures) -> Iterable[Damage]:
+    """Measure the velocity at the beginning of every ramp, while the position stands."""
+    top = max((run.top_speed for run in clues.log.runs), default=0.0)
+    rests = {}
+    for index, run in enumerate(clues.log.runs):
+        still = clues.standing[index] if run.kind == "quasistatic" else 0
+        if still >= FEWEST:
+            rests[index] = run.velocity[:still]
+    noise = _noise(list(rests.values()))
+    if not noise > LOUD * top:
+        return
+    confidence = 1.0 - 0.5 * 10.0 ** (-noise / (SURE * LOUD * top))
+    for index, rest in rests.items():
+        if _noise([rest]) > HERE * noise:
+            yield _damage(index, clues.log.runs[index], rest, noise, confidence)
+
+
+def _noise(rests: list[Array]) -> float:
+    """[m/s or rad/s] standard deviation of what trembles, whatever drifts; 0 if nothing stands."""
+    steps = np.concatenate([np.diff(rest) for rest in rests] or [np.zeros(1)])
+    return float(np.sqrt(np.mean(steps**2) / 2.0))
+
+
+def _with_rest(run: Run) -> Run:
+    """The run with a standstill before it, at the log's own pace and without a voltage."""
+    period = float(np.median(np.diff(run.time)))
+    count = int(min(ADDED, 0.5 * float(run.time[0])) / period) if run.time[0] > 0.0 else 0
+    before = run.time[0] - period * np.arange(count, 0, -1)
+
+    def led(values: Array, rest: float) -> Array:
+        return np.concatenate((np.full(count, rest), values))
+
+    current, bus = run.current, run.bus_voltage
+    return replace(
+        run,
+        time=np.concatenate((before, run.time)),
+        voltage=led(run.voltage, 0.0),
+        position=led(run.position, float(run.position[0])),
+        velocity=led(run.velocity, 0.0),
+        current=None if current is None else led(current, 0.0),
+        bus_voltage=None if bus is None else led(bus, float(bus[0])),
+    )
+
+
+def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) -> Damage:
+    threshold = noise_floor(run.velocity)
+    passed = int(np.sum(np.abs(rest) >= threshold))
+    return Damage(
+        fault="noisy-standstill",
+        where=_stretch(index, run, rest.size),
+        confidence=confidence,
+        evidence=f"The position stands for {rest.size} samples and the velocity strays by "
+        f"{noise:.3g} per second: SysId's own threshold for this test, {threshold:.3g}, takes "
+        f"{passed} of them for motion.",
+        advice="Set the velocity threshold by hand, above that noise, or cut what comes before "
+        "the motion.",
+    )
+
+
+def _stretch(index: int, run: Run, still: int) -> Stretch:
+    return Stretch(index, run.test, float(run.time[0]), float(run.time[still - 1]))
+
+
+FAULT = Fault(
+    name="noisy-standstill",
+    summary="the velocity trembles while nothing moves",
+    ordinary="noise at rest of 6 % of the top speed, in both quasistatic tests",
+    spoil=spoil,
+    detect=detect,
+    kinds=("quasistatic",),
+    whole=True,
+)

@@ -1,0 +1,127 @@
+"""Sign flip: voltage, position and velocity do not agree on which way is plus.
+
+On a robot: a motor is inverted and its encoder is not, the voltage is logged without its sign, or
+velocity comes from another sensor than position.
+
+To the gains: with every run flipped kS, kV and kA come out negative and just as large, and R² is
+as good as ever; with some runs flipped the regression averages opposites and all gains are
+nonsense.
+
+Fingerprint: while a run is driven hard the voltage pushes one way and the mechanism goes the
+other, and goes faster the harder it is pushed; or the velocity points against the slope of the
+position. Gravity alone can also win against a voltage, but then the mechanism slows as the voltage
+grows.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from sim.data.log import Array, Log, Run
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.log_features import Flags, LogFeatures, majority_sign
+
+ONE_WAY, BOTH_WAYS = 0.7, 2.0  # [severity] from which all tests of a direction, or all, are struck
+HARD = 0.5  # [share of the largest voltage] less may lose against gravity and friction
+FEWEST = 5  # [samples] driven and moving; fewer prove nothing
+FALLS = 3.0  # [times] faster the other way with as much voltage: gravity decides, not a sign
+
+
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+    """Turn a signal round: in one run, in one direction's runs, or in all."""
+    signals = (("voltage",), ("position", "velocity"), ("velocity",))[int(rng.integers(3))]
+    struck = log.runs[blow.run]
+    runs, where = list(log.runs), []
+    for index, run in enumerate(log.runs):
+        alike = run.direction == struck.direction and blow.severity >= ONE_WAY
+        if index == blow.run or alike or blow.severity >= BOTH_WAYS:
+            flipped = {name: -getattr(run, name) for name in signals}
+            runs[index] = replace(run, **flipped)
+            where.append(_whole(index, run))
+    return Spoilt(replace(log, runs=tuple(runs)), tuple(where))
+
+
+def detect(clues: LogFeatures) -> Iterable[Damage]:
+    """Compare the signs of voltage, velocity and the slope of position in every run."""
+    for index, run in enumerate(clues.log.runs):
+        slope, moving = clues.slopes[index], clues.moving[index]
+        against_slope = _against(run.velocity, slope, moving & _hard(slope))
+        against_push = _opposed(run, run.velocity, moving)
+        if against_push and not against_slope and _falls(run, clues.log):
+            continue
+        said = []
+        if against_push:
+            said.append("the voltage and the velocity have opposite signs")
+        if against_slope:
+            said.append("the velocity has the sign opposite to the slope of the position")
+        if said:
+            yield _damage(index, run, said, velocity_only=against_slope)
+
+
+def _hard(values: Array) -> Flags:
+    size = np.abs(values)
+    return np.asarray(size > HARD * np.percentile(size, 98)) if size.size else size > 0.0
+
+
+def _against(one: Array, other: Array, judged: Flags) -> bool:
+    return bool(judged.sum() >= FEWEST) and majority_sign(one[judged] * other[judged]) < 0
+
+
+def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
+    """Whether it goes against the voltage, and not just slower than gravity would have it."""
+    judged = moving & _hard(run.voltage)
+    if not _against(run.voltage, velocity, judged):
+        return False
+    if run.kind != "quasistatic":
+        return True
+    volts, speed = run.voltage[judged], velocity[judged]
+    return float((volts - volts.mean()) @ (speed - speed.mean())) <= 0.0
+
+
+def _falls(run: Run, log: Log) -> bool:
+    """Whether the other direction of the same test goes the same way, several times as fast."""
+    mate = f"{run.kind}-{'reverse' if run.direction == 'forward' else 'forward'}"
+    for other in log.of(mate):
+        goes = majority_sign(other.velocity) * majority_sign(run.velocity) > 0
+        if goes and other.top_speed > FALLS * run.top_speed:
+            return True
+    return False
+
+
+def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Damage:
+    volts, speed = _typical(run.voltage), _typical(run.velocity)
+    cure = (
+        "Give velocity the sign of the position's slope"
+        if velocity_only
+        else "Invert the motor or the encoder, so that plus is plus"
+    )
+    return Damage(
+        fault="sign-flip",
+        where=_whole(index, run),
+        confidence=0.95,
+        evidence=f"{' and '.join(said).capitalize()}: {volts:.3g} V goes with {speed:.3g} per "
+        f"second while the position changes by {run.position[-1] - run.position[0]:.3g}.",
+        advice=f"{cure}, and log the signed voltage; then record again or turn the sign in the "
+        "log.",
+    )
+
+
+def _typical(values: Array) -> float:
+    """The median of the larger half of the values; 0 if there are none."""
+    hard = values[_hard(values)]
+    return float(np.median(hard)) if hard.size else 0.0
+
+
+def _whole(index: int, run: Run) -> Stretch:
+    return Stretch(index, run.test, float(run.time[0]), float(run.time[-1]))
+
+
+FAULT = Fault(
+    name="sign-flip",
+    summary="voltage, position and velocity do not agree on which way is plus",
+    ordinary="one signal is turned round in all tests of one direction; at severity 2 in all tests",
+    spoil=spoil,
+    detect=detect,
+    whole=True,
+)

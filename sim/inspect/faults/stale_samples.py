@@ -1,0 +1,110 @@
+"""Stale samples: the log is written faster than the sensor's frames arrive.
+
+On a robot: a motor controller sends its position and velocity every 20 ms, 50 ms or 100 ms, and
+a faster loop logs the last ones it has, again and again.
+
+To the gains: of a reading held for n samples SysId's three-point slope keeps the two samples next
+to each jump and spreads the jump over two periods instead of n; the others have no acceleration
+and are dropped. kA comes out at about 2/n of its size, kS strays, kV hardly moves.
+
+Fingerprint: readings stay the same for several samples while the mechanism moves, and then jump
+by many times the sensor's smallest step. A coarse sensor repeats itself as well, but its jumps
+*are* the smallest step.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from sim.data.log import Array, Log, Run
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.log_features import Counts, Flags, LogFeatures, find_held_samples
+
+ORDINARY = 3.0  # [samples] that repeat each reading at severity 1: 20 ms frames logged at 5 ms
+JUMP = 4.0  # [smallest steps of the sensor] a smaller jump may be its resolution, not its frames
+FEWEST = 5  # [readings] with clear jumps; fewer prove nothing
+STALE = 2  # [samples] that the usual reading is held; a clean log repeats one only now and then
+
+
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+    """Let every reading of the sensor stand until the next frame arrives."""
+    held = max(STALE, 1 + round(ORDINARY * blow.severity))
+    phases = rng.integers(held, size=len(log.runs))
+    runs = [_hold(run, held, int(phase)) for run, phase in zip(log.runs, phases, strict=True)]
+    return Spoilt(
+        replace(log, runs=tuple(runs)),
+        tuple(_whole(index, run) for index, run in enumerate(runs) if len(run)),
+    )
+
+
+def detect(clues: LogFeatures) -> Iterable[Damage]:
+    """Find runs whose usual reading is held for several samples while they move."""
+    steps = {"velocity": clues.velocity_step, "position": clues.position_step}
+    held = {
+        name: [
+            _held(getattr(run, name), moving, step=step)
+            for run, moving in zip(clues.log.runs, clues.moving, strict=True)
+        ]
+        for name, step in steps.items()
+    }
+    for index, run in enumerate(clues.log.runs):
+        stale = {name: runs[index] for name, runs in held.items() if _stale(runs, index)}
+        if stale:
+            yield _damage(index, run, stale)
+
+
+def _held(values: Array, moving: Flags, *, step: float) -> Counts:
+    """[samples] how long those readings stand of which one can tell, by clear jumps around them."""
+    starts, lengths = find_held_samples(values)
+    clear = np.abs(np.diff(values[starts])) > JUMP * step
+    between = clear[:-1] & clear[1:] & moving[starts[1:-1]]
+    return np.asarray(lengths[1:-1][between])
+
+
+def _stale(runs: list[Counts], index: int) -> bool:
+    """Whether a run's readings usually stand; a short run may lean on the rest of the log."""
+    own = runs[index]
+    proof = own if own.size >= FEWEST else np.concatenate(runs)
+    return (
+        own.size > 0
+        and proof.size >= FEWEST
+        and min(float(np.median(own)), float(np.median(proof))) >= STALE
+    )
+
+
+def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
+    period = float(np.median(np.diff(run.time)))
+    said = " and ".join(f"each {name} for {held.mean():.1f}" for name, held in stale.items())
+    longest = max(float(held.mean()) for held in stale.values())
+    readings = max(held.size for held in stale.values())
+    return Damage(
+        fault="stale-samples",
+        where=_whole(index, run),
+        confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
+        evidence=f"While it moves, the log holds {said} samples of {period * 1e3:.3g} ms: a frame "
+        f"arrives every {longest * period * 1e3:.0f} ms.",
+        advice="Raise the frame rate of the motor controller, or log at its rate, and record "
+        "again; until then distrust kA.",
+    )
+
+
+def _hold(run: Run, held: int, phase: int) -> Run:
+    """The run with frames of ``held`` samples, the first of them cut short by ``phase``."""
+    count = np.arange(len(run))
+    latest = np.maximum((count + phase) // held * held - phase, 0)
+    return replace(run, position=run.position[latest], velocity=run.velocity[latest])
+
+
+def _whole(index: int, run: Run) -> Stretch:
+    return Stretch(index, run.test, float(run.time[0]), float(run.time[-1]))
+
+
+FAULT = Fault(
+    name="stale-samples",
+    summary="the sensor's frames arrive slower than the log is written",
+    ordinary="every reading is held for 4 samples, as 20 ms frames in a 5 ms log",
+    spoil=spoil,
+    detect=detect,
+    whole=True,
+)

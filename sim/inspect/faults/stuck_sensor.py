@@ -1,0 +1,118 @@
+"""Stuck sensor: position and velocity stand still in the log while the mechanism goes on.
+
+On a robot: the CAN bus drops a device for a while, a connector shakes loose, or a sensor thread
+hangs; the last reading is logged again and again, and then the truth returns at one jump.
+
+To the gains: the frozen samples have no acceleration, and SysId drops most of them; the jump at
+their end reads as an acceleration that never was. kA and kS stray, kV a little.
+
+Fingerprint: a velocity that is not zero beside a position that does not change, for much longer
+than the sensor's readings usually stand, and then a position as far on as the time that has passed.
+A mechanism held by friction or by a hard stop has a velocity of zero, and continues where it was.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from sim.data.log import Log, Run
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.log_features import MOVING, Counts, LogFeatures, find_held_samples
+
+ORDINARY = 0.15  # [share of the run] that is frozen at severity 1
+ROOM = 0.9  # [share of what is left of the run] a freeze may take, so that the truth returns
+FEWEST = 5  # [samples] a shorter freeze is a late frame
+UNUSUAL = 2.5  # [times] longer than readings usually stand
+FAR = 5.0  # [smallest steps of the position] that a freeze must hide to be one
+WENT = 0.4  # [share] of the way that two speeds promise, which the jump at the end must make up
+AFTER = 3  # [samples] that tell how fast it went on
+
+
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:  # noqa: ARG001 - the contract
+    """Freeze the reading of one moment; nothing happens where nothing moves."""
+    run = log.runs[blow.run]
+    left = float(run.time[-1] - run.time[0]) - blow.start
+    lasts = min(ORDINARY * blow.severity * float(np.ptp(run.time)), ROOM * left)
+    first = int(np.searchsorted(run.time, run.time[0] + blow.start))
+    last = int(np.searchsorted(run.time, run.time[0] + blow.start + lasts))
+    last = max(min(last, len(run) - 2), min(first + FEWEST, len(run) - 1))
+    frozen = np.arange(len(run))
+    frozen[first : last + 1] = first
+    hidden = float(np.abs(run.position[first : last + 1] - run.position[first]).max())
+    if last - first < FEWEST or hidden <= FAR * LogFeatures(log).position_step:
+        return Spoilt(log, ())
+    stuck = replace(run, position=run.position[frozen], velocity=run.velocity[frozen])
+    runs = tuple(stuck if other is run else other for other in log.runs)
+    return Spoilt(replace(log, runs=runs), (_stretch(blow.run, run, first, last),))
+
+
+def detect(clues: LogFeatures) -> Iterable[Damage]:
+    """Find long stretches in which neither reading changes although it moves."""
+    for index, run in enumerate(clues.log.runs):
+        together = np.stack((run.position, run.velocity))
+        changed = np.any(np.diff(together, axis=1) != 0.0, axis=0)
+        starts, lengths = find_held_samples(np.concatenate(([0], np.cumsum(changed))).astype(float))
+        shortest = max(FEWEST, UNUSUAL * _usual(clues, index))
+        for first, length in zip(starts[lengths >= shortest], lengths[lengths >= shortest]):  # noqa: B905 - one mask cuts both
+            last = int(first + length - 1)
+            hidden = _hidden(run, int(first), last, step=clues.position_step)
+            if hidden > 0.0:
+                yield _damage(index, run, int(first), last, hidden)
+
+
+def _usual(clues: LogFeatures, index: int) -> float:
+    """[samples] that a reading usually stands in motion, the slower one of the two."""
+    run, moving = clues.log.runs[index], clues.moving[index]
+    return max(
+        _median_hold(*find_held_samples(v), moving.nonzero()[0])
+        for v in (run.position, run.velocity)
+    )
+
+
+def _median_hold(starts: Counts, lengths: Counts, moving: Counts) -> float:
+    judged = lengths[np.isin(starts, moving)]
+    return float(np.median(judged)) if judged.size else 1.0
+
+
+def _hidden(run: Run, first: int, last: int, *, step: float) -> float:
+    """[m or rad] how far it went unseen; 0 if it may well have stood still."""
+    lasted = float(run.time[last] - run.time[first])
+    frozen = abs(float(run.velocity[first]))
+    slow = MOVING * run.top_speed
+    promised = frozen * lasted
+    if frozen > slow and promised > FAR * step:
+        return promised
+    if last + AFTER >= len(run):
+        return 0.0
+    after = float(np.median(np.abs(run.velocity[last + 1 : last + 1 + AFTER])))
+    jump = abs(float(run.position[last + 1] - run.position[last]))
+    promised = 0.5 * (frozen + after) * lasted
+    return jump if after > slow and jump > max(WENT * promised, FAR * step) else 0.0
+
+
+def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damage:
+    where = _stretch(index, run, first, last)
+    return Damage(
+        fault="stuck-sensor",
+        where=where,
+        confidence=0.95,
+        evidence=f"For {where.end - where.start:.2f} s ({last - first + 1} samples) the position "
+        f"stands at {run.position[first]:.4g} and the velocity at {run.velocity[first]:.4g}; at "
+        f"that speed it went {hidden:.3g} unseen.",
+        advice="Check the sensor's wiring and its CAN errors, and record again; until then cut "
+        "the test before the freeze.",
+    )
+
+
+def _stretch(index: int, run: Run, first: int, last: int) -> Stretch:
+    return Stretch(index, run.test, float(run.time[first]), float(run.time[last]))
+
+
+FAULT = Fault(
+    name="stuck-sensor",
+    summary="position and velocity freeze for a while, and jump when they return",
+    ordinary="both are frozen for 15 % of the run",
+    spoil=spoil,
+    detect=detect,
+)

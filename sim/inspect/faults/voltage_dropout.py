@@ -1,0 +1,179 @@
+"""Voltage drop-out: the voltage reads too little for a moment, over and over, at a rhythm.
+
+On a robot: the voltage is read by another loop, a CAN frame of it is lost, or two motors are
+averaged of which one did not answer. In some logs of real arms and elevators the drop comes every
+0.22 s and the velocity follows it: there the motor really lost its command for 5 to 25 ms.
+
+To the gains: where only the record drops, rows with motion have hardly a voltage. They flatten the
+regression along the voltage: kA comes out too large and kS too small, kV a little too small. Where
+the motor drops as well the rows are true, but a mean of two motors is not, and a ramp no ramp.
+
+Fingerprint: the voltage falls by a quarter or more for a few samples and returns to where it was.
+A single fall that the velocity follows may be a brownout, and is left to that.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from sim.data.log import Array, Log, Run
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.log_features import LogFeatures
+
+EVERY = 0.22  # [s] between two drop-outs
+LASTS = 0.015  # [s] at severity 1; never less than a sample
+MILD, HALF = 0.7, 0.5  # [severity] below which a drop-out reads this share instead of zero
+SEEN = 0.2  # [share of the run's largest voltage] a smaller voltage can drop unseen
+
+AROUND = 0.22  # [s] of voltages whose median is what a sample ought to read
+NARROWEST = 7  # [samples] for that median
+FALL = 0.25  # [share of that median]
+FLOOR = 0.08  # [V] a smaller fall is noise
+NOISE = 6.0  # [times] the voltage's own usual strays
+LONGEST = 0.08  # [s] a drop-out; what lasts longer is a brownout or a person
+ECHO = 0.06  # [s] in which a velocity would have answered
+ANSWER = 0.5  # [share of the loss of speed that physics asks for] which is one
+CLEAR = 0.1  # [share of the speed] a smaller loss is noise
+SERIES = 3  # drop-outs that are one story rather than so many
+
+
+@dataclass(frozen=True)
+class _Drop:
+    """Samples ``first`` to ``last`` of a run, where ``ought`` [V] should have been read."""
+
+    first: int
+    last: int
+    ought: float
+
+
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+    """Let the voltage drop out at a rhythm, from the blow to the end of the run."""
+    run = log.runs[blow.run]
+    voltage = run.voltage.copy()
+    period = float(np.median(np.diff(run.time)))
+    width = max(1, round(LASTS * blow.severity / period))
+    most = float(np.abs(run.voltage).max())
+    drops = []
+    moment = float(run.time[0]) + blow.start
+    while (first := int(np.searchsorted(run.time, moment))) + width < len(run) - 1:
+        if first and abs(run.voltage[first]) > SEEN * most:
+            drops.append(_Drop(first, first + width - 1, float(run.voltage[first])))
+            voltage[first : first + width] *= HALF if blow.severity < MILD else 0.0
+        moment += max(EVERY * rng.uniform(0.9, 1.1), 3.0 * width * period)
+    runs = tuple(replace(r, voltage=voltage) if r is run else r for r in log.runs)
+    return Spoilt(replace(log, runs=runs), tuple(s for s, _ in _stories(blow.run, run, drops)))
+
+
+def detect(clues: LogFeatures) -> Iterable[Damage]:
+    """Find short falls of the voltage that the velocity does not answer."""
+    for index, run in enumerate(clues.log.runs):
+        if run.kind not in FAULT.kinds or len(run) < NARROWEST:
+            continue
+        drops = _drops(run, clues.period)
+        answers = [_answer(run, drop) for drop in drops]
+        if len(drops) < SERIES:
+            drops = [
+                drop
+                for drop, answer in zip(drops, answers, strict=True)
+                if answer < _due(run, drop, clues.timescale)
+            ]
+        for where, story in _stories(index, run, drops):
+            yield _damage(run, where, story, answer=float(np.median(answers)))
+
+
+def _drops(run: Run, period: float) -> list[_Drop]:
+    """Short falls of the voltage's size below its running median, from which it returns."""
+    window = max(NARROWEST, 2 * round(AROUND / period / 2.0) + 1)
+    padded = np.pad(run.voltage, window // 2, mode="reflect" if len(run) > window else "edge")
+    ought = np.median(np.lib.stride_tricks.sliding_window_view(padded, window), axis=1)
+    short = (ought - run.voltage) * np.sign(ought)
+    least = max(FLOOR, NOISE * float(np.median(np.abs(short))))
+    low = np.flatnonzero((short > FALL * np.abs(ought)) & (short > least))
+    groups = np.split(low, np.flatnonzero(np.diff(low) > 1) + 1) if low.size else []
+    drops = []
+    for group in groups:
+        first, last = int(group[0]), int(group[-1])
+        lasted = float(run.time[min(last + 1, len(run) - 1)] - run.time[first])
+        inside = first > 0 and last < len(run) - 1
+        if inside and lasted <= LONGEST and _returns(run.voltage, first, last, ought):
+            drops.append(_Drop(first, last, float(ought[first])))
+    return drops
+
+
+def _returns(voltage: Array, first: int, last: int, ought: Array) -> bool:
+    """Whether the voltage is as it ought to be on both sides, within two samples."""
+    sides = (slice(max(first - 2, 0), first), slice(last + 1, last + 3))
+    return all(
+        bool(np.any(np.abs(voltage[side] - ought[side]) <= FALL * np.abs(ought[side])))
+        for side in sides
+    )
+
+
+def _answer(run: Run, drop: _Drop) -> float:
+    """[share of its speed] that it loses in and after a drop-out."""
+    speed = np.abs(run.velocity)
+    before = float(np.median(speed[max(drop.first - 2, 0) : drop.first + 1]))
+    until = int(np.searchsorted(run.time, run.time[drop.last] + ECHO)) + 1
+    slowest = float(np.min(speed[drop.first : until]))
+    return 1.0 - slowest / before if before > 0.0 else 0.0
+
+
+def _due(run: Run, drop: _Drop, timescale: float) -> float:
+    """[share of its speed] from which on a loss is an answer of the mechanism, not noise."""
+    lasted = float(run.time[drop.last + 1] - run.time[drop.first])
+    lost = 1.0 - abs(float(np.mean(run.voltage[drop.first : drop.last + 1]) / drop.ought))
+    due = lost * -np.expm1(-lasted / timescale) if timescale > 0.0 else 0.0
+    return max(ANSWER * float(due), CLEAR)
+
+
+def _stories(index: int, run: Run, drops: list[_Drop]) -> list[tuple[Stretch, list[_Drop]]]:
+    """What to report: a series as one, a few drop-outs one by one."""
+    stories = [drops] if len(drops) >= SERIES else [[drop] for drop in drops]
+    return [
+        (
+            Stretch(
+                index,
+                run.test,
+                float(run.time[story[0].first]),
+                float(run.time[min(story[-1].last + 1, len(run) - 1)]),
+            ),
+            story,
+        )
+        for story in stories
+    ]
+
+
+def _damage(run: Run, where: Stretch, story: list[_Drop], *, answer: float) -> Damage:
+    samples = sum(drop.last - drop.first + 1 for drop in story)
+    deepest = min(float(np.abs(run.voltage[d.first : d.last + 1] / d.ought).min()) for d in story)
+    if len(story) == 1:
+        said = f"For {samples} sample(s) the voltage falls to {deepest:.0%} of what it was"
+    else:
+        every = float(np.median(np.diff([run.time[drop.first] for drop in story])))
+        said = (
+            f"{len(story)} times, every {every:.2f} s, the voltage falls to as little as "
+            f"{deepest:.0%} of what it was, {samples} samples in all"
+        )
+    echo = (
+        f"the velocity follows, by {answer:.0%}: the motor really lost it"
+        if answer > CLEAR
+        else "the velocity takes no notice: only the record lost it"
+    )
+    return Damage(
+        fault="voltage-dropout",
+        where=where,
+        confidence=1.0 - 0.3 / len(story),
+        evidence=f"{said}; {echo}.",
+        advice="Find what drops (a CAN frame, one of two motors, another loop), log the applied "
+        "voltage in the loop that drives, and record again.",
+    )
+
+
+FAULT = Fault(
+    name="voltage-dropout",
+    summary="the recorded voltage reads too little for moments that the motion ignores",
+    ordinary="zero for 15 ms, every 0.22 s to the end of the run",
+    spoil=spoil,
+    detect=detect,
+)

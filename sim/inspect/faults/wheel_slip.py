@@ -1,0 +1,284 @@
+"""Wheel slip: the wheels break loose under a step of voltage and spin ahead of the robot.
+
+On a robot: tires on carpet hold no more than their friction. A step that asks for more spins the
+wheels up, light as they are, to where the motor's force is down to what the tires do hold; there
+they wait until the robot has caught up.
+
+    wheels:  kA_w·v' = V - kS - kV·v - F        robot:  kA·v' = F
+
+with F [V] what the tires hold, and kA_w a tenth of kA.
+
+To the gains: kA too large, by 39 % for a step of 3.5 V and 66 % for 7 V on four Kraken X60; kV is
+not harmed.
+
+Fingerprint: a dynamic test surges, lulls, and only then climbs as a mass does: an acceleration that
+falls and rises again. A springy drive looks alike, but does so in every step, however small.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.data.log import Array, Log, Run
+from sim.inspect.baseline_model import BaselineModel
+from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
+from sim.inspect.log_features import Counts, LogFeatures, find_held_samples
+
+HELD = 0.4  # [share of the step] that the tires hold at severity 1
+LIGHT = 0.1  # [share of kA] that is the wheels' and rotors' own
+SPIN = 8.0  # [times the plain speed] that wheels spin up to at most in a sample
+LIMITED = 0.9  # [share of the push] a step that never shows more starts under a current limit
+SHOWS = 5.0  # [samples] a shorter slip cannot be seen
+SIZE = (0.7, 1.4)  # [1] top speed over what the rest of the log promises, in a sound log
+STARTS = 0.1  # [timescales] after which a plain rise is seen to move
+ALL = np.array((10.0,))  # [share of the step] tires that hold it all
+SOME = np.arange(0.05, 0.75, 0.05)  # the same, of tires that do not
+SCALES = np.geomspace(0.4, 2.5, 12)  # [times the timescale] that are tried
+DELAYS = np.arange(0.0, 0.045, 0.01)  # [s] between voltage and motion that are tried
+LIMITS = (1.0, 0.8, 0.6, 0.45, 0.3)  # [share of the step] that current limits let through
+SETTLED = 30.0  # [timescales] after which a slip is long over
+FINE = 8  # steps per sample in which wheels are spun up
+ON = 0.3  # [share of the largest voltage] from here on a step has come
+LASTS = 6.0  # [timescales] after which a step has nothing more to say
+LEAST = 15  # [samples] of it that are looked at in any case
+SAMPLES = 60  # of a rise that are looked at; more tell no more
+STALE = 2  # [samples] that a reading usually stands in a log of slow frames
+FEWEST = 6  # [samples] of a rise; fewer cannot show a lull
+BELIEVED = 0.8  # [share explained] of what a plain rise leaves unexplained
+CLEAR = 0.04  # [share of top speed] a plain rise misses by at least this much
+CAUTION = 0.8  # [share of the voltage that still held] for the next step
+
+
+def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+    """Let the wheels of a step break loose; where the blow falls, the step decides."""
+    clues = LogFeatures(log)
+    run, balance = log.runs[blow.run], clues.baseline
+    held = HELD ** (blow.severity * rng.uniform(0.9, 1.1))
+    if balance is None:
+        return Spoilt(log, ())
+    first = _step(run)
+    since = run.time - run.time[first]
+    speed = _smooth(np.abs(run.velocity))
+    moves = (speed > clues.still) & (since > 0.0)
+    if not moves.any():
+        return Spoilt(log, ())
+    late = max(float(since[int(np.argmax(moves))]) - STARTS * balance.timescale, 0.0)
+    lasts = min(float(since[-1]), SETTLED * balance.timescale)
+    grid = np.arange(0.0, lasts, clues.period / FINE)
+    push = _push(run, balance)
+    limit = float(
+        np.max(push - speed, initial=0.0)
+    )  # of the motor's current, if not of its voltage
+    limited = limit < LIMITED * push.max()
+    asked = np.full(grid.size, push.max()) if limited else np.interp(grid, since, push)
+    spun = _wheels(
+        asked,
+        grid,
+        scales=np.array((balance.timescale,)),
+        held=np.array((held * limit,)),
+        limit=limit if limited else math.inf,
+    )
+    loose = np.flatnonzero(spun.loose[0])
+    grips = float(grid[loose[-1]]) + late if loose.size else 0.0
+    if grips < SHOWS * clues.period:
+        return Spoilt(log, ())
+    pace = np.ones(len(run))
+    slipping = np.interp(since - late, grid, spun.speed[0])
+    moves &= since < lasts
+    pace[moves] = np.clip(slipping[moves] / speed[moves], 0.0, SPIN)
+    spoilt = rescale_motion(run, pace)
+    if limited:  # faster wheels leave the limit sooner
+        more = np.interp(since, grid, spun.push[0]) - push
+        more *= np.sign(run.voltage[first]) * ((since >= 0.0) & (since < lasts))
+        spoilt = replace(spoilt, voltage=run.voltage + balance.kv * more)
+    start = float(run.time[first])
+    where = Stretch(blow.run, run.test, start, min(start + grips, float(run.time[-1])))
+    return Spoilt(replace_run(log, blow.run, spoilt), (where,))
+
+
+def detect(clues: LogFeatures) -> Iterable[Damage]:
+    """Find steps that a surge and a lull explain better than any plain rise."""
+    if clues.baseline is None or clues.log.type not in ("", *FAULT.types):
+        return
+    for index, run in enumerate(clues.log.runs):
+        if run.kind != "dynamic" or len(run) < FEWEST:
+            continue
+        first = _step(run)
+        lasts = max(LASTS * clues.baseline.timescale, LEAST * clues.period)
+        end = int(np.searchsorted(run.time, run.time[first] + lasts))
+        if end - first < FEWEST:
+            continue
+        part = _fresh(run, first, end)
+        if part.size < FEWEST:
+            continue
+        rise = _Rise(
+            np.abs(run.velocity[part]),
+            run.time[part] - run.time[first],
+            _push(run, clues.baseline)[part],
+            clues.baseline.timescale,
+        )
+        plain = min(rise.fit(ALL)[0], rise.fit_limited())
+        if plain <= CLEAR * float(rise.speed.max()):
+            continue
+        loose, held, grips = rise.fit(SOME)
+        share = 1.0 - (loose / plain) ** 2
+        if share < BELIEVED:
+            continue
+        start = float(run.time[first])
+        most = CAUTION * held * float(np.abs(run.voltage).max())
+        yield Damage(
+            fault="wheel-slip",
+            where=Stretch(index, run.test, start, min(start + grips, float(run.time[-1]))),
+            confidence=share,
+            evidence=f"The velocity surges to {1.0 - held:.0%} of its top, waits there for about "
+            f"{grips:.2f} s, and only then climbs as a mass does.",
+            advice=f"Run the dynamic tests again with a smaller step, at most {most:.1f} V, on the "
+            "carpet it will drive on.",
+        )
+
+
+def _fresh(run: Run, first: int, last: int) -> Counts:
+    """The samples to look at: not too many, and of frames that stand for long only the new ones."""
+    starts, lengths = find_held_samples(run.velocity[first:last])
+    if float(np.median(lengths)) < STALE:
+        starts = np.arange(last - first)
+    return first + starts[:: max(1, starts.size // SAMPLES)]
+
+
+def _push(run: Run, balance: BaselineModel) -> Array:
+    """(n,) [m/s or rad/s] the speed at which each voltage would end, in the step's direction."""
+    return np.asarray(balance.top_speed(run) * np.sign(run.voltage[_step(run)]))
+
+
+@dataclass(frozen=True, eq=False)
+class _Spun:
+    """How wheels spin up, for several tires at once.
+
+    Args:
+        speed: (k, n) [m/s or rad/s] of the wheels.
+        push: (k, n) [m/s or rad/s] the speed at which each voltage would end.
+        loose: (k, n) whether they slip.
+    """
+
+    speed: Array
+    push: Array
+    loose: NDArray[np.bool_]
+
+
+def _wheels(
+    push: Array, since: Array, *, scales: Array, held: Array, limit: float = math.inf
+) -> _Spun:
+    """Spin up wheels by a step.
+
+    Args:
+        push: (n,) [m/s or rad/s] the speed at which each voltage would end.
+        since: (n,) [s].
+        scales: (k,) [s] timescales.
+        held: (k,) [m/s or rad/s] what the tires hold, as a part of ``push``.
+        limit: [m/s or rad/s] of ``push`` above the speed, where the current is limited.
+    """
+    wheel, robot = np.zeros(scales.size), np.zeros(scales.size)
+    loose = min(push[0], limit) > held
+    wants = np.minimum(np.full(scales.size, push[0]), limit)
+    speeds, pushes, slips = [wheel], [wants], [loose]
+    for step, want in zip(np.diff(since).tolist(), push.tolist(), strict=False):
+        wants = np.minimum(want, wheel + limit)
+        toward = np.where(loose, wants - held, wants)
+        keep = np.exp(-step / np.where(loose, LIGHT * scales, scales))
+        wheel = toward + (wheel - toward) * keep
+        robot = np.where(loose, robot + held * step / scales, wheel)
+        caught = loose & (robot >= wheel)
+        wheel = np.where(caught, robot, wheel)
+        loose = (loose & ~caught) | (~loose & (wants - wheel > held))
+        speeds.append(wheel)
+        pushes.append(wants)
+        slips.append(loose)
+    return _Spun(np.stack(speeds, axis=1), np.stack(pushes, axis=1), np.stack(slips, axis=1))
+
+
+@dataclass(frozen=True, eq=False)
+class _Rise:
+    """The beginning of a dynamic test.
+
+    Args:
+        speed: (n,) [m/s or rad/s].
+        since: (n,) [s] since the voltage came on.
+        push: (n,) [m/s or rad/s] the speed at which each voltage would end.
+        scale: [s] the mechanism's timescale, about.
+    """
+
+    speed: Array
+    since: Array
+    push: Array
+    scale: float
+
+    def fit(self, held: Array) -> tuple[float, float, float]:
+        """The least miss [m/s or rad/s, RMS], the tires it is with, and when they grip [s]."""
+        scales, tires = (
+            grid.ravel() for grid in np.meshgrid(SCALES * self.scale, held, indexing="ij")
+        )
+        fine = max(1, SAMPLES // self.since.size)
+        at = np.arange(0.0, self.since.size - 1 + 0.5 / fine, 1.0 / fine)
+        since = np.interp(at, np.arange(self.since.size), self.since)
+        spun = _wheels(
+            self.push[np.minimum(at.astype(int), self.push.size - 1)],
+            since,
+            scales=scales,
+            held=tires * float(self.push.max()),
+        )
+        misses = self._misses(spun.speed[:, ::fine])
+        best = int(np.argmin(misses))
+        loose = np.flatnonzero(spun.loose[best])
+        grips = float(since[loose[-1]]) if loose.size else 0.0
+        return float(misses[best]), float(tires[best]), grips
+
+    def fit_limited(self) -> float:
+        """The least miss of a rise of limited current, in a log of what was commanded."""
+        scale, share = (
+            grid.ravel()[:, None]
+            for grid in np.meshgrid(SCALES * self.scale, LIMITS, indexing="ij")
+        )
+        until = scale * (1.0 - share) / share
+        later = 1.0 - share * np.exp(-(self.since - until) / scale)
+        rise = np.where(self.since < until, share * self.since / scale, later)
+        return float(np.min(self._misses(rise * float(self.push.max()))))
+
+    def _misses(self, shapes: Array) -> Array:
+        """(k,) the miss of each shape (k, n), at its best size and delay."""
+        period = float(np.median(np.diff(self.since)))
+        least = np.full(len(shapes), np.inf)
+        for late in sorted({round(delay / period) for delay in DELAYS.tolist()}):
+            moved = np.zeros_like(shapes)
+            moved[:, late:] = shapes[:, : shapes.shape[1] - late]
+            norms = np.maximum(np.sum(moved**2, axis=1), 1e-300)
+            size = np.clip(moved @ self.speed / norms, *SIZE)
+            left = self.speed - size[:, None] * moved
+            least = np.minimum(least, np.sqrt(np.mean(left**2, axis=1)))
+        return least
+
+
+def _smooth(values: Array) -> Array:
+    """A running mean of three samples."""
+    fed = np.pad(values, 1, mode="edge")
+    return np.asarray((fed[:-2] + fed[1:-1] + fed[2:]) / 3.0)
+
+
+def _step(run: Run) -> int:
+    """The sample where the voltage comes on."""
+    size = np.abs(run.voltage)
+    return int(np.argmax(size > ON * float(size.max())))
+
+
+FAULT = Fault(
+    name="wheel-slip",
+    summary="the wheels break loose under a step and spin ahead of the robot",
+    ordinary="the tires hold 40 % of what the step asks of them",
+    spoil=spoil,
+    detect=detect,
+    kinds=("dynamic",),
+    types=("simple",),
+    when=(0.0, 0.0),
+)

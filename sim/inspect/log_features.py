@@ -1,0 +1,227 @@
+"""Features of a log that detectors use, each computed once, on demand.
+
+Everything here is robust: one bad stretch must not bend what the rest of the log says.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.data.log import Array, Log, Run
+from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
+from sim.inspect.baseline_model import BaselineModel, fit_baseline
+
+STANDING = 0.03  # [share of the log's top speed] slower samples stand, as far as gains go
+WHITE, NORMAL = 20.0**0.5, 0.6745  # third differences of white noise; a normal median of |x|
+FEWEST = 6  # [samples] of voltage; fewer do not tell a ramp from a step
+RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
+DRIVEN = 0.05  # [share of a run's largest voltage] less is the time before and after the test
+AGREED = 0.6  # [mean of the signs] where 4 of 5 samples agree, a run has that sign
+RISEN = 0.632  # [share of the top speed] that one timescale brings
+MOVING = 0.1  # [share of a run's top speed] slower samples say little about how it moves
+STEPS, CREEP = 1.5, 2e-5  # [smallest steps of the position, share of its way] within: it stands
+PARTS = 10  # of a run's motion, judged one by one: a slip or a stop bends one or two of them
+TINY = 1e-12  # [times] no scale, for the logarithm of one
+LEAST = 3  # samples in a part, and parts of a motion
+FAR = 0.1  # [share of the longest part's distance] what a part must go to be judged
+Flags: TypeAlias = NDArray[np.bool_]
+Counts: TypeAlias = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class LogFeatures:
+    """Features of a log.
+
+    Args:
+        log: the record.
+    """
+
+    log: Log
+
+    @cached_property
+    def period(self) -> float:
+        """[s] median time between two samples of a run; nan if no run has two."""
+        steps = [np.diff(run.time) for run in self.log.runs if len(run) > 1]
+        return float(np.median(np.concatenate(steps))) if steps else float("nan")
+
+    @cached_property
+    def slopes(self) -> tuple[Array, ...]:
+        """Per run, (n,) [m/s or rad/s]: the velocity that its positions tell, by central steps."""
+        return tuple(
+            np.gradient(run.position, run.time) if len(run) > 1 else np.zeros(len(run))
+            for run in self.log.runs
+        )
+
+    @cached_property
+    def moving(self) -> tuple[Flags, ...]:
+        """Per run, (n,): whether it moves, by its velocity; nowhere if it never does."""
+        return tuple(np.abs(run.velocity) > MOVING * run.top_speed for run in self.log.runs)
+
+    @cached_property
+    def position_step(self) -> float:
+        """[m or rad] the smallest change of a position in the log; inf if none ever changes."""
+        return _smallest_step([run.position for run in self.log.runs])
+
+    @cached_property
+    def velocity_step(self) -> float:
+        """[m/s or rad/s] the smallest change of a velocity in the log; inf if none changes."""
+        return _smallest_step([run.velocity for run in self.log.runs])
+
+    @cached_property
+    def seems(self) -> tuple[str, ...]:
+        """Per run, the test that its voltage and its motion make it: ``quasistatic-forward``.
+
+        What they do not tell is taken from the name it is filed under: the direction where voltage
+        and motion disagree, and everything about a test that is neither a ramp nor a step.
+        """
+        return tuple(_seems(run) for run in self.log.runs)
+
+    @cached_property
+    def standing(self) -> tuple[int, ...]:
+        """Per run, how many samples its position stands from the start; 0 if it never leaves."""
+        return tuple(_standing(run, step=self.position_step) for run in self.log.runs)
+
+    @cached_property
+    def scales(self) -> tuple[float, ...]:
+        """Per run, the distance its velocities sum up to over what its position changes.
+
+        1 where a run moves too little to tell.
+        """
+        both = zip(self.log.runs, self.moving, strict=True)
+        return tuple(_scale(run, moving) for run, moving in both)
+
+    @cached_property
+    def noise(self) -> float:
+        """[m/s or rad/s] the velocity's noise in motion, told without a model.
+
+        From third differences of readings that are new: smooth motion leaves next to nothing.
+        """
+        thirds = []
+        for run in self.log.runs:
+            new = run.velocity[find_held_samples(run.velocity)[0]] if len(run) else run.velocity
+            third = np.abs(np.diff(new, n=3))
+            thirds.append(third[np.abs(new[3:]) > STANDING * run.top_speed])
+        third = np.concatenate([*thirds, np.zeros(0)])
+        return float(np.median(third) / NORMAL / WHITE) if third.size else 0.0
+
+    @cached_property
+    def still(self) -> float:
+        """[m/s or rad/s] a speed that tells motion from standstill."""
+        top = max((run.top_speed for run in self.log.runs), default=0.0)
+        return STANDING * top + 3.0 * self.noise
+
+    @cached_property
+    def baseline(self) -> BaselineModel | None:
+        """Which voltage its motion needs, by most of the log; None if the log cannot tell."""
+        return fit_baseline(self.log.runs, still=self.still, period=self.period)
+
+    @cached_property
+    def expected(self) -> tuple[Array, ...]:
+        """Per run, (n,) [m/s or rad/s]: the velocity its voltage should bring; () if untold."""
+        if self.baseline is None:
+            return ()
+        return tuple(
+            predict_velocity(run, self.baseline, still=self.still) if len(run) else np.zeros(0)
+            for run in self.log.runs
+        )
+
+    @cached_property
+    def anomalies(self) -> tuple[Anomaly, ...]:
+        """Where runs do not go the way their voltage says, in the order of time."""
+        if self.baseline is None:
+            return ()
+        return find_anomalies(
+            self.log.runs,
+            self.expected,
+            self.baseline,
+            still=self.still,
+            noise=self.noise,
+            period=self.period,
+        )
+
+    @cached_property
+    def timescale(self) -> float:
+        """[s] in which a step brings a dynamic test to 63 % of its top speed; 0 if none tells.
+
+        The median over the dynamic tests, from the last sample at rest; delays are part of it.
+        """
+        rises = [_rise(run) for run in self.log.runs if run.kind == "dynamic" and len(run)]
+        rises = [rise for rise in rises if rise > 0.0]
+        return float(np.median(rises)) if rises else 0.0
+
+
+def find_held_samples(values: Array) -> tuple[Counts, Counts]:
+    """Intervals in which a signal repeats one value.
+
+    Args:
+        values: (n,).
+
+    Returns:
+        Where each stretch starts, (m,), and how many samples it is long, (m,).
+    """
+    starts = np.flatnonzero(np.concatenate(([True], np.diff(values) != 0.0))[: values.size])
+    return starts, np.diff(np.append(starts, values.size))
+
+
+def majority_sign(values: Array) -> int:
+    """The sign of at least four fifths of the values: 1, -1, or 0 if there is none."""
+    mean = float(np.sign(values).mean()) if values.size else 0.0
+    return 0 if abs(mean) < AGREED else int(np.sign(mean))
+
+
+def _seems(run: Run) -> str:
+    if run.kind not in ("quasistatic", "dynamic"):
+        return run.test
+    size = np.abs(run.voltage)
+    driven = np.flatnonzero(size > DRIVEN * size.max(initial=0.0))
+    if driven.size < FEWEST:
+        return run.test
+    first, last = np.array_split(np.arange(driven[0], driven[-1] + 1), 2)
+    rise = float(np.median(size[first]) / (np.median(size[last]) or 1.0))
+    kind = "quasistatic" if rise < RAMP else "dynamic" if rise > STEP else run.kind
+    moving = last[np.abs(run.velocity[last]) > MOVING * run.top_speed]
+    pushed, moved = majority_sign(run.voltage[last]), majority_sign(run.velocity[moving])
+    if pushed * moved <= 0:
+        return f"{kind}-{run.direction}"
+    return f"{kind}-{'forward' if pushed > 0 else 'reverse'}"
+
+
+def _standing(run: Run, *, step: float) -> int:
+    band = max(STEPS * step, CREEP * float(np.ptp(run.position))) if len(run) else 0.0
+    away = np.abs(run.position - run.position[:1]) > band
+    return int(np.argmax(away)) if away.any() else 0
+
+
+def _scale(run: Run, moving: Flags) -> float:
+    """By the usual part of the motion: single slopes of a stale or coarse position mislead."""
+    motion = np.flatnonzero(moving)
+    parts = min(PARTS, motion.size // LEAST)
+    if parts < LEAST:
+        return 1.0
+    ends = np.linspace(motion[0], motion[-1], parts + 1).astype(int)
+    steps = np.diff(run.time) * 0.5 * (run.velocity[1:] + run.velocity[:-1])
+    summed = np.diff(np.concatenate(([0.0], np.cumsum(steps)))[ends])
+    changed = np.diff(run.position[ends])
+    far = np.abs(changed) > FAR * np.abs(changed).max()
+    if far.sum() < parts // 2:
+        return 1.0
+    usual = float(np.median(np.abs(summed[far] / changed[far])))
+    whole = float(np.abs(summed[far]).sum() / np.abs(changed[far]).sum())  # frames may be long
+    return min(usual, whole, key=lambda scale: abs(np.log(max(scale, TINY))))
+
+
+def _rise(run: Run) -> float:
+    """[s] from rest to 63 % of the top speed; 0 if the run does not start at rest."""
+    speed = np.abs(run.velocity)
+    up = int(np.argmax(speed > RISEN * run.top_speed))
+    still = np.flatnonzero(speed[:up] < MOVING * run.top_speed)
+    return float(run.time[up] - run.time[still[-1]]) if still.size else 0.0
+
+
+def _smallest_step(signals: list[Array]) -> float:
+    steps = np.concatenate([np.abs(np.diff(values)) for values in signals] or [np.zeros(0)])
+    steps = steps[steps > 0.0]
+    return float(steps.min()) if steps.size else float("inf")

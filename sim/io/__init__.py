@@ -1,0 +1,268 @@
+"""The log formats: read any file into a Log, write a Log into a file whose name says the format.
+
+Every package of this folder is a format (the contract is in ``format.py``), found by its place
+here. A file is known by its content first and by its suffix second, and only the module that is
+needed gets imported.
+"""
+
+import os
+import stat
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from difflib import get_close_matches
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
+from typing import NamedTuple, Protocol, cast
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest, Refusal, UnreadableFile
+from sim.data.log import Log
+from sim.data.units import unit
+from sim.data.vocabulary import TYPES
+from sim.io.format import HEAD, Format, ReadOptions
+from sim.support.atomic_file import atomic_path
+
+FORMATS = tuple(sorted(found.name for found in iter_modules(__path__) if found.ispkg))
+LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the one that was meant
+
+
+class _Writer(Format, Protocol):
+    """A format that can be written too."""
+
+    def write(self, log: Log, path: Path) -> None:
+        """Write the log as a file."""
+
+
+class _Foreign(NamedTuple):
+    """How to know a file that is of no format here, and what to tell its owner."""
+
+    starts: tuple[bytes, ...]
+    suffixes: tuple[str, ...]
+    what: str
+    advice: str
+
+
+_ROBOT_LOG = "Give the robot's own log: the .wpilog that DataLogManager writes."
+_FOREIGN = (
+    _Foreign(
+        (),
+        (".hoot",),
+        "a log of CTRE's SignalLogger (.hoot), whose inside only CTRE's tools can read",
+        "Convert it to WPILOG with Phoenix Tuner X (Log Extractor) or with owlet, and give that.",
+    ),
+    _Foreign(
+        (b"\x00\x00\x00\x04",),  # both kinds of the Driver Station's files open with their version
+        (".dslog", ".dsevents"),
+        "a log of the Driver Station, which holds no motor's voltage or position",
+        _ROBOT_LOG,
+    ),
+    _Foreign(
+        (),
+        (".revlog", ".rlog"),
+        "a log of REV's or AdvantageKit's own format",
+        "Open it in AdvantageScope, export it as WPILOG, and give that.",
+    ),
+    _Foreign(
+        (b"PK\x03\x04", b"PK\x05\x06"),
+        (),
+        "a zip archive or a workbook of a spreadsheet program",
+        "Unpack it, or save the sheet as CSV.",
+    ),
+    _Foreign((b"\x1f\x8b",), (), "packed with gzip", "Unpack it first."),
+    _Foreign((b"\x89PNG", b"\xff\xd8\xff", b"GIF8"), (), "a picture", _ROBOT_LOG),
+    _Foreign((b"%PDF",), (), "a PDF document", _ROBOT_LOG),
+    _Foreign((b"\xff\xfe", b"\xfe\xff"), (), "text in UTF-16", "Save it as UTF-8."),
+    _Foreign(
+        (b"<!doctype html", b"<html"),
+        (),
+        "a web page (HTML)",
+        "Download the file itself: on GitHub that is the button Raw.",
+    ),
+)
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    units: str | None = None,
+    type: str | None = None,  # noqa: A002 - the word of the command line and of Log
+    motor: str | None = None,
+    entries: Mapping[str, str] | None = None,
+) -> Log:
+    """Read a log of any format in this folder.
+
+    Args:
+        path: the file.
+        units: the unit of its positions; None takes what the file says, else the default.
+        type: ``simple``, ``elevator`` or ``arm``; None takes what the file says.
+        motor: which motor's signals, where the file has several; None combines them.
+        entries: signal -> the entry or column that holds it, where the names are not SysId's.
+
+    Returns:
+        The log; its ``source`` is the path as given, its ``doubts`` what was odd about it.
+
+    Raises:
+        UnreadableFile: missing, empty, too large, damaged, or of no format that is read here.
+        MissingSignal: an entry that every fit needs is not in it.
+        BadSample: it holds a number that cannot be a measurement.
+        BadRequest: an unknown unit, type or motor.
+    """
+    if type is not None and type not in TYPES:
+        raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
+    asked = ReadOptions(
+        units=None if units is None else unit(units).name,
+        type=type,
+        motor=motor,
+        entries=dict(entries or {}),
+    )
+    given = os.fspath(path)
+    try:
+        log = _reader(Path(given), _head(given)).read(Path(given), asked)
+    except Refusal as refusal:
+        if refusal.where.startswith((given, str(Path(given)))):
+            raise
+        where = f"{given}, {refusal.where}" if refusal.where else given
+        raise refusal.__class__(refusal.what, where=where, advice=refusal.advice) from None
+    except OSError as error:
+        raise UnreadableFile(
+            f"cannot be read ({error.strerror or error})", where=given, advice="Copy it again."
+        ) from None
+    return _typed(replace(log, source=given), type)
+
+
+def write(log: Log, path: str | os.PathLike[str]) -> None:
+    """Write a log in the format that the suffix of ``path`` names, whole or not at all.
+
+    Args:
+        log: what to write.
+        path: the file; one that exists is replaced.
+
+    Raises:
+        BadRequest: no format with this suffix can be written, the file cannot be, or the log
+            holds what the format cannot.
+    """
+    given = os.fspath(path)
+    if "\0" in given:
+        raise BadRequest("a path cannot hold a zero byte", advice="Give another path.")
+    writer = _writer(given)
+    target = Path(os.path.realpath(given))
+    try:
+        if target.exists() and not (target.is_file() and os.access(target, os.W_OK)):
+            raise BadRequest(
+                "is there already and cannot be replaced", where=given, advice="Choose another."
+            )
+        with atomic_path(target) as part:
+            writer.write(log, part)
+    except OSError as error:
+        raise BadRequest(
+            f"cannot be written ({error.strerror or error})",
+            where=given,
+            advice="Choose a folder that exists and that you may write to, and close the file if "
+            "another program has it open.",
+        ) from None
+
+
+def _typed(log: Log, wanted: str | None) -> Log:
+    """The log with the type a person asked for, and a doubt if its file says another."""
+    if wanted is None or wanted == log.type:
+        return log
+    if not log.type:
+        return replace(log, type=wanted)
+    doubt = Doubt(
+        "contradicting-type",
+        f"{log.source} says it is of type {log.type}; it is taken as {wanted}, as you asked. "
+        "Leave out the type to follow the file.",
+    )
+    return replace(log, type=wanted).with_doubts(doubt)
+
+
+def _modules(path: str) -> Iterator[tuple[str, Format]]:
+    """Every format by name, first those that share the suffix, so that few are imported."""
+    ending = Path(path).suffix.lower().lstrip(".")
+    for name in sorted(FORMATS, key=lambda name: not (ending and name.endswith(ending))):
+        yield name, cast("Format", import_module(f"{__name__}.{name}"))
+
+
+def _reader(path: Path, head: bytes) -> Format:
+    """The format of a file that starts with ``head``."""
+    modules = _modules(path.name)
+    seen = []
+    for _, module in modules:
+        if module.knows(head):
+            return module
+        seen.append(module)
+    suffix = path.suffix.lower()
+    opening = head.lstrip().lower()
+    for foreign in _FOREIGN:
+        if (
+            suffix in foreign.suffixes
+            or head.startswith(foreign.starts)
+            or opening.startswith(foreign.starts)
+        ):
+            raise UnreadableFile(f"this is {foreign.what}", advice=foreign.advice)
+    for module in seen:
+        if suffix in module.SUFFIXES:
+            return module  # it says best what is missing
+    suffixes = ", ".join(suffix for module in seen for suffix in module.SUFFIXES)
+    looks = "some binary format" if b"\x00" in head else "plain text without a log's first line"
+    raise UnreadableFile(
+        f"no log that can be read here; it looks like {looks}",
+        advice=f"Logs are {suffixes}; a CSV log begins with test,time_s,voltage,position,velocity.",
+    )
+
+
+def _writer(given: str) -> _Writer:
+    """The format whose suffix ends the path."""
+    writable: list[str] = []
+    for _, module in _modules(given):
+        if hasattr(module, "write"):
+            if given.lower().endswith(module.SUFFIXES):
+                return cast("_Writer", module)
+            writable.extend(module.SUFFIXES)
+    raise BadRequest(
+        f"no format that can be written ends in {Path(given).suffix or 'nothing'!r}",
+        where=given,
+        advice=f"End its name in one of: {', '.join(sorted(writable))}.",
+    )
+
+
+def _head(given: str) -> bytes:
+    """The first bytes of a file that is there, is a file, is not empty and not enormous."""
+    path = Path(given)
+    try:
+        state = path.stat()
+        if not stat.S_ISREG(state.st_mode):
+            kind = "a folder" if stat.S_ISDIR(state.st_mode) else "not a file on a disk"
+            raise UnreadableFile(f"this is {kind}", advice="Give the path of a log file.")
+        if state.st_size == 0:
+            raise UnreadableFile("the file is empty", advice="Copy it from the robot again.")
+        if state.st_size > LARGEST_FILE:
+            raise UnreadableFile(
+                f"the file has {state.st_size / 2**30:.1f} GiB, the most that is read is "
+                f"{LARGEST_FILE / 2**30:.0f} GiB",
+                advice="Export only the four tests from it, with AdvantageScope for example.",
+            )
+        with path.open("rb") as stream:
+            return stream.read(HEAD)
+    except (FileNotFoundError, NotADirectoryError):
+        raise UnreadableFile("there is no such file", advice=_neighbour(path)) from None
+    except PermissionError:
+        raise UnreadableFile(
+            "you may not read this file", advice="Change its permissions, or copy it."
+        ) from None
+    except ValueError as error:  # a path no system can hold, with a zero byte in it
+        raise UnreadableFile(
+            f"this is no path ({error})", advice="Give the path of a log file."
+        ) from None
+
+
+def _neighbour(path: Path) -> str:
+    """Advice for a path that leads nowhere: the name it is likely to mean, if there is one."""
+    with suppress(OSError):
+        names = [entry.name for entry in path.parent.iterdir() if entry.is_file()]
+        for name in get_close_matches(path.name, names, n=1):
+            return f"Did you mean {path.with_name(name)}?"
+        return "Check the spelling, and the folder you are in."
+    return f"There is no folder {path.parent} either: check the path."

@@ -1,0 +1,141 @@
+"""CSV: one row a sample, under the header ``test,time_s,voltage,position,velocity``.
+
+The columns may stand in any order; ``run``, ``current`` and ``bus_voltage`` may join them. Without
+``run``, a new run begins where the test changes or time goes back. Positions and velocities are in
+the unit of whoever owns the file, which the file does not say. What a European spreadsheet makes
+of such a file (``;`` between the cells, decimal commas) reads the same.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.data.errors import BadRequest, BadSample, UnreadableFile
+from sim.data.log import Array, Log, Run
+from sim.data.units import unit
+from sim.io.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, first_names, open_table
+from sim.io.format import ReadOptions, lone_motor, sound_run
+
+SUFFIXES = (".csv",)
+ENOUGH = 3  # [columns of ours in the first line] more than chance puts there
+
+
+def knows(head: bytes) -> bool:
+    """Whether the first line names enough of our columns."""
+    names = first_names(head.decode("utf-8-sig", errors="replace"))
+    return len(names & set(KNOWN)) >= ENOUGH
+
+
+def read(path: Path, asked: ReadOptions) -> Log:
+    """Read a CSV log.
+
+    Args:
+        path: the file.
+        asked: what its reader knows: units, type, and columns of other names (``entries``).
+
+    Raises:
+        UnreadableFile: not UTF-8, no rows, rows of unequal length, or an unknown test.
+        MissingSignal: a column is missing.
+        BadSample: a cell is not a finite number; the message names line and column.
+    """
+    table = open_table(path, entries=asked.entries)
+    tests, codes = table.tests()
+    signals = {"time": table.numbers("time_s")}
+    signals |= {name: table.numbers(name) for name in ("voltage", "position", "velocity")}
+    signals |= {name: table.numbers(name, gaps=True) for name in EXTRA if name in table.cells}
+    si = unit(asked.units_or_default).si
+    runs: list[Run] = []
+    doubts = [*table.doubts, *lone_motor(asked, where=table.where)]
+    for number, rows in enumerate(_split(table, codes, signals["time"])):
+        mine = {
+            name: values[rows]
+            for name, values in signals.items()
+            if name not in EXTRA or _present(table, name, values[rows], rows)
+        }
+        where = f"{table.where}, run {number}"
+        run, said = sound_run(tests[codes[rows[0]]], mine, si=si, where=where)
+        runs.append(run)
+        doubts.extend(said)
+    return Log(
+        tuple(runs),
+        units=asked.units_or_default,
+        type=asked.type or "",
+        source=table.where,
+        doubts=tuple(doubts),
+    )
+
+
+def write(log: Log, path: Path) -> None:
+    """Write a log, every number in the shortest form that reads back as the same bits.
+
+    The column ``run`` is there when a test occurs twice; else the tests tell the runs apart.
+
+    Args:
+        log: what to write; positions go out in its ``units``.
+        path: the file.
+
+    Raises:
+        BadRequest: a run without samples, or no runs: a row of CSV is a sample.
+    """
+    if not log.runs or not all(len(run) for run in log.runs):
+        raise BadRequest(
+            "a run of the log has no samples" if log.runs else "the log has no runs",
+            advice="Write a log whose runs all have samples: a row of CSV is one.",
+        )
+    numbered = len({run.test for run in log.runs}) < len(log.runs)
+    extra = [name for name in EXTRA if any(getattr(run, name) is not None for run in log.runs)]
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        stream.write(",".join([*(["run"] if numbered else []), *NEEDED, *extra]) + "\n")
+        for number, run in enumerate(log.runs):
+            prefix = f"{number},{run.test}," if numbered else f"{run.test},"
+            for row in _rows(run, extra=extra, si=unit(log.units).si):
+                stream.write(f"{prefix}{row}\n")
+
+
+def _rows(run: Run, *, extra: list[str], si: float) -> Iterator[str]:
+    """The numbers of a run, a row at a time."""
+    signals: list[Array | None] = [run.time, run.voltage, run.position / si, run.velocity / si]
+    signals += [getattr(run, name) for name in extra]
+    cells = [[""] * len(run) if one is None else map(repr, one.tolist()) for one in signals]
+    return map(",".join, zip(*cells, strict=True))
+
+
+def _present(table: CsvTable, name: str, values: Array, rows: NDArray[np.intp]) -> bool:
+    """Whether a run has a signal at all; one that comes and goes within a run is refused."""
+    empty = np.isnan(values)
+    if empty.any() and not empty.all():
+        raise BadSample(
+            f"{name} is empty, in a run that has it elsewhere",
+            where=table.at(int(rows[np.argmax(empty)])),
+            advice="Fill the column for the whole run, or empty it.",
+        )
+    return not empty.all()
+
+
+def _split(table: CsvTable, codes: NDArray[np.intp], time: Array) -> Iterator[NDArray[np.intp]]:
+    """The rows of each run, in the order the runs begin."""
+    if "run" not in table.cells:
+        fresh = (np.diff(codes) != 0) | (np.diff(time) < 0)
+        yield from np.split(np.arange(time.size), np.flatnonzero(fresh) + 1)
+        return
+    number_of: dict[str, int] = {}
+    numbers = np.array(
+        [number_of.setdefault(cell.strip(), len(number_of)) for cell in table.cells["run"]]
+    )
+    order = np.argsort(numbers, kind="stable")
+    labels = list(number_of)
+    for rows in np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1):
+        for wrong, what in (
+            (np.diff(codes[rows]) != 0, "changes its test"),
+            (np.diff(time[rows]) < 0, "goes back in time"),
+        ):
+            if wrong.any():
+                raise UnreadableFile(
+                    f"run {labels[numbers[rows[0]]][:40]!r} {what} here",
+                    where=table.at(int(rows[np.argmax(wrong) + 1])),
+                    advice="Give every run a value of its own in the column run, or leave the "
+                    "column out.",
+                )
+        yield rows

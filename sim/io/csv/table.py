@@ -1,0 +1,257 @@
+"""A CSV file taken apart: cells by column, each with its line, so that an error can name it."""
+
+import csv
+import io
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest, BadSample, MissingSignal, UnreadableFile
+from sim.data.log import LARGEST, Array
+from sim.data.vocabulary import DIRECTIONS, KINDS, TESTS
+
+NEEDED = ("test", "time_s", "voltage", "position", "velocity")
+EXTRA = ("current", "bus_voltage")  # written where a run has them; empty cells where it has not
+KNOWN = ("run", *NEEDED, *EXTRA)
+WORDS = ("run", "test")  # the columns that hold words; the others hold numbers
+
+_ENTRY = {"state": "test"}  # a signal's name where it differs from our column's
+
+# What the tools before 2024, and people, call the kinds and directions of tests.
+_SAME = {
+    "slow": "quasistatic",
+    "fast": "dynamic",
+    "forwards": "forward",
+    "backward": "reverse",
+    "backwards": "reverse",
+}
+
+
+@dataclass(frozen=True)
+class CsvTable:
+    """The cells of a file.
+
+    Args:
+        where: the file.
+        cells: our name of a column -> its cells, one for every row.
+        lines: the line on which each row ends, from 1.
+        comma: whether the decimal sign is a comma.
+        doubts: what was odd about the header.
+    """
+
+    where: str
+    cells: Mapping[str, tuple[str, ...]]
+    lines: list[int]
+    comma: bool = False
+    doubts: tuple[Doubt, ...] = ()
+
+    def at(self, row: int) -> str:
+        """The place of a row, for messages."""
+        return f"{self.where}, line {self.lines[row]}"
+
+    def tests(self) -> tuple[list[str], NDArray[np.intp]]:
+        """The tests that occur, and (rows,) which of them each row belongs to.
+
+        Raises:
+            UnreadableFile: a cell names no test; the message lists those there are.
+        """
+        found: list[str] = []
+        code_of: dict[str, int] = {}
+        for row, cell in enumerate(self.cells["test"]):
+            if cell not in code_of:
+                words = re.split(r"[\s_-]+", cell.strip().lower())
+                test = "-".join(_SAME.get(word, word) for word in words)
+                if test not in TESTS:
+                    raise UnreadableFile(
+                        f"test is {cell[:40]!r}, which is no test's name",
+                        where=self.at(row),
+                        advice=f"Tests are {'|'.join(KINDS)}, then -{' or -'.join(DIRECTIONS)}.",
+                    )
+                if test not in found:
+                    found.append(test)
+                code_of[cell] = found.index(test)
+        return found, np.array([code_of[cell] for cell in self.cells["test"]], dtype=np.intp)
+
+    def numbers(self, name: str, *, gaps: bool = False) -> Array:
+        """One column as (rows,) numbers, all finite; with ``gaps``, an empty cell becomes nan.
+
+        Raises:
+            BadSample: a cell that is not a finite number; the message names its line.
+        """
+        cells = self._plain(name, gaps=gaps)
+        try:
+            values = np.array([float(cell) for cell in cells])
+        except ValueError:
+            values = np.full(len(cells), np.nan)
+            odd = np.array([not _numeric(cell) for cell in cells])
+        else:
+            odd = ~(np.abs(values) < LARGEST)
+            if "_" in "".join(cells):  # 1_000 is a number to Python only
+                odd |= ["_" in cell for cell in cells]
+        if gaps:
+            odd &= [cell != "" and not cell.isspace() for cell in self.cells[name]]
+        if odd.any():
+            row = int(np.argmax(odd))
+            raise BadSample(
+                f"{name} {_trouble(self.cells[name][row].strip(), numeric=_numeric(cells[row]))}",
+                where=self.at(row),
+                advice="Write a number there, or remove the line.",
+            )
+        return values
+
+    def _plain(self, name: str, *, gaps: bool) -> Sequence[str]:
+        """The cells of a column as Python writes numbers, where they hold any."""
+        cells: Sequence[str] = self.cells[name]
+        if self.comma:
+            cells = [cell.replace(",", ".") for cell in cells]
+        return [cell.strip() or "nan" for cell in cells] if gaps else cells
+
+
+def first_names(text: str) -> set[str]:
+    """The names in the first line that is not blank."""
+    first = re.split(r"[\r\n]", text.lstrip(), maxsplit=1)[0]
+    return {cell.strip(' "').lower() for cell in re.split(r"[,;\t]", first)}
+
+
+def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
+    """Take a file apart into cells.
+
+    Args:
+        path: the file.
+        entries: signal -> the name of its column in this file, where it is not ours.
+
+    Raises:
+        UnreadableFile: not UTF-8, no rows, or rows of unequal length.
+        MissingSignal: a column is missing.
+        BadRequest: ``entries`` names a signal that is none.
+    """
+    where = str(path)
+    text = _text(path)
+    delimiter = _delimiter(text)
+    header: list[str] = []
+    rows: list[tuple[int, list[str]]] = []
+    for line, row in _rows(text, delimiter=delimiter, where=where):
+        if not header:
+            header = [cell.strip().lower() for cell in row]
+        elif len(row) == len(header):
+            rows.append((line, row))
+        else:
+            raise UnreadableFile(
+                f"the row has {len(row)} cells where the header has {len(header)}",
+                where=f"{where}, line {line}",
+                advice="Complete the line, or remove it.",
+            )
+    place, doubts = _columns(header, entries=entries, where=where)
+    if not rows:
+        raise UnreadableFile("a header without rows", where=where, advice="Record a test first.")
+    columns = list(zip(*(row for _, row in rows), strict=True))
+    cells = {name: columns[index] for name, index in place.items()}
+    lines = [line for line, _ in rows]
+    comma = delimiter != "," and _comma(cells, where=where)
+    return CsvTable(where, cells, lines, comma, doubts)
+
+
+def _text(path: Path) -> str:
+    """The file's text, its line ends made equal."""
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise UnreadableFile(
+            f"byte {error.start} is not UTF-8 text",
+            where=str(path),
+            advice="Save the file as CSV in UTF-8.",
+        ) from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _delimiter(text: str) -> str:
+    """What stands between the cells: no name holds one of these signs, so the header tells."""
+    return max(",;\t", key=text.lstrip().partition("\n")[0].count)
+
+
+def _rows(text: str, *, delimiter: str, where: str) -> Iterator[tuple[int, list[str]]]:
+    """The line and the cells of each row that is not blank."""
+    reader = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
+    try:
+        for row in reader:
+            if any(row) and not (len(row) == 1 and row[0].isspace()):
+                yield reader.line_num, row
+    except csv.Error as error:
+        raise UnreadableFile(
+            f"damaged CSV ({error})",
+            where=f"{where}, line {reader.line_num}",
+            advice="Look for a quotation mark without its partner.",
+        ) from None
+
+
+def _columns(
+    header: list[str], *, entries: Mapping[str, str], where: str
+) -> tuple[dict[str, int], tuple[Doubt, ...]]:
+    """Our name of each column -> its place, and a doubt about columns nobody knows."""
+    named = {_ENTRY.get(name, name): title.strip().lower() for name, title in entries.items()}
+    for name in named:
+        if name not in KNOWN:
+            raise BadRequest(
+                f"{name!r} is not a signal", advice=f"Choose among: {', '.join(KNOWN)}."
+            )
+    titles = {name: named.get(name, name) for name in KNOWN}
+    for title in titles.values():
+        if header.count(title) > 1:
+            raise UnreadableFile(
+                f"two columns are named {title}", where=where, advice="Remove or rename one."
+            )
+    place = {name: header.index(title) for name, title in titles.items() if title in header}
+    missing = [titles[name] for name in NEEDED if name not in place]
+    if missing:
+        raise MissingSignal(
+            f"no column {' or '.join(missing)}; the first line is {','.join(header)[:80]!r}",
+            where=where,
+            advice=f"Name the columns {','.join(NEEDED)} in the first line, or say what they are "
+            "called with --state, --voltage, --position and --velocity.",
+        )
+    ignored = [name for name in header if name and name not in titles.values()]
+    doubt = Doubt(
+        "unknown-column",
+        f"{where}: nothing here reads the columns {', '.join(map(repr, ignored))}; they were left "
+        f"out. Known are {', '.join(KNOWN)}.",
+    )
+    return place, (doubt,) if ignored else ()
+
+
+def _comma(cells: Mapping[str, tuple[str, ...]], *, where: str) -> bool:
+    """Whether the decimal sign is a comma; a file that has points as well is refused."""
+    signs = {
+        sign
+        for name, column in cells.items()
+        if name not in WORDS
+        for sign in ",."
+        if any(sign in cell for cell in column)
+    }
+    if len(signs) > 1:
+        raise UnreadableFile(
+            "both commas and points stand in its numbers",
+            where=where,
+            advice="Save it with one decimal sign, and without one for thousands.",
+        )
+    return "," in signs
+
+
+def _numeric(cell: str) -> bool:
+    """Whether the cell is written as a number, finite or not."""
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return "_" not in cell
+
+
+def _trouble(cell: str, *, numeric: bool) -> str:
+    """What is wrong with a cell that should hold a number."""
+    if not cell:
+        return "is empty"
+    return f"is {cell[:40]}" if numeric else f"is {cell[:40]!r}, not a number"

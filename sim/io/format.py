@@ -1,0 +1,115 @@
+"""The contract of a log format: a module in ``sim/io`` that reads a file into a Log.
+
+A module offers
+
+    SUFFIXES : tuple[str, ...]                 endings of its files, lower case: (".wpilog",)
+    def knows(head: bytes) -> bool             whether a file that starts like this is its own
+    def read(path: Path, asked: Reading) -> Log
+    def write(log: Log, path: Path) -> None    optional: some formats are only read
+
+and is found by its place in the folder. Formats do not import one another.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadSample
+from sim.data.log import LARGEST, Array, Log, Run
+
+HEAD = 4096  # [bytes] how much of a file `knows` is shown
+
+
+@dataclass(frozen=True)
+class ReadOptions:
+    """What the person who reads a file knows about it; None where the file shall say.
+
+    Args:
+        units: the unit of the positions in the file.
+        type: ``simple``, ``elevator`` or ``arm``.
+        motor: which motor's signals, where the file has several (``left``); None combines them.
+        entries: signal (``voltage``, ``position``, ``velocity``) -> the entry that holds it,
+            for logs that do not use SysId's names.
+    """
+
+    units: str | None = None
+    type: str | None = None
+    motor: str | None = None
+    entries: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def units_or_default(self) -> str:
+        """The units asked for, else radians for an arm and meters for the rest."""
+        return self.units or ("radians" if self.type == "arm" else "meters")
+
+
+class Format(Protocol):
+    """What a module in ``sim/io`` looks like from outside."""
+
+    SUFFIXES: tuple[str, ...]
+
+    def knows(self, head: bytes) -> bool:
+        """Whether a file whose first bytes are ``head`` is of this format."""
+
+    def read(self, path: Path, asked: ReadOptions) -> Log:
+        """Read a file."""
+
+
+def lone_motor(asked: ReadOptions, *, where: str) -> tuple[Doubt, ...]:
+    """A doubt if a motor was asked for in a file that holds the signals of one only."""
+    if asked.motor is None:
+        return ()
+    return (
+        Doubt(
+            "one-motor",
+            f"{where} holds one motor's signals and does not name it, so {asked.motor!r} made no "
+            "difference.",
+        ),
+    )
+
+
+def sound_run(
+    test: str, signals: Mapping[str, Array], *, si: float, where: str
+) -> tuple[Run, tuple[Doubt, ...]]:
+    """Make a Run of raw columns: refuse what is no measurement, drop repeated times, go to SI.
+
+    Args:
+        test: one of ``sim.data.log.TESTS``.
+        signals: ``time``, ``voltage``, ``position``, ``velocity``, and optionally ``current`` and
+            ``bus_voltage``; each (n,), position and velocity in the file's unit.
+        si: meters or radians in one of the file's unit.
+        where: the file and the run, for messages.
+
+    Returns:
+        The run, and a doubt if samples with a repeated time were dropped.
+
+    Raises:
+        BadSample: a value is nan, infinite or absurd; the message names signal, sample and time.
+    """
+    time = signals["time"]
+    for name, values in signals.items():
+        bad = np.flatnonzero(~(np.abs(values) < LARGEST))
+        if bad.size:
+            at = f" (t = {time[bad[0]]:.6g} s)" if name != "time" else ""
+            raise BadSample(
+                f"{name} is {values[bad[0]]:.6g} at sample {bad[0]}{at}",
+                where=f"{where}, {test}" if where else test,
+                advice="Remove that sample, or record the run again.",
+            )
+    keep = np.concatenate(([True], np.diff(time) > 0)) if time.size else np.ones(0, dtype=bool)
+    kept = {name: values[keep] for name, values in signals.items()}
+    for name in ("position", "velocity"):
+        kept[name] = kept[name] * si
+    dropped = int(time.size - np.count_nonzero(keep))
+    doubts = (
+        Doubt(
+            "repeated-time",
+            f"{where}, {test}: {dropped} of {time.size} samples repeat the time of the one before "
+            "and were left out. Look at how the log was recorded or exported.",
+        ),
+    )
+    return Run(test, **kept), doubts if dropped else ()

@@ -1,0 +1,113 @@
+"""A drivetrain before 2024: its two sides made one, or one of them chosen.
+
+For "combined" gains SysId stacked the rows of both sides in one regression. Here the sides are
+averaged into one run, because they are not two experiments: the chassis couples them, so a push
+on the right speeds up the left, and only the mean of the voltages and the mean of the velocities
+obey one equation. It halves the noise as well, and leaves one run per test, so that nothing later
+takes two views of the same seconds for two recordings. Each side alone can still be asked for.
+
+A drivetrain that turned on the spot (``Drivetrain (Angular)``) is the same with the left side's
+signs reversed: what remains is half of right minus left, the speed of the wheels while turning,
+which is what SysId of 2023 fitted too.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest, MissingSignal
+from sim.io.sysid_json.side import Side, align_signs, doubt_of, test_sign
+
+STILL = 0.02  # [share of the other side's largest velocity] an encoder that counts nothing
+APART = 0.2  # [share of the mean velocity, RMS] two sides of one chassis do not differ so much
+SIDES = ("left", "right")
+MOTORS = (*SIDES, "combined")
+
+
+def two_sides(
+    sides: Sequence[Mapping[str, Side]], *, motor: str, angular: bool, where: str
+) -> tuple[dict[str, Side], list[Doubt]]:
+    """The runs of a drivetrain as those of one side, or of both made one.
+
+    Args:
+        sides: left and right, each test -> what it logged.
+        motor: ``left``, ``right`` or ``combined``.
+        angular: whether it turned on the spot: left runs backward while right runs forward.
+        where: the file, for messages.
+
+    Raises:
+        BadRequest: there is no such motor.
+        MissingSignal: both are wanted, and one does not move.
+    """
+    if motor not in MOTORS:
+        raise BadRequest(
+            f"a drivetrain has no motor {motor!r}",
+            where=where,
+            advice=f"Choose --motor from: {', '.join(MOTORS)}.",
+        )
+    doubts: list[Doubt] = []
+    halves = []
+    for runs, name in zip(sides, SIDES, strict=True):
+        settled, odd = align_signs(runs, name, mirrored=angular and name == "left", where=where)
+        halves.append(settled)
+        doubts += odd if motor in (name, "combined") else []
+    for index, tests in _face_alike(halves).items():
+        if motor in (SIDES[index], "combined"):
+            doubts.append(doubt_of("mirrored-side", SIDES[index], tests, where=where))
+    if angular:
+        doubts.append(_turning(where))
+    if motor != "combined":
+        return halves[SIDES.index(motor)], doubts
+    doubts += _unlike(halves, where=where)
+    return {test: _mean(halves[0][test], halves[1][test]) for test in sides[0]}, doubts
+
+
+def _face_alike(halves: list[dict[str, Side]]) -> dict[int, list[str]]:
+    """Turn the side that runs against the other and the test's name; which side, in which tests."""
+    changed: dict[int, list[str]] = {}
+    for test in halves[0]:
+        ways = [half[test].ways[1] for half in halves]
+        if ways[0] * ways[1] < 0:
+            wrong = ways.index(-test_sign(test))
+            halves[wrong][test] = halves[wrong][test].turned(voltage=True, motion=True)
+            changed.setdefault(wrong, []).append(test)
+    return changed
+
+
+def _unlike(halves: list[dict[str, Side]], *, where: str) -> list[Doubt]:
+    """A doubt where the sides move differently.
+
+    Raises:
+        MissingSignal: one side does not move at all, so that a mean would be half of the truth.
+    """
+    left, right = halves
+    fastest = [max(np.abs(side.velocity).max() for side in half.values()) for half in halves]
+    for index, name in enumerate(SIDES):
+        if fastest[index] < STILL * fastest[1 - index]:
+            raise MissingSignal(
+                f"the {name} encoder of the drivetrain stands still while the other side moves",
+                where=where,
+                advice=f"Read the other side alone: --motor {SIDES[1 - index]}.",
+            )
+    apart = []
+    for test in left:
+        gap = np.mean((left[test].velocity - right[test].velocity) ** 2)
+        if gap > APART**2 * np.mean(_mean(left[test], right[test]).velocity ** 2):
+            apart.append(test)
+    return [doubt_of("sides-differ", "left and right", apart, where=where)] if apart else []
+
+
+def _mean(left: Side, right: Side) -> Side:
+    """The drivetrain as one: the mean of its sides."""
+    return Side(*(0.5 * (a + b) for a, b in zip(left.columns, right.columns, strict=True)))
+
+
+def _turning(where: str) -> Doubt:
+    """What the gains of a drivetrain that turned on the spot mean."""
+    return Doubt(
+        "turning-drivetrain",
+        f"{where} is of a drivetrain turning on the spot: its velocity is the wheels' while "
+        "turning, counter-clockwise positive. For kV and kA per radian of the robot, multiply by "
+        "half the track width.",
+    )

@@ -1,0 +1,221 @@
+"""The rows of the tools before 2024: JSON taken apart into one table of numbers per test."""
+
+import json
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadSample, UnreadableFile
+from sim.data.log import LARGEST, Array
+from sim.io.sysid_json.said import StatedUnits
+
+RUNS = {
+    "slow-forward": "quasistatic-forward",
+    "slow-backward": "quasistatic-reverse",
+    "fast-forward": "dynamic-forward",
+    "fast-backward": "dynamic-reverse",
+}
+TRACK_WIDTH = "track-width"  # a turn on the spot that measured the wheels' distance: no test here
+_SIGNALS = ("voltage", "position", "velocity")
+EMPTIEST = 4.0  # [V] a robot whose battery is lower does not run
+
+
+@dataclass(frozen=True)
+class Form:
+    """Which column of a row holds what; time is the first in all.
+
+    Args:
+        sides: for each side, its columns of voltage, position and velocity.
+        battery: the column of the battery's voltage, where there is one.
+    """
+
+    sides: tuple[tuple[int, int, int], ...]
+    battery: int | None = None
+
+    @property
+    def names(self) -> dict[int, str]:
+        """The columns that are read -> what they hold; a gyro's are not."""
+        names = {0: "time"} | ({} if self.battery is None else {self.battery: "battery voltage"})
+        for side, columns in zip(("left ", "right "), self.sides, strict=False):
+            prefix = side if len(self.sides) > 1 else ""
+            names |= {c: f"{prefix}{n}" for c, n in zip(columns, _SIGNALS, strict=True)}
+        return names
+
+
+_FORMS = {
+    4: Form(((1, 2, 3),)),  # SysId 2021 to 2023, one mechanism
+    6: Form(((3, 4, 5),), battery=1),  # 2019 and 2020, one mechanism; [2] is the speed asked for
+    9: Form(((1, 3, 5), (2, 4, 6))),  # SysId 2021 to 2023, drivetrain; [7], [8] are the gyro's
+    10: Form(((3, 5, 7), (4, 6, 8)), battery=1),  # 2020, drivetrain; [9] is the gyro's angle
+}
+_NINE_OF_2019 = Form(((3, 5, 7), (4, 6, 8)), battery=1)  # as the ten of 2020, without a gyro
+
+
+def load_json(path: Path) -> dict[str, object]:
+    """Decode the file; every number in it becomes a float.
+
+    Raises:
+        UnreadableFile: not an object of JSON; the message says where the damage is.
+    """
+    try:
+        # Whole numbers as floats too: then no number is too long, and a row has one type.
+        document = json.loads(path.read_bytes(), parse_int=float, object_pairs_hook=_object)
+    except json.JSONDecodeError as error:
+        ends = error.pos >= len(error.doc.rstrip())
+        raise UnreadableFile(
+            "the file ends in the middle" if ends else f"damaged JSON ({error.msg})",
+            where=f"{path}, line {error.lineno}, column {error.colno}",
+            advice="Copy it again from the computer that recorded it.",
+        ) from None
+    except UnicodeDecodeError as error:
+        raise UnreadableFile(
+            f"byte {error.start} is not text",
+            where=str(path),
+            advice="Copy it again from the computer that recorded it.",
+        ) from None
+    except RecursionError:
+        document = None
+    if not isinstance(document, dict):
+        raise UnreadableFile(
+            "not an object with a list of rows for every test",
+            where=str(path),
+            advice="Give the JSON that SysId saved, unchanged.",
+        )
+    return document
+
+
+def tables_of(
+    document: Mapping[str, object], *, where: str
+) -> tuple[dict[str, Array], list[Doubt]]:
+    """Test -> its (n, columns) table, and doubts about what was left out.
+
+    Raises:
+        UnreadableFile: no run, or rows that are not lists of equally many numbers.
+    """
+    present = [key for key in RUNS if key in document]
+    tables = {
+        RUNS[key]: _table(document[key], where=f"{where}, {key}")
+        for key in present
+        if document[key] != []
+    }
+    if not tables:
+        raise UnreadableFile(
+            "all its runs are empty" if present else "there is no run in it",
+            where=where,
+            advice=f"Give a file with rows under {', '.join(RUNS)}.",
+        )
+    doubts = [
+        Doubt("empty-run", f"{where}: {key} is there but has no rows; record that test again.")
+        for key in present
+        if document[key] == []
+    ]
+    strange = [
+        key
+        for key, value in document.items()
+        if isinstance(value, list) and key not in (*RUNS, TRACK_WIDTH)
+    ]
+    if strange:
+        doubts.append(
+            Doubt(
+                "unknown-run",
+                f"{where}: {', '.join(map(repr, strange))}: no tool wrote such a run; left out.",
+            )
+        )
+    return tables, doubts
+
+
+def form_of(tables: Mapping[str, Array], said: StatedUnits, *, where: str) -> Form:
+    """Which form the rows have: by their width, by what they hold, by what the file says.
+
+    Raises:
+        UnreadableFile: no tool wrote rows of this width, or not for such a mechanism, or the runs
+            differ in width.
+    """
+    widths = {test: table.shape[1] for test, table in tables.items()}
+    if len(set(widths.values())) > 1:
+        raise UnreadableFile(
+            "its runs have rows of different widths: "
+            + ", ".join(f"{width} numbers in {test}" for test, width in widths.items()),
+            where=where,
+            advice="Give a file as the tool saved it, not two joined.",
+        )
+    width = next(iter(widths.values()))
+    if width not in _FORMS:
+        raise UnreadableFile(
+            f"its rows have {width} numbers",
+            where=where,
+            advice=f"The tools wrote rows of {', '.join(map(str, _FORMS))}: give their file.",
+        )
+    form = _FORMS[width]
+    if form.battery is None and len(form.sides) > 1 and not said.sysid and _oldest(tables):
+        form = _NINE_OF_2019
+    if len(form.sides) == 1 or said.drivetrain:
+        return form
+    if said.type and form.battery is None:
+        raise UnreadableFile(
+            f"its rows are those of a drivetrain, but its test is {said.mechanism!r}",
+            where=where,
+            advice='Write "Drivetrain" there if it is one.',
+        )
+    # The tools of 2020 wrote a drivetrain's row for every mechanism, the right side all zero.
+    unused = not any(np.any(table[:, list(form.sides[1])]) for table in tables.values())
+    return replace(form, sides=form.sides[:1]) if said.type or unused else form
+
+
+def _oldest(tables: Mapping[str, Array]) -> bool:
+    """Whether the second column can be a battery and the third a speed from -1 to 1."""
+    return all(
+        bool(np.all(table[:, 1] > EMPTIEST) and np.all(np.abs(table[:, 2]) <= 1.0))
+        for table in tables.values()
+    )
+
+
+def check_columns(tables: Mapping[str, Array], form: Form, *, where: str) -> None:
+    """Refuse what is no measurement, in the columns that are read.
+
+    Raises:
+        BadSample: a number that is missing, not finite or absurdly large.
+    """
+    for test, table in tables.items():
+        for column, name in form.names.items():
+            odd = np.flatnonzero(~(np.abs(table[:, column]) < LARGEST))
+            if odd.size:
+                raise BadSample(
+                    f"{name} is {table[odd[0], column]:.6g} in row {odd[0]}",
+                    where=f"{where}, {test}",
+                    advice="Remove that row, or record the run again.",
+                )
+
+
+def _object(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    """An object of JSON, none of whose names stands in it twice."""
+    (name, times) = Counter(name for name, _ in pairs).most_common(1)[0] if pairs else ("", 0)
+    if times > 1:
+        raise UnreadableFile(
+            f"{name[:40]!r} stands in it {times} times", advice="Keep one, and remove the others."
+        )
+    return dict(pairs)
+
+
+def _table(rows: object, *, where: str) -> Array:
+    """The rows of a run as (n, columns) numbers, nan where one is missing."""
+    if not isinstance(rows, list) or not all(type(row) is list for row in rows):
+        raise UnreadableFile(
+            "not a list of rows", where=where, advice="Give the JSON that SysId saved, unchanged."
+        )
+    width = Counter(map(len, rows)).most_common(1)[0][0]
+    kinds = {float, type(None)}  # SysId wrote null where a sensor it had not gave no number
+    if set(map(len, rows)) != {width} or not set(map(type, chain.from_iterable(rows))) <= kinds:
+        for number, row in enumerate(rows):
+            if len(row) != width or not all(type(value) in kinds for value in row):
+                raise UnreadableFile(
+                    f"{json.dumps(row)[:60]} is not a row of {width} numbers like the others",
+                    where=f"{where}, row {number}",
+                    advice="Remove the row, or copy the file again.",
+                )
+    return np.array(rows, dtype=np.float64)

@@ -1,0 +1,162 @@
+"""One side of a mechanism before 2024, and the sign of its voltage set right.
+
+The old tools gave every voltage the sign of its velocity, sample by sample, so teams never saw
+that theirs were recorded without a sign or the other way round. Here a sign is changed only for a
+whole run, only where the data leave no choice, and every change is a doubt.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.log import Array
+
+MOVING = 0.2  # [share of the largest] below it, friction and noise decide the sign
+CLEAR = 0.6  # [mean of the signs] where 4 of 5 samples agree, the run has that sign
+NOISE = 0.05  # [share of the largest voltage] what a reading may stray over zero
+
+# Of each doubt: what was found and done, and what to do about it.
+_SAID = {
+    "unsigned-voltage": (
+        "the voltage was recorded without a sign; it got that of the velocity",
+        "Log the signed voltage next time.",
+    ),
+    "inverted-voltage": (
+        "the voltage had the sign opposite to the velocity and was turned round",
+        "Check which motors are inverted.",
+    ),
+    "inverted-encoder": (
+        "position and velocity went against voltage and test and were turned round",
+        "Check the phase of the encoder.",
+    ),
+    "mirrored-side": (
+        "this side ran against the other one and against the test, and was turned round",
+        "Check which side is inverted.",
+    ),
+    "unclear-sign": (
+        "voltage and velocity agree in sign too seldom to tell which way it went",
+        "Look at that run, or record it again.",
+    ),
+    "sides-differ": (
+        "their velocities are far apart, and their mean stands for both",
+        "Read each side alone, --motor left and --motor right, and compare.",
+    ),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Side:
+    """What one side of a mechanism logged in one run.
+
+    Args:
+        voltage: (n,) [V].
+        position: (n,) [as the file counts].
+        velocity: (n,) [the same per second].
+    """
+
+    voltage: Array
+    position: Array
+    velocity: Array
+
+    @property
+    def columns(self) -> tuple[Array, Array, Array]:
+        """The three together."""
+        return self.voltage, self.position, self.velocity
+
+    @property
+    def ways(self) -> tuple[int, int]:
+        """The signs of voltage and velocity while it moves: 1, -1, or 0 where it is unclear."""
+        voltage, velocity = np.abs(self.voltage), np.abs(self.velocity)
+        moving = (voltage > MOVING * voltage.max()) & (velocity > MOVING * velocity.max())
+        if not moving.any():
+            return 0, 0
+        means = [float(np.sign(one[moving]).mean()) for one in (self.voltage, self.velocity)]
+        signs = [0 if abs(mean) < CLEAR else (1 if mean > 0 else -1) for mean in means]
+        return signs[0], signs[1]
+
+    def turned(self, *, voltage: bool = False, motion: bool = False) -> "Side":
+        """The same side with the sign of voltage, or of position and velocity, reversed."""
+        side = replace(self, voltage=-self.voltage) if voltage else self
+        return replace(side, position=-side.position, velocity=-side.velocity) if motion else side
+
+    def signals(self, *, time: Array, scale: float) -> dict[str, Array]:
+        """What a Run is made of; positions and velocities times ``scale``."""
+        return {
+            "time": time,
+            "voltage": self.voltage,
+            "position": self.position * scale,
+            "velocity": self.velocity * scale,
+        }
+
+
+def test_sign(test: str) -> int:
+    """The sign that a test's name promises."""
+    return 1 if test.endswith("forward") else -1
+
+
+def doubt_of(code: str, name: str, tests: list[str], *, where: str) -> Doubt:
+    """One doubt about one side in all the tests it concerns."""
+    what, cure = _SAID[code]
+    return Doubt(code, f"{where}, {name}, {', '.join(tests)}: {what}. {cure}")
+
+
+def one_side(runs: Mapping[str, Side], *, where: str) -> tuple[dict[str, Side], list[Doubt]]:
+    """The runs of a mechanism with one side, its voltage with a sign where it had none.
+
+    Any other disagreement of voltage and velocity stays as it is: gravity makes it too.
+    """
+    low, high = _reach(runs)
+    bare = [
+        test
+        for test, side in runs.items()
+        if low >= -NOISE * high and test_sign(test) < 0 and side.ways == (1, -1)
+    ]
+    signed = {test: side.turned(voltage=test in bare) for test, side in runs.items()}
+    return signed, [doubt_of("unsigned-voltage", "voltage", bare, where=where)] if bare else []
+
+
+def align_signs(
+    runs: Mapping[str, Side], name: str, *, mirrored: bool, where: str
+) -> tuple[dict[str, Side], list[Doubt]]:
+    """One side of a drivetrain with voltage and velocity of one sign, as no gravity acts on it.
+
+    Args:
+        runs: test -> what the side logged in it.
+        name: ``left`` or ``right``, for messages.
+        mirrored: whether the side is driven against the sign of the test's name.
+        where: the file, for messages.
+    """
+    signless = _signless(runs)
+    changed: dict[str, list[str]] = {}
+    settled = {}
+    for test, given in runs.items():
+        side = given.turned(voltage=mirrored, motion=mirrored)
+        voltage, velocity = side.ways
+        if voltage * velocity < 0:
+            code = "inverted-voltage" if velocity == test_sign(test) else "inverted-encoder"
+            code = "unsigned-voltage" if signless else code
+            changed.setdefault(code, []).append(test)
+            encoder = code == "inverted-encoder"
+            side = side.turned(voltage=not encoder, motion=encoder)
+        elif voltage * velocity == 0 and np.any(side.velocity) and np.any(side.voltage):
+            changed.setdefault("unclear-sign", []).append(test)
+        settled[test] = side
+    return settled, [doubt_of(code, name, tests, where=where) for code, tests in changed.items()]
+
+
+def _reach(runs: Mapping[str, Side]) -> tuple[float, float]:
+    """The lowest and the highest voltage of all runs [V]."""
+    return (
+        min(float(side.voltage.min()) for side in runs.values()),
+        max(float(side.voltage.max()) for side in runs.values()),
+    )
+
+
+def _signless(runs: Mapping[str, Side]) -> bool:
+    """Whether tests of both directions have voltages of one sign, which then says nothing."""
+    low, high = _reach(runs)
+    return len({test_sign(test) for test in runs}) > 1 and (
+        low >= -NOISE * high or high <= -NOISE * low
+    )

@@ -1,0 +1,137 @@
+"""One time base for signals that were each logged at times of their own.
+
+SysId takes the times of the voltage and interpolates the rest linearly. That is right as long as
+every signal is logged every loop, and it fails where only changes are logged: a step test then has
+a single voltage sample. Such a log is read by its own rule, a value holds until the next one.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.data.log import Array
+from sim.io.wpilog.records import Numbers
+
+FEWER = 2.0  # a signal with so many times fewer samples than another was not logged every loop
+SILENT = 5.0  # [typical gaps] a longer silence is no jitter: the value did not change
+BEYOND = 0.75  # [typical gaps] so far a line through two samples is believed outside of them
+SAME_LOOP = 500  # [µs] values logged closer together belong to one loop; the fastest take 1 ms
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """One signal over the whole log.
+
+    Args:
+        time: (n,) [µs], never decreasing.
+        values: (n,).
+    """
+
+    time: Numbers
+    values: Array
+
+    def within(self, begin: int, end: int) -> "Series":
+        """The samples with begin <= t < end."""
+        first, last = np.searchsorted(self.time, (begin, end))
+        return Series(self.time[first:last], self.values[first:last])
+
+    def __len__(self) -> int:
+        return int(self.time.size)
+
+    @property
+    def moments(self) -> int:
+        """How many different times there are."""
+        return int(np.count_nonzero(np.diff(self.time)) + min(len(self), 1))
+
+
+def changes_only(signals: Sequence[Series], spans: Sequence[tuple[int, int]]) -> bool:
+    """Whether values were logged only when they changed.
+
+    In such a log no signal ever repeats a value, and one that rests falls silent while the others
+    go on. A slow sensor's signal has fewer samples too, but at even distances.
+
+    Args:
+        signals: voltage, position and velocity of each motor.
+        spans: begin and end [µs] of each run.
+    """
+    parts = [[signal.within(*span) for span in spans] for signal in signals]
+    if any(np.any(part.values[1:] == part.values[:-1]) for row in parts for part in row):
+        return False
+    return any(
+        few and _silent(row, parts, spans)
+        for row, few in zip(parts, find_sparse_signals(parts), strict=True)
+    )
+
+
+def find_sparse_signals(parts: Sequence[Sequence[Series]]) -> list[bool]:
+    """For each signal whether in some run another one has several times as many samples.
+
+    Args:
+        parts: for each signal, its samples in each run.
+    """
+    counts = np.array([[len(part) for part in row] for row in parts])
+    return [bool(few) for few in np.any(counts * FEWER < counts.max(axis=0), axis=1)]
+
+
+def _silent(
+    row: Sequence[Series], parts: Sequence[Sequence[Series]], spans: Sequence[tuple[int, int]]
+) -> bool:
+    """Whether a signal pauses in some run for much longer than it usually does."""
+    gaps = np.concatenate([np.diff(part.time) for part in row])
+    typical = float(np.median(gaps)) if gaps.size else 0.0
+    for number, (part, (begin, _)) in enumerate(zip(row, spans, strict=True)):
+        last = max(
+            (int(other[number].time[-1]) for other in parts if len(other[number])), default=0
+        )
+        if np.diff(part.time, prepend=begin, append=max(last, begin)).max() > SILENT * typical:
+            return True
+    return False
+
+
+def loop_times(signals: Sequence[Series], begin: int, end: int) -> Numbers:
+    """When any of the signals changed in a run, once a loop, from when on all of them are known.
+
+    Returns:
+        (n,) [µs]; the last change of each loop, so that all of that loop have been made.
+    """
+    changes = np.concatenate([signal.within(begin, end).time for signal in signals])
+    time: Numbers = np.unique(changes)
+    last = np.diff(time, append=end) > 0
+    last[:-1] = np.diff(time) > SAME_LOOP
+    known = max(int(signal.time[0]) for signal in signals)
+    return time[last & (time >= known)]
+
+
+def hold_last_value(signal: Series, time: Numbers) -> Array:
+    """(n,) the last value of a signal at each time, none of which comes before its first."""
+    return signal.values[np.searchsorted(signal.time, time, side="right") - 1]
+
+
+def covered_times(parts: Sequence[Series], time: Numbers) -> Numbers:
+    """Those times of a run at which every signal is known, or all but.
+
+    A line may be drawn a little beyond a signal's ends, as its times differ from the voltage's; a
+    whole loop beyond, there is nothing it rests on.
+    """
+    for part in parts:
+        reach = BEYOND * float(np.median(np.diff(part.time)))
+        time = time[(time >= part.time[0] - reach) & (time <= part.time[-1] + reach)]
+    return time
+
+
+def interpolate_linear(part: Series, time: Numbers) -> Array:
+    """(n,) a signal at other times: on the line through its two nearest samples, even outside.
+
+    Args:
+        part: its samples in a run, at two different times or more, or exactly at ``time``.
+        time: (n,) [µs].
+    """
+    if np.array_equal(part.time, time):
+        return part.values
+    fresh = np.diff(part.time, prepend=part.time[0] - 1) > 0
+    at, values = part.time[fresh], part.values[fresh]
+    after = np.clip(np.searchsorted(at, time, side="right"), 1, at.size - 1)
+    before = after - 1
+    share = (time - at[before]) / (at[after] - at[before])
+    return values[before] + share * (values[after] - values[before])

@@ -1,0 +1,67 @@
+"""An entry of a WPILOG file: a named series of values of one type, decoded when asked for."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.data.log import Array
+from sim.io.wpilog.records import File, Numbers, view_numbers
+
+KINDS: dict[str, type[np.generic]] = {
+    "double": np.float64,
+    "int64": np.int64,
+    "float": np.float32,
+    "boolean": np.bool_,
+}
+SIZES = {kind: np.dtype(dtype).itemsize for kind, dtype in KINDS.items()}  # [bytes] of one value
+NUMBERS = ("double", "float", "int64")  # types a signal may have, the likeliest first
+STRING = "string"
+SCATTERED = 4096  # [bytes of the file for each string] where strings are rarer, each is cut out
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """A named series of values.
+
+    Args:
+        name, type, metadata: as the file says them.
+        time: (n,) [µs], never decreasing.
+        payload: (n,) offset of each value in the file.
+        size: (n,) length of each value [bytes].
+        file: where they are.
+    """
+
+    name: str
+    type: str
+    metadata: str
+    time: Numbers
+    payload: Numbers
+    size: Numbers
+    file: File
+
+    def __len__(self) -> int:
+        return int(self.time.size)
+
+    def values(self) -> NDArray[np.generic]:
+        """(n,) the values of an entry of a type in ``KINDS``."""
+        buffer = self.file.buffer
+        if self.type == "boolean":
+            return np.not_equal(buffer[self.payload], 0)
+        return view_numbers(buffer, KINDS[self.type])[self.payload]
+
+    def numbers(self) -> Array:
+        """(n,) the values of an entry of a type in ``KINDS``, in double precision."""
+        return self.values().astype(np.float64)
+
+    def texts(self) -> list[str]:
+        """The values of an entry of type string."""
+        spans = zip(self.payload.tolist(), (self.payload + self.size).tolist(), strict=True)
+        if len(self) * SCATTERED < self.file.size:
+            content = self.file.content
+            return [content[begin:end].decode("utf-8", "replace") for begin, end in spans]
+        letters = self.file.letters
+        texts = [letters[begin:end] for begin, end in spans]
+        if all(map(str.isascii, texts)):
+            return texts
+        return [text.encode("latin-1").decode("utf-8", "replace") for text in texts]

@@ -1,0 +1,203 @@
+"""The entries of a WPILOG file that hold a mechanism's signals, motor by motor.
+
+    <signal>-<motor>-<mechanism>       voltage, position, velocity; current may join them
+
+The name of a motor and that of a mechanism may both hold the dash that stands between them: only
+the mechanism's state entry tells where to split.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest, MissingSignal
+from sim.io.format import ReadOptions
+from sim.io.wpilog.entry import NUMBERS, Entry
+from sim.io.wpilog.names import asked_for, explain_unfit_entry, quote_names, split_name
+from sim.io.wpilog.state import WORD, StateEntry
+
+NEEDED = ("voltage", "position", "velocity")
+OPTIONAL = ("current", "bus_voltage")
+FLAGS = "--voltage ENTRY --position ENTRY --velocity ENTRY"
+CALLS = {
+    "voltage": "voltage(...)",
+    "position": "angularPosition(...) or linearPosition(...), in Python position(...)",
+    "velocity": "angularVelocity(...) or linearVelocity(...), in Python velocity(...)",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class MotorEntries:
+    """What was recorded of one motor.
+
+    Args:
+        name: as in its entries; empty if they were named one by one.
+        signals: ``voltage``, ``position``, … -> the entry that holds it.
+    """
+
+    name: str
+    signals: Mapping[str, Entry]
+
+    @property
+    def whole(self) -> bool:
+        """Whether it has all that a fit needs."""
+        return all(signal in self.signals for signal in NEEDED)
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """What every search for signals needs to know."""
+
+    entries: Sequence[Entry]
+    state: StateEntry
+    rivals: tuple[str, ...]  # mechanisms whose name is longer and ends the same
+    asked: ReadOptions
+    where: str
+
+
+def motors_of(
+    state: StateEntry, entries: Sequence[Entry], *, asked: ReadOptions, where: str
+) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...]]:
+    """The motors of a mechanism whose signals are to be used, all of them whole.
+
+    Args:
+        state: where its tests are named.
+        entries: all entries of the file.
+        asked: which motor, and which entries, where a person has said so.
+        where: the file, for messages.
+
+    Returns:
+        At least one motor, and doubts about those left out.
+
+    Raises:
+        MissingSignal: no motor has all signals; the message names what is missing.
+        BadRequest: the motor asked for is not there, or a name is ambiguous.
+    """
+    named = {name.rest for entry in entries if (name := split_name(entry.name, WORD))}
+    rivals = tuple(name for name in named if name.endswith(f"-{state.mechanism}"))
+    search = _Search(entries, state, rivals, asked, where)
+    given = {
+        signal: asked_for(name, role=signal, kinds=NUMBERS, entries=entries, where=where)
+        for signal, name in asked.entries.items()
+        if signal in NEEDED + OPTIONAL
+    }
+    if all(signal in given for signal in NEEDED):
+        return (MotorEntries(asked.motor or "", given),), ()
+    found = [MotorEntries(name, signals | given) for name, signals in _by_motor(search).items()]
+    if asked.motor is not None:
+        found = [_chosen(found, search)]
+    whole = tuple(motor for motor in found if motor.whole)
+    if not whole:
+        best = max(found, key=lambda motor: len(motor.signals), default=MotorEntries("", given))
+        raise _missing(best, search)
+    return whole, tuple(_left_out(found, where))
+
+
+def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
+    """For each motor of the mechanism the usable entry of each signal it has."""
+    same: dict[tuple[str, str], dict[str, list[Entry]]] = {}
+    for signal in NEEDED + OPTIONAL:
+        for entry in search.entries:
+            placed = _placed(entry.name, signal, search)
+            if placed and entry.type in NUMBERS and len(entry):
+                path, motor = placed
+                same.setdefault((motor, signal), {}).setdefault(path, []).append(entry)
+    beside = {motor for (motor, _), paths in same.items() if search.state.path in paths}
+    motors: dict[str, dict[str, Entry]] = {}
+    for (motor, signal), paths in same.items():
+        if beside and motor not in beside:
+            continue  # what lies elsewhere, where motors are logged beside the state, is no motor
+        path = search.state.path if search.state.path in paths else next(iter(paths))
+        if len(paths) > 1 and path != search.state.path:
+            names = [entry.name for several in paths.values() for entry in several]
+            raise BadRequest(
+                f"several entries could be the {signal}: {quote_names(names)}",
+                where=search.where,
+                advice=f"Say which is meant with --{signal} ENTRY.",
+            )
+        usable = sorted(paths[path], key=lambda entry: NUMBERS.index(entry.type))
+        motors.setdefault(motor, {})[signal] = usable[0]
+    return motors
+
+
+def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
+    """Path and motor of an entry, if its name makes it this signal of the mechanism."""
+    parts = split_name(name, signal)
+    if parts is None or any(parts.rest.endswith(f"-{rival}") for rival in search.rivals):
+        return None
+    if not search.state.mechanism:
+        return parts.path, parts.rest
+    motor = parts.rest.removesuffix(f"-{search.state.mechanism}")
+    return None if motor == parts.rest else (parts.path, motor)
+
+
+def _chosen(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
+    """The motor that was asked for, by its name or by an ending that only it has."""
+    wanted = (search.asked.motor or "").lower()
+    same = [motor for motor in found if motor.name.lower() == wanted]
+    same = same or [motor for motor in found if motor.name.lower().endswith(wanted)]
+    if len(same) == 1:
+        return same[0]
+    which = "fits several motors" if same else "is not a motor here"
+    names = [motor.name for motor in same or found]
+    raise BadRequest(
+        f"{search.asked.motor!r} {which} of {search.state.mechanism or search.state.entry.name!r}",
+        where=search.where,
+        advice=f"Choose --motor from: {', '.join(names)}." if names else f"Name {FLAGS}.",
+    )
+
+
+def _left_out(found: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
+    for motor in found:
+        lacking = [signal for signal in NEEDED if signal not in motor.signals]
+        if lacking:
+            yield Doubt(
+                "incomplete-motor",
+                f"{where}: motor {motor.name!r} has no {' and no '.join(lacking)} and was left "
+                "out. Log all three of every motor whose signals shall count.",
+            )
+
+
+def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
+    """The refusal when no motor is whole: what is missing, and what there is instead."""
+    lacking = [signal for signal in NEEDED if signal not in motor.signals]
+    signal = lacking[0]
+    mechanism = search.state.mechanism or "<mechanism>"
+    name = f"{signal}-{motor.name or '<motor>'}-{mechanism}"
+    said = [f"no {signal} entry: expected {name!r} (double)"]
+    if len(lacking) > 1:
+        said.append(f"{' and '.join(lacking[1:])} missing too")
+    said += [
+        f"{entry.name!r} {explain_unfit_entry(entry, kinds=NUMBERS)}"
+        for entry in search.entries
+        if _placed(entry.name, signal, search)
+    ]
+    near = _near(signal, search)
+    if near:
+        said.append(f"nearest are {quote_names(near)}")
+    return MissingSignal(
+        "; ".join(said),
+        where=search.where,
+        advice=f"{_advice(signal)}, or name another logger's entries: {FLAGS}.",
+    )
+
+
+def _advice(signal: str) -> str:
+    what = "the applied voltage" if signal == "voltage" else f"the {signal}"
+    return f"Log {what} in the routine's log callback, log.motor(NAME).{CALLS[signal]}"
+
+
+def _near(signal: str, search: _Search) -> list[str]:
+    """Entries whose names speak of a signal, those of this mechanism and this signal first."""
+
+    def distance(entry: Entry) -> tuple[bool, bool, int]:
+        name = entry.name.lower()
+        return search.state.mechanism.lower() not in name, signal[:4] not in name, -len(entry)
+
+    words = [word[:4] for word in NEEDED]  # "volt" says it too
+    speaking = [
+        entry
+        for entry in search.entries
+        if entry.type in NUMBERS and any(word in entry.name.lower() for word in words)
+    ]
+    return [entry.name for entry in sorted(speaking, key=distance)]

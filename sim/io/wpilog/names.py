@@ -1,0 +1,79 @@
+"""Entries by name: split as SysId's loggers write them, or named by whoever asks.
+
+Loggers put a path before a name (``NT:/``, ``/Robot/``). Some files hold the same entry twice, with
+a path and without.
+"""
+
+import re
+from collections.abc import Collection, Sequence
+from difflib import get_close_matches
+from typing import NamedTuple
+
+from sim.data.errors import MissingSignal
+from sim.io.wpilog.entry import Entry
+
+SHOWN = 4  # [names] in a message
+
+
+class EntryName(NamedTuple):
+    """The name of an entry, split: ``NT:/`` + ``voltage`` + ``-`` + ``left-Drive``."""
+
+    path: str
+    rest: str
+
+
+def split_name(name: str, word: str) -> EntryName | None:
+    """The parts of a name around ``word-``; None if that is not how it is made."""
+    found = re.fullmatch(rf"((?:.*?[/:])??){re.escape(word)}-(.*)", name, re.DOTALL)
+    return EntryName(*found.groups()) if found else None
+
+
+def type_said(mechanism: str) -> str:
+    """``elevator`` or ``arm`` where that is a word of a mechanism's name; empty if not, or both.
+
+    ``left-Elevator``, ``ElevatorSubsystem`` and ``ARM_1`` say it, ``alarm`` does not.
+    """
+    words = {word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", mechanism)}
+    said = words & {"elevator", "arm"}
+    return said.pop() if len(said) == 1 else ""
+
+
+def asked_for(
+    name: str, *, role: str, kinds: Collection[str], entries: Sequence[Entry], where: str
+) -> Entry:
+    """The entry that a person named to play a role.
+
+    Raises:
+        MissingSignal: there is none of this name, or it is empty, or of a type that does not do.
+    """
+    same = [entry for entry in entries if entry.name == name]
+    usable = [entry for entry in same if entry.type in kinds and len(entry)]
+    if usable:
+        return max(usable, key=len)
+    if same:
+        raise MissingSignal(
+            f"the {role} entry {name!r} {explain_unfit_entry(same[0], kinds=kinds)}",
+            where=where,
+            advice=f"Name an entry of type {' or '.join(kinds)} with --{role}.",
+        )
+    near = get_close_matches(name, [entry.name for entry in entries], n=SHOWN, cutoff=0.5)
+    raise MissingSignal(
+        f"there is no entry {name!r} to take {role} from",
+        where=where,
+        advice=f"Did you mean {quote_names(near)}?"
+        if near
+        else f"Give --{role} a name as AdvantageScope shows it, path and all.",
+    )
+
+
+def explain_unfit_entry(entry: Entry, *, kinds: Collection[str]) -> str:
+    """Why an entry cannot play its role."""
+    if entry.type in kinds:
+        return "holds no values"
+    return f"is of type {entry.type}, which cannot be used here"
+
+
+def quote_names(names: Sequence[str]) -> str:
+    """A few names for a message."""
+    more = ", …" if len(names) > SHOWN else ""
+    return ", ".join(repr(name) for name in names[:SHOWN]) + more

@@ -1,0 +1,245 @@
+"""The runs of a mechanism, cut out of its motors' signals by the tests its state entry names."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import TypeAlias
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest
+from sim.data.log import Array, Run
+from sim.data.units import UNITS
+from sim.io.format import ReadOptions, sound_run
+from sim.io.wpilog.clock import (
+    Series,
+    changes_only,
+    covered_times,
+    find_sparse_signals,
+    hold_last_value,
+    interpolate_linear,
+    loop_times,
+)
+from sim.io.wpilog.motors import NEEDED, OPTIONAL, MotorEntries
+from sim.io.wpilog.records import Numbers
+from sim.io.wpilog.state import RunInterval
+from sim.io.wpilog.units import EntryScale, scale_of
+
+SECOND = 1e6  # [µs]
+ENOUGH = 2  # samples of a run; one alone shows no motion
+ENDS = 2  # samples that a run may lose, one at each end, without a word
+OPPOSED = -0.5  # [cosine] two motors that work against each other are near -1, noise is near 0
+
+Signals: TypeAlias = Mapping[str, Sequence[Series]]  # signal -> its series, motor by motor
+
+
+@dataclass(frozen=True)
+class Cut:
+    """What the tests of a mechanism come to.
+
+    Args:
+        runs: in the order they were recorded.
+        units: the unit its log is kept in.
+        doubts: what is odd about them.
+    """
+
+    runs: tuple[Run, ...]
+    units: str
+    doubts: tuple[Doubt, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Sampled:
+    """One run on one time base.
+
+    Args:
+        test: which.
+        time: (n,) [µs].
+        signals: signal -> (motors, n).
+        lost: how many samples of the voltage are not in it, as another signal is not known there.
+    """
+
+    test: str
+    time: Numbers
+    signals: Mapping[str, Array]
+    lost: int = 0
+
+
+def cut_runs(
+    motors: Sequence[MotorEntries],
+    stretches: Sequence[RunInterval],
+    *,
+    asked: ReadOptions,
+    where: str,
+) -> Cut:
+    """Cut the signals of a mechanism's motors into its runs; several motors count as their mean.
+
+    Raises:
+        BadRequest: units that cannot be reconciled, or motors that work against each other.
+        BadSample: a value that cannot be a measurement.
+    """
+    scales = _scales(motors, asked=asked, where=where)
+    signals = _signals(motors, scales)
+    needed = [series for signal in NEEDED for series in signals[signal]]
+    spans = [(stretch.begin, stretch.end) for stretch in stretches]
+    held = changes_only(needed, spans)
+    doubts = [doubt for scale in scales for doubt in scale.doubts]
+    doubts += _rhythm(signals, spans, held=held, where=where)
+    sampled = [(_held if held else _drawn)(signals, stretch) for stretch in stretches]
+    whole = [run for run in sampled if run.time.size >= ENOUGH]
+    doubts += _too_short(sampled, where)
+    doubts += _combined(motors, whole, where)
+    runs = []
+    for run in whole:
+        si = UNITS[scales[0].units].si
+        found, said = sound_run(run.test, _columns(run), si=si, where=where)
+        runs.append(found)
+        doubts += said
+    return Cut(tuple(runs), scales[0].units, tuple(doubts))
+
+
+def _scales(motors: Sequence[MotorEntries], *, asked: ReadOptions, where: str) -> list[EntryScale]:
+    """The scale of each motor, all into the unit of the first."""
+    first = scale_of(motors[0], asked=asked, where=where)
+    scales = [first]
+    for motor in motors[1:]:
+        scale = scale_of(motor, asked=asked, where=where)
+        if UNITS[scale.units].angular != UNITS[first.units].angular:
+            raise BadRequest(
+                f"motor {motors[0].name!r} is logged in {first.units}, {motor.name!r} in "
+                f"{scale.units}: an angle and a length",
+                where=where,
+                advice=f"Choose one with --motor {motors[0].name}, or say --units.",
+            )
+        ratio = UNITS[scale.units].si / UNITS[first.units].si
+        factors = {
+            signal: factor if signal == "voltage" else factor * ratio
+            for signal, factor in scale.factors.items()
+        }
+        scales.append(replace(scale, units=first.units, factors=factors))
+    return scales
+
+
+def _signals(
+    motors: Sequence[MotorEntries], scales: Sequence[EntryScale]
+) -> dict[str, list[Series]]:
+    """The series of each signal that all motors have, in the unit of the log."""
+    shared = [name for name in NEEDED + OPTIONAL if all(name in motor.signals for motor in motors)]
+    signals: dict[str, list[Series]] = {name: [] for name in shared}
+    for motor, scale in zip(motors, scales, strict=True):
+        for name in shared:
+            entry = motor.signals[name]
+            values, factor = entry.numbers(), scale.factors.get(name, 1.0)
+            signals[name].append(Series(entry.time, values if factor == 1.0 else values * factor))
+    return signals
+
+
+def _held(signals: Signals, stretch: RunInterval) -> _Sampled:
+    """One run of a log that only holds changes."""
+    needed = [series for name in NEEDED for series in signals[name]]
+    time = loop_times(needed, stretch.begin, stretch.end)
+    known = {
+        name: np.array([hold_last_value(one, time) for one in several])
+        for name, several in signals.items()
+        if time.size and all(one.time[0] <= time[0] for one in several)
+    }
+    return _Sampled(stretch.test, time, known)
+
+
+def _drawn(signals: Signals, stretch: RunInterval) -> _Sampled:
+    """One run at the times of the (first motor's) voltage, as SysId takes them."""
+    parts = {
+        name: [one.within(stretch.begin, stretch.end) for one in several]
+        for name, several in signals.items()
+    }
+    usable = {
+        name: several
+        for name, several in parts.items()
+        if all(part.moments >= ENOUGH for part in several)
+    }
+    every = parts["voltage"][0].time
+    if not usable.keys() >= set(NEEDED):
+        return _Sampled(stretch.test, every[:0], {})
+    time = covered_times([part for name in NEEDED for part in usable[name]], every)
+    columns = {
+        name: np.array([interpolate_linear(part, time) for part in several])
+        for name, several in usable.items()
+    }
+    return _Sampled(stretch.test, time, columns, every.size - time.size)
+
+
+def _columns(run: _Sampled) -> dict[str, Array]:
+    """The columns of a run as ``sound_run`` takes them: seconds, and the mean of the motors."""
+    columns = {"time": run.time / SECOND}
+    for name, rows in run.signals.items():
+        columns[name] = rows[0] if len(rows) == 1 else rows.mean(axis=0)
+    return columns
+
+
+def _too_short(runs: Sequence[_Sampled], where: str) -> Iterator[Doubt]:
+    for run in runs:
+        if run.time.size < ENOUGH:
+            yield Doubt(
+                "short-run",
+                f"{where}: a run of {run.test} holds fewer than {ENOUGH} samples of voltage, "
+                "position and velocity and was left out. Run that test again.",
+            )
+        elif run.lost > ENDS:
+            yield Doubt(
+                "short-signal",
+                f"{where}, {run.test}: {run.lost} of {run.lost + run.time.size} samples were left "
+                "out, as position or velocity was not logged then. Look at how they are logged.",
+            )
+
+
+def _rhythm(
+    signals: Signals, spans: Sequence[tuple[int, int]], *, held: bool, where: str
+) -> Iterator[Doubt]:
+    """Doubts about signals that were not all logged every loop."""
+    needed = [(name, series) for name in NEEDED for series in signals[name]]
+    parts = [[series.within(*span) for span in spans] for _, series in needed]
+    counts = {name: sum(map(len, row)) for (name, _), row in zip(needed, parts, strict=True)}
+    many = ", ".join(f"{count} of {name}" for name, count in counts.items())
+    if held:
+        yield Doubt(
+            "change-only",
+            f"{where}: only changes were logged ({many}). The times of all signals were joined, "
+            "and a value was held until its next change. SysId itself goes by the voltage's times "
+            "and fails on such a log: a step has a single voltage. Log every value in every loop.",
+        )
+    elif any(find_sparse_signals(parts)):
+        yield Doubt(
+            "uneven-rates",
+            f"{where}: the signals were logged at different rates ({many} samples). As in SysId, "
+            "the voltage's times count and straight lines fill the rest. Log all in every loop.",
+        )
+
+
+def _combined(
+    motors: Sequence[MotorEntries], runs: Sequence[_Sampled], where: str
+) -> Iterator[Doubt]:
+    """A doubt that several motors count as their mean.
+
+    Raises:
+        BadRequest: two of them have voltages or velocities of opposite sign.
+    """
+    if len(motors) == 1:
+        return
+    names = [motor.name for motor in motors]
+    for signal in ("voltage", "velocity") if runs else ():
+        rows = np.concatenate([run.signals[signal] for run in runs], axis=1)
+        length = np.linalg.norm(rows, axis=1)
+        for i, j in combinations(range(len(names)), 2):
+            if rows[i] @ rows[j] < OPPOSED * length[i] * length[j]:
+                raise BadRequest(
+                    f"motors {names[i]!r} and {names[j]!r} have a {signal} of opposite sign, so "
+                    "their mean says nothing",
+                    where=where,
+                    advice=f"Choose one with --motor {names[i]}, or invert one in the robot code.",
+                )
+    yield Doubt(
+        "several-motors",
+        f"{where}: the signals are the mean of motors {', '.join(map(repr, names))}. Choose one "
+        f"with --motor NAME, for instance --motor {names[0]}.",
+    )

@@ -1,0 +1,156 @@
+"""The entry of a WPILOG file that says which test runs, and the stretches of time it names.
+
+sysid-test-state-<mechanism> = quasistatic-forward | … | none
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest, MissingSignal
+from sim.data.log import TESTS
+from sim.io.format import ReadOptions
+from sim.io.wpilog.entry import STRING, Entry
+from sim.io.wpilog.names import asked_for, quote_names, split_name
+
+WORD = "sysid-test-state"
+IDLE = ("none", "")  # what stands there while no test runs
+FOREVER = 2**62  # [µs] the end of a run that the file does not see end
+
+
+@dataclass(frozen=True, eq=False)
+class StateEntry:
+    """Where the tests of one mechanism are named.
+
+    Args:
+        mechanism: its name; empty if the entry is not named as SysId's are.
+        path: what its logger puts before a name; empty, ``NT:/``, …
+        entry: the entry itself.
+    """
+
+    mechanism: str
+    path: str
+    entry: Entry
+
+
+@dataclass(frozen=True)
+class RunInterval:
+    """The time of one run: begin <= t < end.
+
+    Args:
+        test: one of ``sim.data.log.TESTS``.
+        begin, end: [µs].
+    """
+
+    test: str
+    begin: int
+    end: int
+
+
+def state_entries(
+    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+) -> tuple[StateEntry, ...]:
+    """The entries that name tests, one for each mechanism.
+
+    Raises:
+        MissingSignal: there is none; the advice names an entry that might be meant.
+        BadRequest: one mechanism has several.
+    """
+    if "state" in asked.entries:
+        entry = asked_for(
+            asked.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
+        )
+        if not _tells(entry):
+            raise _no_test([entry], where=where)
+        name = split_name(entry.name, WORD)
+        return (StateEntry(name.rest if name else "", name.path if name else "", entry),)
+    named = [
+        StateEntry(name.rest, name.path, entry)
+        for entry in entries
+        if entry.type == STRING and (name := split_name(entry.name, WORD))
+    ]
+    telling = [state for state in named if _tells(state.entry)]
+    if not telling:
+        raise (
+            _no_test([state.entry for state in named], where=where)
+            if named
+            else _no_state(entries, where=where)
+        )
+    mechanisms = dict.fromkeys(state.mechanism for state in telling)
+    return tuple(_only(telling, mechanism, where=where) for mechanism in mechanisms)
+
+
+def run_intervals(
+    state: StateEntry, *, where: str
+) -> tuple[tuple[RunInterval, ...], tuple[Doubt, ...]]:
+    """The time of each run: from the first record of a test to the first that names another.
+
+    Returns:
+        The stretches in order, and a doubt if some states are not the name of a test.
+    """
+    words = [text.strip().lower() for text in state.entry.texts()]
+    times = state.entry.time.tolist()
+    fresh = [i for i, word in enumerate(words) if i == 0 or word != words[i - 1]]
+    ends = [times[i] for i in fresh[1:]] + [FOREVER]
+    found = tuple(
+        RunInterval(words[i], times[i], end)
+        for i, end in zip(fresh, ends, strict=True)
+        if words[i] in TESTS
+    )
+    unknown = list(dict.fromkeys(words[i] for i in fresh if words[i] not in (*TESTS, *IDLE)))
+    if not unknown:
+        return found, ()
+    doubt = Doubt(
+        "unknown-test",
+        f"{where}: {state.entry.name!r} also says {quote_names(unknown)}, which is the name of no "
+        "test; those times were left out. Tests are named like quasistatic-forward.",
+    )
+    return found, (doubt,)
+
+
+def _tells(entry: Entry) -> bool:
+    """Whether an entry names a test at all."""
+    return any(text.strip().lower() in TESTS for text in entry.texts())
+
+
+def _only(telling: Sequence[StateEntry], mechanism: str, *, where: str) -> StateEntry:
+    """The one state entry of a mechanism: a copy with a path before its name stands back."""
+    own = [state for state in telling if state.mechanism == mechanism]
+    plain = [state for state in own if not state.path]
+    if len(own) == 1 or plain:
+        return (plain or own)[0]
+    raise BadRequest(
+        f"several entries name the tests of {mechanism!r}: "
+        f"{quote_names([state.entry.name for state in own])}",
+        where=where,
+        advice="Say which is meant with --state ENTRY.",
+    )
+
+
+def _no_test(entries: Sequence[Entry], *, where: str) -> MissingSignal:
+    said = list(dict.fromkeys(text for entry in entries for text in entry.texts()))
+    words = f"says only {quote_names(said)}" if said else "holds no values"
+    return MissingSignal(
+        f"no test was recorded: {quote_names([entry.name for entry in entries])} {words}",
+        where=where,
+        advice="Run the four tests with the robot enabled, and give the log of that.",
+    )
+
+
+def _no_state(entries: Sequence[Entry], *, where: str) -> MissingSignal:
+    told = [entry.name for entry in entries if entry.type == STRING and _tells(entry)]
+    what = f"no state entry: expected '{WORD}-<mechanism>' (string)"
+    if told:
+        return MissingSignal(
+            f"{what}; {quote_names(told)} names tests",
+            where=where,
+            advice=f"If that is it, give --state {told[0]} --voltage ENTRY --position ENTRY "
+            "--velocity ENTRY.",
+        )
+    return MissingSignal(
+        what,
+        where=where,
+        advice="SysIdRoutine writes it while a test runs: run the tests with the robot enabled and "
+        "give the log of that, or name another logger's entries with --state ENTRY --voltage ENTRY "
+        "--position ENTRY --velocity ENTRY.",
+    )

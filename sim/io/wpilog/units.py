@@ -1,0 +1,169 @@
+"""The unit of an entry, read from its metadata in the words of either language.
+
+    Java     Volt   Rotation   Rotation per Second   Meter   Meter per Second
+    Python   volt   turn       turns_per_second      meter   meters_per_second
+
+Other loggers put the same into JSON: ``{"unit": "rad/s"}``.
+"""
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from sim.data.doubt import Doubt
+from sim.data.errors import BadRequest
+from sim.data.units import UNITS
+from sim.io.format import ReadOptions
+from sim.io.wpilog.motors import NEEDED, MotorEntries
+
+_WORDS = {  # unit of ours -> what others call it
+    "meters": "meter meters metre metres m",
+    "feet": "foot feet ft",
+    "inches": "inch inches in",
+    "radians": "radian radians rad rads",
+    "rotations": "rotation rotations turn turns revolution revolutions rot rots rev revs r",
+    "degrees": "degree degrees deg degs °",
+}
+LENGTHS = {word: (unit, 1.0) for unit, words in _WORDS.items() for word in words.split()} | {
+    "centimeter": ("meters", 0.01),
+    "centimeters": ("meters", 0.01),
+    "cm": ("meters", 0.01),
+    "millimeter": ("meters", 0.001),
+    "millimeters": ("meters", 0.001),
+    "mm": ("meters", 0.001),
+}
+RATES = {  # per what -> how many of it in a second
+    **dict.fromkeys(("second", "seconds", "sec", "s"), 1.0),
+    **dict.fromkeys(("minute", "minutes", "min"), 1.0 / 60.0),
+    **dict.fromkeys(("millisecond", "milliseconds", "ms"), 1000.0),
+}
+VOLTS = "volts"
+VOLTAGES = {
+    **dict.fromkeys(("volt", "volts", "v"), 1.0),
+    **dict.fromkeys(("millivolt", "millivolts", "mv"), 1e-3),
+}
+SHORT = {"rpm": "rotation per minute", "rps": "rotation per second"}
+
+
+@dataclass(frozen=True)
+class StatedUnit:
+    """A unit as metadata states it.
+
+    Args:
+        units: the one of ours it comes down to; for a velocity, that per second.
+        factor: how many of ours one of it is.
+    """
+
+    units: str
+    factor: float
+
+
+@dataclass(frozen=True)
+class EntryScale:
+    """How the numbers of a motor's entries become the unit of its log.
+
+    Args:
+        units: that unit, a name in ``sim.data.units.UNITS``.
+        factors: signal -> what its numbers are multiplied by.
+        doubts: what had to be assumed.
+    """
+
+    units: str
+    factors: Mapping[str, float]
+    doubts: tuple[Doubt, ...]
+
+
+def said_unit(metadata: str) -> str:
+    """The unit a piece of metadata names, as written; empty if it names none."""
+    text = metadata.strip()
+    if not text.startswith("{"):
+        return text
+    try:
+        content = json.loads(text)
+    except (ValueError, RecursionError):
+        return ""
+    keyed = content if isinstance(content, dict) else {}
+    found = next((keyed[key] for key in ("unit", "units") if key in keyed), "")
+    return found.strip() if isinstance(found, str) else ""
+
+
+def voltage_unit(text: str) -> StatedUnit | None:
+    """What a voltage's unit is; None if it is not understood."""
+    factor = VOLTAGES.get(text.lower())
+    return StatedUnit(VOLTS, factor) if factor else None
+
+
+def position_unit(text: str) -> StatedUnit | None:
+    """What a position's unit is; None if it is not understood."""
+    found = LENGTHS.get(text.lower())
+    return StatedUnit(*found) if found else None
+
+
+def velocity_unit(text: str) -> StatedUnit | None:
+    """What a velocity's unit is; None if it is not understood."""
+    plain = re.sub(r"[_\s]+", " ", text.lower().replace("/", " per "))
+    length, _, per = SHORT.get(plain, plain).partition(" per ")
+    found, rate = LENGTHS.get(length.strip()), RATES.get(per.strip())
+    return StatedUnit(found[0], found[1] * rate) if found and rate else None
+
+
+def scale_of(motor: MotorEntries, *, asked: ReadOptions, where: str) -> EntryScale:
+    """In which unit a motor was logged: what a person says, else its metadata, else the default.
+
+    Raises:
+        BadRequest: its position is an angle and its velocity a length, or the other way round.
+    """
+    texts = {signal: said_unit(motor.signals[signal].metadata) for signal in NEEDED}
+    said = {
+        "voltage": voltage_unit(texts["voltage"]),
+        "position": position_unit(texts["position"]),
+        "velocity": velocity_unit(texts["velocity"]),
+    }
+    stated = [found.units for found in (said["position"], said["velocity"]) if found]
+    if asked.units is None and len({UNITS[units].angular for units in stated}) > 1:
+        raise BadRequest(
+            f"the position is in {texts['position']!r} and the velocity in {texts['velocity']!r}, "
+            "an angle and a length",
+            where=where,
+            advice="Say which is right with --units, and let the robot log both in one.",
+        )
+    units = asked.units or (stated[0] if stated else asked.units_or_default)
+    factors, doubts = {}, []
+    for signal, text in texts.items():
+        wanted = VOLTS if signal == "voltage" else units
+        factors[signal] = _factor(said[signal], wanted, ordered=asked.units is not None)
+        problem = _problem(text, said[signal], wanted, ordered=asked.units is not None)
+        if problem:
+            code, what = problem
+            name = motor.signals[signal].name
+            doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}"))
+    return EntryScale(units, factors, tuple(doubts))
+
+
+def _factor(said: StatedUnit | None, units: str, *, ordered: bool) -> float:
+    """What numbers are multiplied by to be in ``units``; a person's word outweighs the file's."""
+    if said is None or said.units == units:
+        return said.factor if said else 1.0
+    return 1.0 if ordered else said.factor * (UNITS[said.units].si / UNITS[units].si)
+
+
+def _problem(
+    text: str, said: StatedUnit | None, units: str, *, ordered: bool
+) -> tuple[str, str] | None:
+    """What is odd about a unit, with its code; None if nothing is."""
+    if said is None and text:
+        return "unknown-unit", f"is {text!r}, which is not understood; it was taken as {units}."
+    if said is None and units != VOLTS and not ordered:
+        return "units-assumed", f"is not stated and was taken as {units}; else say --units."
+    if said is None or (said.units == units and said.factor == 1.0):
+        return None
+    if said.units != units and ordered:
+        return "contradicting-units", (
+            f"is {text!r}, but it was taken as {units}, as you asked. Leave out --units to follow "
+            "the file."
+        )
+    return "converted-units", (
+        f"is {text!r} and was converted to {units}. SysId itself does not convert: there, log all "
+        "signals in one unit, and velocities per second."
+    )

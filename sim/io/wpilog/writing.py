@@ -1,0 +1,150 @@
+"""Writing a WPILOG file as SysIdRoutine does: each loop the data, then the name of the test.
+
+One thing differs. SysIdRoutine stamps the test's name later than the data of the same loop, so that
+the first loop of every test falls outside of it; here both carry the same time, and nothing is
+lost.
+"""
+
+import struct
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from sim.data.errors import BadRequest
+from sim.data.log import Array, Log, Run
+from sim.data.units import UNITS
+from sim.io.wpilog.control import Start, start_payload
+from sim.io.wpilog.motors import NEEDED, OPTIONAL
+from sim.io.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
+from sim.io.wpilog.state import IDLE, WORD
+
+SECOND = 1e6  # [µs]
+REST = 1_000_000  # [µs] before a run that has to be moved behind the one before it
+LOOP = 20_000  # [µs] how long the only sample of a run lasts
+MECHANISM, MOTOR = "Mechanism", "motor"  # names where the log has none
+JAVA = {  # unit of ours -> WPILib's name for it
+    "meters": "Meter",
+    "feet": "Foot",
+    "inches": "Inch",
+    "radians": "Radian",
+    "rotations": "Rotation",
+    "degrees": "Degree",
+}
+
+
+def write(log: Log, path: Path) -> None:
+    """Write the runs of a log one after another.
+
+    Times are rounded to microseconds. A run that begins before the last one has ended is moved
+    behind it, with its own spacing kept.
+
+    Args:
+        log: what to write; positions go out in its ``units``.
+        path: the file.
+
+    Raises:
+        BadRequest: the log has no runs, or a run without samples.
+    """
+    if not log.runs or not all(len(run) for run in log.runs):
+        raise BadRequest(
+            "a run of the log has no samples" if log.runs else "the log has no runs",
+            advice="Write a log whose runs all have samples.",
+        )
+    times = _in_line([_microseconds(run.time) for run in log.runs])
+    ends = [_end(time, after) for time, after in zip(times, [*times[1:], None], strict=True)]
+    names = [*NEEDED, *(one for one in OPTIONAL if _recorded(log, one))]
+    ids = {name: number for number, name in enumerate([*names, "state"], start=1)}
+    width = _width(ends[-1])
+    parts = [MAGIC + struct.pack("<HI", MAJOR << 8, 0)]
+    parts += [
+        _record(0, int(times[0][0]), start_payload(entry), width) for entry in _entries(log, ids)
+    ]
+    for run, time, end in zip(log.runs, times, ends, strict=True):
+        parts.append(_loops(run, time, ids, width=width, si=UNITS[log.units].si))
+        parts.append(_record(ids["state"], end, IDLE[0].encode(), width))
+    path.write_bytes(b"".join(parts))
+
+
+def _recorded(log: Log, name: str) -> bool:
+    return any(getattr(run, name) is not None for run in log.runs)
+
+
+def _microseconds(time: Array) -> Numbers:
+    """Whole microseconds; times closer together than that are moved one apart."""
+    steps = np.arange(time.size)
+    rounded = np.rint(time * SECOND).astype(np.int64)
+    return np.maximum.accumulate(rounded - steps) + steps
+
+
+def _in_line(times: Sequence[Numbers]) -> list[Numbers]:
+    """The times of all runs, each moved so that it begins after the one before has ended."""
+    placed: list[Numbers] = []
+    earliest = 0
+    for time in times:
+        first = int(time[0])
+        placed.append(
+            time if first >= earliest else time + (earliest + REST * bool(placed) - first)
+        )
+        earliest = int(placed[-1][-1]) + 1
+    return placed
+
+
+def _end(time: Numbers, after: Numbers | None) -> int:
+    """When a run is over: a typical loop after its last sample, or when the next one begins."""
+    loop = int(np.median(np.diff(time))) if time.size > 1 else LOOP
+    end = int(time[-1]) + max(loop, 1)
+    return end if after is None else min(end, int(after[0]))
+
+
+def _entries(log: Log, ids: dict[str, int]) -> Iterator[Start]:
+    """The entries of a mechanism with one motor, in the words of WPILib's Java."""
+    mechanism = log.mechanism or MECHANISM
+    motor = log.mechanism.lower() or MOTOR
+    unit = JAVA[log.units]
+    metadata = {"position": unit, "velocity": f"{unit} per Second", "current": "Amp"}
+    for name, number in ids.items():
+        if name == "state":
+            yield Start(number, f"{WORD}-{mechanism}", "string", "")
+        else:
+            metadatum = metadata.get(name, "Volt")
+            yield Start(number, f"{name}-{motor}-{mechanism}", "double", metadatum)
+
+
+def _loops(run: Run, time: Numbers, ids: dict[str, int], *, width: int, si: float) -> bytes:
+    """All loops of a run: one record for each signal it has, then one for the test's name."""
+    signals = {name: getattr(run, name) for name in ids if name != "state"}
+    signals |= {"position": run.position / si, "velocity": run.velocity / si}
+    values = {name: array.astype("<f8") for name, array in signals.items() if array is not None}
+    values["state"] = np.full(time.size, run.test.encode())
+    header = [("bits", "u1"), ("id", "u1"), ("size", "u1"), ("time", "u1", (width,))]
+    kinds = [(name, [*header, ("value", array.dtype)]) for name, array in values.items()]
+    table = np.zeros(time.size, dtype=kinds)
+    for name, array in values.items():
+        table[name]["bits"] = _bits(width)
+        table[name]["id"] = ids[name]
+        table[name]["size"] = array.dtype.itemsize
+        table[name]["time"] = _digits(time, width)
+        table[name]["value"] = array
+    return table.tobytes()
+
+
+def _record(number: int, time: int, payload: bytes, width: int) -> bytes:
+    """One record; its size takes four bytes, as a name may be long."""
+    head = struct.pack("<BBI", _bits(width) | 3 << 2, number, len(payload))
+    return head + time.to_bytes(width, "little") + payload
+
+
+def _bits(width: int) -> int:
+    """The first byte of a record with one byte each for id and size."""
+    return width - 1 << 4
+
+
+def _width(last: int) -> int:
+    """How many bytes the latest time takes."""
+    return max(1, (last.bit_length() + 7) // 8)
+
+
+def _digits(time: Numbers, width: int) -> Bytes:
+    """(n, width) the low bytes of each time."""
+    return time.astype("<u8").view(np.uint8).reshape(-1, 8)[:, :width]

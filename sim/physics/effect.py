@@ -1,0 +1,199 @@
+"""The contract of an effect: physics that a model may contain, for simulation and for fitting.
+
+    V = kS·sgn(v) + kV·v + kA·a + what an effect pulls        everything is priced in volts
+
+*Forward* is how it acts: small functions that ask for what they need by the names of their
+arguments, and are compiled into the engine (``engine/``). *Backward* is how it is found: what it
+looks like, where a search for its parameters starts, which test tells it from its look-alikes.
+
+A module of ``effects/`` defines one as ``EFFECT``. What a function may ask for, besides the
+effect's own parameters, is listed in ``ASKS``; a function that asks for anything else is refused
+with a sentence.
+"""
+
+import inspect
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from sim.physics.voltage_residual import VoltageResidual
+
+KINDS = ("term", "path", "sense", "two-body")
+ONSET, UNTIL = "onset", "until"  # parameters of what happens once
+
+ASKS: Mapping[str, tuple[str, ...]] = {
+    # a term: volts that the motor must pay on top of kS, kV and kA
+    "force": ("x", "v"),
+    # dry friction beyond kS [V] when moving, or about to move, toward ``way`` (+1 or -1)
+    "coulomb_friction": ("v", "way"),
+    # inertia beyond kA [V·s²/unit]; ``clock`` is [s] since the log began
+    "added_inertia": ("clock",),
+    # share of the momentum that what joins takes from what moves: 1 if it was at rest
+    "impact": (),
+    # [s] of the clock at which inertia changes next: no step of the engine goes across it
+    "changes": ("clock",),
+    # a path: the voltage that gets through, from the voltage ``u`` that arrives
+    "transform_voltage": ("u", "v", "kv", "memory"),
+    # [s] by which a command comes late
+    "late": (),
+    # the next ``memory`` of an effect that has one, after ``dt`` [s] under the voltage ``u``
+    "remembers": ("memory", "dt", "u", "v", "kv"),
+    # two bodies: free play [unit], softness [unit/V] of what joins them, motor's share of kA [1]
+    "slack": (),
+    "softness": (),
+    "share": (),
+    # a sense: what the sensor says instead of ``seen``, from the motion up to sample ``now``
+    "transform_velocity": ("seen", "now", "time", "position", "velocity"),
+}
+"""Hook -> the names of the engine's quantities that it may ask for, in SI."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number of an effect.
+
+    Args:
+        name: a Python name, which the effect's functions use.
+        what: what it means, in a few words.
+        unit: with ``{u}`` for the unit of position: ``V·s²/{u}²``.
+        power: of the unit of position in the denominator: 2 for ``V·s²/{u}²``, -1 for ``{u}``.
+        least: smallest value that is physics.
+        most: largest.
+        neutral: the value at which the effect is not there.
+        searched: a search may move it a little at a time; if not, it takes what a start says.
+        counts: the data decide on it, so that it makes a hypothesis less likely beforehand.
+    """
+
+    name: str
+    what: str
+    unit: str
+    power: int = 0
+    least: float = 0.0
+    most: float = math.inf
+    neutral: float = 0.0
+    searched: bool = True
+    counts: bool = True
+
+
+@dataclass(frozen=True)
+class Scale:
+    """What is ordinary for a mechanism, so that an effect can be given an ordinary size.
+
+    Args:
+        ks: [V].
+        kv: [V·s/unit].
+        ka: [V·s²/unit].
+        step: [V] of an ordinary dynamic test.
+        reach: [unit] that a test travels.
+        angular: positions are angles.
+        bounded: the travel has two ends.
+    """
+
+    ks: float
+    kv: float
+    ka: float
+    step: float
+    reach: float
+    angular: bool
+    bounded: bool
+
+    @property
+    def speed(self) -> float:
+        """[unit/s] that the step ends in."""
+        return max(self.step - self.ks, 0.1 * self.step) / self.kv
+
+    @property
+    def timescale(self) -> float:
+        """[s] in which a step is answered."""
+        return self.ka / self.kv
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One kind of physics.
+
+    Args:
+        name: as on the command line: ``gravity-cosine``.
+        kind: ``term``, ``path``, ``sense`` or ``two-body``.
+        summary: one line for a list.
+        formula: as in a lesson, with the symbols of ``parameters``.
+        parameters: the numbers it has.
+        fingerprint: what it does to a log, in plain words.
+        inspect: what to look at on the robot.
+        apart: look-alike -> the test that tells the two apart.
+        example: parameters of an ordinary case of a given size; 1 is ordinary, more is stronger.
+        starts: where to begin a search, from what a log shows; the best guess first.
+        acts: hook -> function; the hooks and what they may ask for are in ``ASKS``.
+        symmetric: mirrored volts give mirrored motion, whatever the parameters.
+        stores: [V·unit] energy that it holds at a position, for what can give energy back: a
+            function of ``x`` and the parameters. ``force`` is its slope.
+        pace: [s] the fastest it acts, from parameters and gains; None if it is never fast.
+        span: [unit] way along which it stays much the same, from parameters, for what depends on
+            places: its steps are long where the motion is slow. None if it has none.
+        order: where it stands along the path from command to motor, for a path.
+        cannot: why a mechanism cannot have it, from its scale; empty if it can.
+        simpler: the effect with fewer parameters that does about the same; empty if there is none.
+        simplified: its parameters, from this one's and what a log shows.
+        everyday: whether it is as small, with these parameters, as on any robot in good order.
+    """
+
+    name: str
+    kind: str
+    summary: str
+    formula: str
+    parameters: tuple[Parameter, ...]
+    fingerprint: str
+    inspect: str
+    apart: Mapping[str, str]
+    example: Callable[[Scale, float], Mapping[str, float]]
+    starts: Callable[[VoltageResidual], Iterable[Mapping[str, float]]]
+    acts: Mapping[str, Callable[..., Any]]
+    symmetric: bool = True
+    stores: Callable[..., float] | None = None
+    pace: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
+    span: Callable[[Mapping[str, float]], float] | None = None
+    order: int = 0
+    cannot: Callable[[Scale], str] = field(default=lambda _: "")
+    simpler: str = ""
+    simplified: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(
+        default=lambda _values, _seen: {}
+    )
+    everyday: Callable[[Mapping[str, float]], bool] = field(default=lambda _: False)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the parameters."""
+        return tuple(parameter.name for parameter in self.parameters)
+
+    @property
+    def happens(self) -> bool:
+        """Whether it begins at a moment and may be over at another: inertia that joins does."""
+        return {ONSET, UNTIL} <= set(self.names)
+
+    @property
+    def neutral(self) -> dict[str, float]:
+        """Parameters with which it is not there."""
+        return {parameter.name: parameter.neutral for parameter in self.parameters}
+
+    def faults(self) -> list[str]:
+        """What is wrong with this effect as it is written; empty if nothing is."""
+        found = []
+        if self.kind not in KINDS:
+            found.append(f"kind is {self.kind!r}; choose one of: {', '.join(KINDS)}")
+        if not self.acts:
+            found.append(f"acts is empty; give one of: {', '.join(ASKS)}")
+        for hook, act in self.acts.items():
+            if hook not in ASKS:
+                found.append(f"acts has {hook!r}, which is not one of: {', '.join(ASKS)}")
+                continue
+            known = (*ASKS[hook], *self.names)
+            asked = inspect.signature(act).parameters
+            found.extend(
+                f"{hook} asks for {name!r}; it may ask for: {', '.join(known)}"
+                for name in asked
+                if name not in known
+            )
+        if "transform_voltage" in self.acts and not self.order:
+            found.append("order is 0; say where on the path from command to motor it stands")
+        return found

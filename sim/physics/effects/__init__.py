@@ -1,0 +1,23 @@
+"""The effects that a model may contain, one file each: the physics we can name."""
+
+import sys
+from typing import cast
+
+from sim.data.errors import BadRequest
+from sim.physics.effect import Effect
+from sim.support.catalogue import members
+
+EFFECTS: dict[str, Effect] = {
+    name: cast("Effect", module.EFFECT) for name, module in members(sys.modules[__name__]).items()
+}
+
+
+def effect(name: str) -> Effect:
+    """Look up an effect.
+
+    Raises:
+        BadRequest: no such effect; the message lists those there are.
+    """
+    if name not in EFFECTS:
+        raise BadRequest(f"unknown effect {name!r}", advice=f"Choose one of: {', '.join(EFFECTS)}.")
+    return EFFECTS[name]

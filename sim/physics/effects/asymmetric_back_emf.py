@@ -1,0 +1,48 @@
+"""Asymmetric back-EMF: a motor that is faster one way, by its timing or by what drags along.
+
+V = ... + (kV + lean·sgn v)·v
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+
+def force(v: float, lean: float) -> float:
+    """[V] against forward motion, along with reverse motion."""
+    return lean * abs(v)
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """An eighth of kV, for size 1."""
+    return {"lean": 0.125 * scale.kv * size}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The share of |v| in what is missing."""
+    (lean,) = seen.share(np.abs(seen.velocity))
+    yield {"lean": float(lean)}
+
+
+EFFECT = Effect(
+    name="asymmetric-back-emf",
+    kind="term",
+    summary="kV that differs between forward and reverse",
+    formula="lean·|v| (kV + lean forward, kV - lean in reverse)",
+    parameters=(
+        Parameter("lean", "kV forward beyond kV", "V·s/{u}", power=1, least=-1e6, most=1e6),
+    ),
+    fingerprint="The voltage-velocity lines of forward and reverse have different slopes.",
+    inspect="A brushed motor with advanced timing, a roller or belt that folds one way.",
+    apart={
+        "asymmetric-friction": "Compare two speeds: back-EMF's difference grows with speed.",
+        "constant-load": "Compare two speeds: a load's difference does not grow with speed.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"force": force},
+    symmetric=False,
+)

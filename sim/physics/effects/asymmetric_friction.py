@@ -1,0 +1,57 @@
+"""Asymmetric friction: one direction rubs more than the other.
+
+    V = (kS + lean)·sgn(v) + ...  forward          (kS - lean)·sgn(v) + ...  in reverse
+
+While it moves this cannot be told from a constant load; at rest it can, since friction holds.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
+
+
+def coulomb_friction(way: float, lean: float) -> float:
+    """[V] beyond kS."""
+    return lean * way
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """Two thirds of kS, for size 1."""
+    return {"lean": 0.67 * scale.ks * size}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The mean of what is missing: more forward, less in reverse."""
+    (lean,) = seen.share(np.ones_like(seen.missing))
+    yield {"lean": float(lean)}
+
+
+def everyday(values: Mapping[str, float]) -> bool:
+    """No gear and no bearing runs alike both ways."""
+    return abs(values["lean"]) <= EVERYDAY
+
+
+EFFECT = Effect(
+    name="asymmetric-friction",
+    kind="term",
+    summary="dry friction that differs between forward and reverse",
+    formula="lean (kS + lean forward, kS - lean in reverse)",
+    parameters=(Parameter("lean", "friction forward beyond kS", "V", least=-12.0, most=12.0),),
+    fingerprint="Forward needs more voltage than reverse by the same amount at every speed.",
+    inspect="A worm gear or ratchet, a bearing loaded on one side, a brake that drags.",
+    apart={
+        "constant-load": "Let it go at rest: a load moves it, friction does not. While it moves "
+        "the two are the same.",
+        "asymmetric-back-emf": "Compare two speeds: friction's difference stays, back-EMF's grows.",
+    },
+    example=ordinary,
+    starts=starts,
+    everyday=everyday,
+    acts={"coulomb_friction": coulomb_friction},
+    symmetric=False,
+)

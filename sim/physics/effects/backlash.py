@@ -1,0 +1,58 @@
+"""Backlash: free play between motor and load.
+
+    the motor pushes the load only after it has crossed the slack
+
+Gear lash, a loose hex shaft, a chain with slack: at every start and every turn the motor first runs
+free with its own inertia (``share`` of kA), then the teeth meet.
+"""
+
+from collections.abc import Iterator, Mapping
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+MOMENTS = (0.001, 0.002, 0.004, 0.008, 0.016, 0.03)  # [s] that a log can show at a start
+LIGHT, HEAVY = 0.2, 0.5  # [1] shares of the motor: a search from one seldom finds the other
+
+
+def slack(slack: float) -> float:
+    """[unit] from tooth to tooth."""
+    return slack
+
+
+def share(share: float) -> float:
+    """[1] of the inertia on the motor's side."""
+    return share
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """The way of 10 ms at the speed of a step, a quarter of the inertia before it, for size 1."""
+    return {"slack": 0.01 * scale.speed * size, "share": 0.25}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Ways of some milliseconds at the top speed; how heavy the motor is shows beside all of kA."""
+    for share in (LIGHT, HEAVY):
+        for moment in MOMENTS:
+            yield {"slack": moment * max(seen.speed, 1e-6), "share": share}
+
+
+EFFECT = Effect(
+    name="backlash",
+    kind="two-body",
+    summary="free play between motor and load (gear lash, loose chain)",
+    formula="motor and load meet only where they are slack/2 apart",
+    parameters=(
+        Parameter("slack", "way from tooth to tooth", "{u}", power=-1, most=1e3),
+        Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.25),
+    ),
+    fingerprint="After every start and turn the velocity shoots up, drops, and goes on as usual.",
+    inspect="Gears, hex shafts and chains: turn the mechanism by hand with the motor held.",
+    apart={
+        "compliance": "Turn at two sizes of step, logged at 5 ms: play stays, a spring gives more.",
+        "stribeck": "A triangle: play shows at each turn, Stribeck friction at each start.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"slack": slack, "share": share},
+)

@@ -1,0 +1,64 @@
+"""Battery sag: the voltage asked for is a share of a battery that gives way under current.
+
+    u - kV·v becomes (u - kV·v)/(1 + share·d²)        d = |u|/12 V, share = n·Rb/R
+
+with n motors of resistance R on a battery of resistance Rb, for a controller that is told a duty
+cycle. It is hidden where the log holds what was asked for instead of what was applied.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+EVERYDAY = 0.1  # [1] of a battery in good order
+NOMINAL = 12.0  # [V] that a duty cycle of one stands for
+
+
+def transform_voltage(u: float, v: float, kv: float, share: float) -> float:
+    """[V] at the motor."""
+    duty = min(abs(u) / NOMINAL, 1.0)
+    emf = kv * v
+    return emf + (u - emf) / (1.0 + share * duty * duty)
+
+
+def ordinary(_: Scale, size: float) -> Mapping[str, float]:
+    """Four Kraken X60 on 20 milliohms, for size 1."""
+    return {"share": 2.4 * size}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """What is missing where much current flows, and two sizes to try besides."""
+    duty = np.minimum(np.abs(seen.voltage) / NOMINAL, 1.0)
+    torque = seen.voltage - seen.gains["kV"] * seen.velocity
+    (share,) = seen.share(torque * duty**2)
+    yield {"share": float(np.clip(share, 0.05, 30.0))}
+    yield {"share": 1.0}
+    yield {"share": 6.0}
+
+
+def everyday(values: Mapping[str, float]) -> bool:
+    """What a good battery and good plugs make of it."""
+    return values["share"] <= EVERYDAY
+
+
+EFFECT = Effect(
+    name="battery-sag",
+    kind="path",
+    summary="a battery that gives way under current, behind the voltage in the log",
+    formula="(u - kV·v)/(1 + share·(u/12)²) in place of u - kV·v",
+    parameters=(Parameter("share", "battery's resistance over the motors'", "1", most=100.0),),
+    fingerprint="Steps start more slowly than kA says, the more so the larger the step.",
+    inspect="An old battery, a loose Anderson connector, a log of commanded voltage.",
+    apart={
+        "drag": "Add a second step level, or log the applied voltage: sag grows with the step.",
+        "current-limit": "Add a second step level: a limit cuts at one current, sag bends.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"transform_voltage": transform_voltage},
+    order=3,
+    everyday=everyday,
+)

@@ -1,0 +1,108 @@
+"""Cogging: a force that comes back every so often along the way.
+
+    V = ... + cosine·cos(turns·x) + sine·sin(turns·x)
+
+Magnets that pass iron, a sprocket out of round, a bent shaft, a belt that skips a tooth's worth.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+EVERYDAY = 0.06  # [V]
+
+FEWEST, MOST, FINER = 4.0, 80.0, 0.25  # [1] times that it comes back within what a log covers
+ENOUGH = 1500  # samples that show a spectrum
+SHOWN = 3  # peaks of the spectrum that are worth a start
+
+
+def force(x: float, cosine: float, sine: float, turns: float) -> float:
+    """[V] toward negative positions."""
+    return cosine * math.cos(turns * x) + sine * math.sin(turns * x)
+
+
+def stored(x: float, cosine: float, sine: float, turns: float) -> float:
+    """[V·unit] held at a place."""
+    return (cosine * math.sin(turns * x) - sine * math.cos(turns * x)) / turns
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """A fifth of a volt, twelve times along the travel, for size 1."""
+    turns = 2.0 * math.pi * 12.0 / scale.reach
+    return {"cosine": 0.16 * size, "sine": 0.12 * size, "turns": turns}
+
+
+def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+    """[s] in which one period passes at the speed of 6 V, over 2π."""
+    return gains["kV"] / (6.0 * max(values["turns"], 1e-9))
+
+
+def span(values: Mapping[str, float]) -> float:
+    """[unit] a period over 2π."""
+    return 1.0 / max(values["turns"], 1e-9)
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The strongest lines in the spectrum of what is missing over position.
+
+    What comes back less than four times is not seen to come back: a bump, or a brake along a part
+    of the way, has one wave or two.
+    """
+    length = float(np.ptp(seen.position)) if seen.position.size else 0.0
+    if length <= 0.0:
+        return
+    tried = 2.0 * math.pi * np.arange(FEWEST, MOST, FINER) / length
+    some = slice(None, None, max(seen.position.size // ENOUGH, 1))
+    few = seen.every(some)
+    turned = np.exp(1j * (tried[1] - tried[0]) * few.position)  # by which each wave is ahead
+    waves = np.repeat(turned[:, None], tried.size, axis=1)
+    waves[:, 0] = np.exp(1j * tried[0] * few.position)
+    waves = np.multiply.accumulate(waves, axis=1)
+    cosine, sine = few.shares(waves.real, waves.imag)
+    left = np.hypot(cosine, sine)
+    for _ in range(SHOWN):
+        best = int(np.argmax(left))
+        yield {
+            "cosine": float(cosine[best]),
+            "sine": float(sine[best]),
+            "turns": float(tried[best]),
+        }
+        left[max(best - 3, 0) : best + 4] = 0.0
+
+
+def everyday(values: Mapping[str, float]) -> bool:
+    """The ripple that teeth and magnets leave in any mechanism."""
+    return math.hypot(values["cosine"], values["sine"]) <= EVERYDAY
+
+
+EFFECT = Effect(
+    name="cogging",
+    kind="term",
+    summary="a force that repeats along the way (magnets, a sprocket out of round)",
+    formula="cosine·cos(turns·x) + sine·sin(turns·x)",
+    parameters=(
+        Parameter("cosine", "its cosine part", "V", least=-12.0, most=12.0),
+        Parameter("sine", "its sine part", "V", least=-12.0, most=12.0),
+        Parameter(
+            "turns", "angle of the wave per position", "rad/{u}", power=1, least=1e-6, neutral=1.0
+        ),
+    ),
+    fingerprint="What is missing comes and goes with position, at the same places in every run.",
+    inspect="A sprocket or pulley out of round, a bent shaft, a wheel with a flat, motor magnets.",
+    apart={
+        "compliance": "Run at another speed: cogging keeps its places, a vibration its times.",
+        "gravity-cosine": "Use the full travel: gravity has one wave per turn of the arm.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"force": force},
+    symmetric=False,
+    stores=stored,
+    pace=pace,
+    span=span,
+    everyday=everyday,
+)

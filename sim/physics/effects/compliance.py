@@ -1,0 +1,64 @@
+"""Compliance: what joins motor and load gives way and swings back.
+
+    push = (x_motor - x_load)/softness
+
+A belt, a long shaft, an arm that bends: the motor's encoder sees the load swing after every change
+of voltage. ``share`` of kA is on the motor's side.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+SLOWEST, NEXT, TRIED = 2.0, 1.15, 23
+"""[Hz] of swings that a log can show, how many times faster the next one is, and how many: between
+two of them a search finds its way, unless the motor is light; up to 43 Hz, which look slower."""
+LIGHT, HALF = 0.15, 0.5  # [1] shares of the motor: a search from one seldom finds the other
+
+
+def softness(softness: float) -> float:
+    """[unit/V] that it gives."""
+    return softness
+
+
+def share(share: float) -> float:
+    """[1] of the inertia on the motor's side."""
+    return share
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """The load swings at 5 Hz on a motor that is held, for size 1; slower for more."""
+    stiff = 0.7 * scale.ka * (2.0 * math.pi * 5.0) ** 2
+    return {"softness": size / stiff, "share": 0.3}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Swings of every pace that a log can show, of a light motor and of half the inertia."""
+    for share in (LIGHT, HALF):
+        reduced = share * (1.0 - share) * abs(seen.gains["kA"])
+        for number in range(TRIED):
+            stiff = reduced * (2.0 * math.pi * SLOWEST * NEXT**number) ** 2
+            yield {"softness": 1.0 / max(stiff, 1e-9), "share": share}
+
+
+EFFECT = Effect(
+    name="compliance",
+    kind="two-body",
+    summary="a soft joint between motor and load (belt, long shaft, bending arm)",
+    formula="push = (x_motor - x_load)/softness",
+    parameters=(
+        Parameter("softness", "way it gives per volt", "{u}/V", power=-1, most=1e6),
+        Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.3),
+    ),
+    fingerprint="After every change of voltage the velocity swings, always at the same rate.",
+    inspect="Belts, chains and long shafts: push the load with the motor held and watch it spring.",
+    apart={
+        "backlash": "Turn at two sizes of step, logged at 5 ms: a spring gives more, play stays.",
+        "cogging": "Run at another speed: a vibration keeps its times, cogging its places.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"softness": softness, "share": share},
+)

@@ -1,0 +1,64 @@
+"""Constant load: a force that is always there, whichever way it moves: weight, a slope.
+
+    V = ... + load
+
+One direction needs more voltage than the other by twice the load.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
+
+
+def force(load: float) -> float:
+    """[V] toward negative positions."""
+    return load
+
+
+def stored(x: float, load: float) -> float:
+    """[V·unit] of lifting it."""
+    return load * x
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """An eighth of the step, for size 1."""
+    return {"load": 0.125 * scale.step * size}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The mean of what is missing."""
+    (load,) = seen.share(np.ones_like(seen.missing))
+    yield {"load": float(load)}
+
+
+def everyday(values: Mapping[str, float]) -> bool:
+    """No floor is level, and no gear runs alike both ways."""
+    return abs(values["load"]) <= EVERYDAY
+
+
+EFFECT = Effect(
+    name="constant-load",
+    kind="term",
+    summary="a constant force in one direction (weight, constant-force spring, slope)",
+    formula="load",
+    parameters=(Parameter("load", "constant voltage", "V", least=-12.0, most=12.0),),
+    fingerprint="What is missing is the same at every speed and place, and has one sign.",
+    inspect="Weight on an elevator fitted as simple, a constant-force spring, a field that slopes.",
+    apart={
+        "asymmetric-friction": "Let it go at rest: a load moves it, friction does not. While it "
+        "moves the two are the same.",
+        "spring": "Use the full travel: a spring's force changes with position.",
+        "gravity-cosine": "Use the full travel: gravity on an arm changes with its angle.",
+    },
+    example=ordinary,
+    starts=starts,
+    everyday=everyday,
+    acts={"force": force},
+    symmetric=False,
+    stores=stored,
+)

@@ -1,0 +1,55 @@
+"""Current limit: the controller holds the motor's current, and with it the torque, below a bound.
+
+    |u - kV·v| ≤ limit        limit = R·I, the voltage that drives the limiting current
+
+The rise of a step is a straight line instead of an exponential until the limit lets go.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+
+def transform_voltage(u: float, v: float, kv: float, limit: float) -> float:
+    """[V] at the motor."""
+    emf = kv * v
+    return emf + min(max(u - emf, -limit), limit)
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """Just over half of the step, for size 1."""
+    return {"limit": max(0.55 * scale.step / size, 1.2 * scale.ks)}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The torque volts that the acceleration shows at most, and shares of the largest."""
+    torque = seen.voltage - seen.gains["kV"] * seen.velocity
+    most = float(np.max(np.abs(torque), initial=0.0))
+    had = np.abs(torque - seen.missing)
+    if had.size:
+        yield {"limit": max(float(np.quantile(had, 0.98)), 0.1)}
+    for part in (0.8, 0.6, 0.4):
+        yield {"limit": max(part * most, 0.1)}
+
+
+EFFECT = Effect(
+    name="current-limit",
+    kind="path",
+    summary="a bound on the motor's current, and so on its torque",
+    formula="u - kV·v kept within ± limit",
+    parameters=(Parameter("limit", "volts of the limiting current", "V", least=1e-3, neutral=1e6),),
+    fingerprint="A step's velocity rises in a straight line before it bends, instead of bending "
+    "from the start.",
+    inspect="Stator and supply limits in the motor controller's configuration.",
+    apart={
+        "battery-sag": "Add a second step level: a limit cuts at one current, sag bends.",
+        "delay": "Log at 5 ms, or add a second step level: a delay is the same for both.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"transform_voltage": transform_voltage},
+    order=4,
+)

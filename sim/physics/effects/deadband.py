@@ -1,0 +1,60 @@
+"""Deadband: the controller ignores small commands.
+
+    u = 0 where |u| < band
+
+Phoenix calls it the neutral deadband (4 % by default, 0.48 V of 12); it hides friction below it.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+STARTED = 0.02  # [share of the top speed] at which a run has begun to move
+
+
+def transform_voltage(u: float, band: float) -> float:
+    """[V] at the motor."""
+    return u if abs(u) >= band else 0.0
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """A third of a volt beyond what friction holds anyway, for size 1."""
+    return {"band": scale.ks + 0.33 * size}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The voltages at which the ramps began to move: it acts by a threshold, so a grid is due.
+
+    What a load draws along moves before any voltage does, until a ramp turns it.
+    """
+    started = STARTED * seen.speed
+    onset = [
+        abs(float(run.voltage[np.argmax(run.velocity * np.sign(run.voltage) > started)]))
+        for run in seen.log.runs
+        if run.kind == "quasistatic" and len(run)
+    ]
+    around = {float(np.median(onset)), max(onset)} if onset else {0.4}
+    for part in (1.0, 0.92, 0.84, 0.76, 0.68, 0.6, 1.1):
+        yield from ({"band": max(part * one, 0.02)} for one in sorted(around))
+
+
+EFFECT = Effect(
+    name="deadband",
+    kind="path",
+    summary="small commands that the motor controller ignores",
+    formula="u = 0 where |u| < band",
+    parameters=(Parameter("band", "smallest voltage that is applied", "V", most=12.0),),
+    fingerprint="Ramps start late and then at once at speed; below one voltage it coasts.",
+    inspect="The neutral deadband in the motor controller's configuration.",
+    apart={
+        "stribeck": "Let the voltage fall (triangle, coast): a deadband cuts it off.",
+        "delay": "Compare two ramps: a deadband starts at one voltage, a delay after one time.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"transform_voltage": transform_voltage},
+    order=1,
+)

@@ -1,0 +1,64 @@
+"""Delay: commands arrive late.
+
+    u(t) = V(t - lag)
+
+The bus, the controller's own loop, a filter on the command: everything happens a little later.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+EVERYDAY = 0.006  # [s]
+
+
+def late(lag: float) -> float:
+    """[s] by which a command comes late."""
+    return lag
+
+
+def ordinary(_: Scale, size: float) -> Mapping[str, float]:
+    """A loop and a half of the robot program, for size 1."""
+    return {"lag": 0.03 * size}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """A late command looks like missing volts where the voltage changes; and a few to try."""
+    steps = []
+    for run in seen.log.runs:
+        moving = np.abs(run.velocity) > 0.05 * seen.speed
+        if run.kind == "dynamic" and moving.any():
+            steps.append(float(run.time[np.argmax(moving)] - run.time[0]))
+    if steps:
+        expected = 0.05 * seen.gains["kA"] / max(seen.gains["kV"], 1e-9)
+        yield {"lag": float(np.clip(np.median(steps) - expected, 0.002, 0.2))}
+    for lag in (0.01, 0.03, 0.06):
+        yield {"lag": lag}
+
+
+def everyday(values: Mapping[str, float]) -> bool:
+    """What a CAN bus and a loop of 200 Hz make of it anyway."""
+    return values["lag"] <= EVERYDAY
+
+
+EFFECT = Effect(
+    name="delay",
+    kind="path",
+    summary="commands that arrive late",
+    formula="u(t) = V(t - lag)",
+    parameters=(Parameter("lag", "time from command to motor", "s", most=0.5),),
+    fingerprint="Nothing happens for a moment after every change of voltage.",
+    inspect="Logging in another loop than driving, a busy CAN bus, a slew-rate limit.",
+    apart={
+        "velocity-filter": "Look at the position: a filter delays only the velocity.",
+        "current-limit": "Log at 5 ms, or add a second step level.",
+        "deadband": "Compare two ramps: a deadband starts at one voltage, a delay after one time.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"late": late},
+    everyday=everyday,
+)

@@ -1,0 +1,46 @@
+"""Quadratic drag: air, grease and churning push back with the square of speed.
+
+    V = ... + drag·v·|v|
+
+Nothing near v = 0, more than its share at full speed: the voltage-velocity line bends upward.
+"""
+
+from collections.abc import Iterator, Mapping
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+
+def force(v: float, drag: float) -> float:
+    """[V] against the motion."""
+    return drag * v * abs(v)
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """Half a volt at the speed of an ordinary step, for size 1."""
+    return {"drag": 0.5 * size / scale.speed**2}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The share of v·|v| in what is missing."""
+    (drag,) = seen.share(seen.velocity * abs(seen.velocity))
+    yield {"drag": max(float(drag), 0.05 / max(seen.speed, 1e-9) ** 2)}
+
+
+EFFECT = Effect(
+    name="drag",
+    kind="term",
+    summary="resistance that grows with the square of speed (air, grease)",
+    formula="drag·v·|v|",
+    parameters=(Parameter("drag", "volts per squared speed", "V·s²/{u}²", power=2),),
+    fingerprint="What is missing grows with speed, the same in both directions, and is nothing "
+    "near standstill.",
+    inspect="Grease that is too thick, a belt that is too tight, a flywheel that fans air.",
+    apart={
+        "stribeck": "A faster ramp or step: drag keeps growing, Stribeck friction stays small.",
+        "voltage-limit": "A coast: drag slows it while no voltage is applied.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"force": force},
+)

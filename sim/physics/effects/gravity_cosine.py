@@ -1,0 +1,76 @@
+"""Gravity on something that turns: most when level, nothing when upright.
+
+    V = ... + level·cos x + upright·sin x
+
+The two together allow for an angle whose zero is not level: level = kG·cos φ, upright = -kG·sin φ.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+
+def force(x: float, level: float, upright: float) -> float:
+    """[V] toward negative angles."""
+    return level * math.cos(x) + upright * math.sin(x)
+
+
+def stored(x: float, level: float, upright: float) -> float:
+    """[V·rad] of lifting it."""
+    return level * math.sin(x) - upright * math.cos(x)
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """A seventh of the step when level, with the zero a little off, for size 1."""
+    return {"level": 0.14 * scale.step * size, "upright": 0.04 * scale.step * size}
+
+
+def only_angles(scale: Scale) -> str:
+    """Positions in meters have no cosine."""
+    return "" if scale.angular else "its positions are lengths, not angles"
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The shares of cos x and sin x in what is missing."""
+    if not seen.position.size:
+        return
+    level, upright = seen.share(np.cos(seen.position), np.sin(seen.position))
+    yield {"level": float(level), "upright": float(upright)}
+
+
+def simplified(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
+    """A straight line over position, as steep as the cosine in the middle of the way."""
+    middle = float(np.median(seen.position)) if seen.position.size else 0.0
+    pull_there = values["level"] * math.cos(middle) + values["upright"] * math.sin(middle)
+    rate = values["upright"] * math.cos(middle) - values["level"] * math.sin(middle)
+    return {"rate": max(rate, 0.0), "preload": pull_there - max(rate, 0.0) * middle}
+
+
+EFFECT = Effect(
+    name="gravity-cosine",
+    kind="term",
+    summary="gravity on an arm: most when level, none when upright",
+    formula="level·cos x + upright·sin x",
+    parameters=(
+        Parameter("level", "voltage that holds it level", "V", least=-12.0, most=12.0),
+        Parameter("upright", "the same at 90 degrees", "V", least=-12.0, most=12.0),
+    ),
+    fingerprint="What is missing follows the angle like a cosine, at every speed.",
+    inspect="An arm fitted as simple, an angle whose zero is not level, a turret on a slope.",
+    apart={
+        "spring": "Use the full travel, or start elsewhere: a cosine bends, a spring does not.",
+        "constant-load": "Use the full travel: a constant load does not change with the angle.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"force": force},
+    symmetric=False,
+    stores=stored,
+    cannot=only_angles,
+    simpler="spring",
+    simplified=simplified,
+)

@@ -1,0 +1,69 @@
+"""Heating: copper gets warm, its resistance grows, and a volt drives less current.
+
+    u - kV·v becomes (u - kV·v)/(1 + warmth)
+    warmth' = rate·(u - kV·v)² - warmth/COOLING
+
+Copper has 0.39 % more resistance per kelvin. A mechanism that hangs on its motor heats it most.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual, share_a_clock
+
+COOLING = 90.0  # [s] in which a motor's winding gives its heat to the case
+
+
+def transform_voltage(u: float, v: float, kv: float, memory: float) -> float:
+    """[V] at a cold motor that would drive the same current."""
+    emf = kv * v
+    return emf + (u - emf) / (1.0 + memory)
+
+
+def remembers(memory: float, dt: float, u: float, v: float, kv: float, rate: float) -> float:
+    """[1] the winding's resistance beyond a cold one's, as a share."""
+    drop = (u - kv * v) * (1.0 + memory)
+    fade = math.exp(-dt / COOLING)
+    return memory * fade + rate * drop * drop * COOLING * (1.0 - fade)
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """A tenth more resistance after ten seconds under a quarter of the step, for size 1."""
+    return {"rate": 0.01 * size / (0.25 * scale.step) ** 2}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """How much missing volts go with the heat made so far."""
+    torque = seen.voltage - seen.gains["kV"] * seen.velocity
+    steps = np.diff(seen.clock, prepend=seen.clock[:1])
+    heat = np.cumsum(np.clip(steps, 0.0, 0.1) * torque**2)
+    if not share_a_clock(seen.log):  # each run began cold
+        begins = np.searchsorted(seen.run, seen.run)
+        heat -= heat[begins]
+    (rate,) = seen.share(torque * heat)
+    yield {"rate": float(np.clip(rate, 1e-4, 1.0))}
+    yield {"rate": 0.003}
+    yield {"rate": 0.02}
+
+
+EFFECT = Effect(
+    name="heating",
+    kind="path",
+    summary="a motor that gets warm and weaker while it is tested",
+    formula="(u - kV·v)/(1 + warmth), warmth grows with (u - kV·v)²",
+    parameters=(Parameter("rate", "warmth per squared volt and second", "1/(V²·s)", most=10.0),),
+    fingerprint="Later runs answer more weakly than earlier ones, most where much current flowed.",
+    inspect="Motor temperature in the log; let it cool between tests.",
+    apart={
+        "inertia-change": "Repeat the first test at the end: heat grows slowly, a load comes at "
+        "once.",
+        "battery-sag": "Repeat the first test at the end: heat stays, sag does not.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"transform_voltage": transform_voltage, "remembers": remembers},
+    order=5,
+)

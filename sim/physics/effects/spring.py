@@ -1,0 +1,74 @@
+"""A spring: a force that grows with position.
+
+    V = ... + rate·x + preload
+
+Surgical tubing, a gas spring, an energy chain that bends, a cable that winds up.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+
+def force(x: float, rate: float, preload: float) -> float:
+    """[V] toward negative positions."""
+    return rate * x + preload
+
+
+def stored(x: float, rate: float, preload: float) -> float:
+    """[V·unit] in the spring."""
+    return 0.5 * rate * x * x + preload * x
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """Half a volt from one end to the other, nothing in the middle, for size 1."""
+    return {"rate": 0.5 * size / scale.reach, "preload": -0.25 * size}
+
+
+def only_bounded(scale: Scale) -> str:
+    """Without end no spring lasts."""
+    return "" if scale.bounded else "it turns without end, and a spring does not"
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """A straight line through what is missing, over position."""
+    if not seen.position.size or seen.endless:
+        return
+    rate, preload = seen.share(seen.position, np.ones_like(seen.position))
+    least = 0.02 / max(float(np.ptp(seen.position)), 1e-9)
+    yield {"rate": max(float(rate), least), "preload": float(preload)}
+
+
+def simplified(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
+    """The same pull everywhere: that in the middle."""
+    middle = float(np.median(seen.position)) if seen.position.size else 0.0
+    return {"load": values["rate"] * middle + values["preload"]}
+
+
+EFFECT = Effect(
+    name="spring",
+    kind="term",
+    summary="a force that grows with position (tubing, gas spring, cable chain)",
+    formula="rate·x + preload",
+    parameters=(
+        Parameter("rate", "volts per position", "V/{u}", power=1),
+        Parameter("preload", "volts at position zero", "V", least=-1e3, most=1e3),
+    ),
+    fingerprint="What is missing is a straight line over position, at every speed.",
+    inspect="Tubing or gas springs that hold up an arm, a cable chain, a hose that winds up.",
+    apart={
+        "gravity-cosine": "Use the full travel, or start elsewhere: a cosine bends.",
+        "constant-load": "Use the full travel: a constant load is the same everywhere.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"force": force},
+    symmetric=False,
+    stores=stored,
+    cannot=only_bounded,
+    simpler="constant-load",
+    simplified=simplified,
+)

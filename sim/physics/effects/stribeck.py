@@ -1,0 +1,68 @@
+"""Stribeck friction: dry friction that is larger at a crawl than at speed.
+
+    V = kS·sgn(v) + ... + extra·exp(-|v|/slow)·sgn(v)
+
+It takes more voltage to break away than to keep moving, so a slow start lurches.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+EVERYDAY = 0.06  # [V]
+
+
+def coulomb_friction(v: float, extra: float, slow: float) -> float:
+    """[V] beyond kS."""
+    return extra * math.exp(-abs(v) / slow)
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """A quarter of a volt to break away, gone at a tenth of the step's speed, for size 1."""
+    return {"extra": 0.25 * size, "slow": 0.08 * scale.speed}
+
+
+def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+    """[s] in which it lets go: falling friction pushes the motion on."""
+    return gains["kA"] * values["slow"] / max(values["extra"], 1e-9)
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The best of a few speeds over which it may fade."""
+    for part in (0.06, 0.02, 0.2):
+        slow = max(part * seen.speed, 1e-6)
+        (extra,) = seen.share(np.sign(seen.velocity) * np.exp(-np.abs(seen.velocity) / slow))
+        yield {"extra": max(float(extra), 0.02), "slow": slow}
+
+
+def everyday(values: Mapping[str, float]) -> bool:
+    """Every gearbox starts a little harder than it runs."""
+    return values["extra"] <= EVERYDAY
+
+
+EFFECT = Effect(
+    name="stribeck",
+    kind="term",
+    summary="breakaway friction: more at a crawl than at speed",
+    formula="extra·exp(-|v|/slow)·sgn(v)",
+    parameters=(
+        Parameter("extra", "friction at rest beyond kS", "V", most=12.0),
+        Parameter("slow", "speed over which it fades", "{u}/s", power=-1, least=1e-6, neutral=1.0),
+    ),
+    fingerprint="What is missing is large at a crawl and fades with speed; starts lurch.",
+    inspect="A dry bearing, a gasket, a chain that is too tight, grease that has become stiff.",
+    apart={
+        "deadband": "Let the voltage fall (triangle, coast): a deadband cuts it off, friction only "
+        "slows it.",
+        "drag": "A faster run: drag grows with speed, Stribeck friction fades.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"coulomb_friction": coulomb_friction},
+    pace=pace,
+    everyday=everyday,
+)

@@ -1,0 +1,78 @@
+"""Velocity filter: the sensor reports the mean velocity of a while, not the velocity of now.
+
+    seen(t) = (x(t) - x(t - window))/window
+
+Motor controllers average: a NEO's built-in encoder by default over so long that it lags by 112 ms.
+The position is not filtered, so the two can be compared. Lag: half of the window.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.data.log import Array
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+
+def transform_velocity(
+    seen: float, now: int, time: Array, position: Array, velocity: Array, window: float
+) -> float:
+    """[unit/s] that the sensor reports."""
+    began = time[now] - window
+    if now == 0 or window <= 0.0:
+        return seen
+    if began <= time[0]:  # before the run it went as it did at its first sample
+        back = position[0] + velocity[0] * (began - time[0])
+        return float((position[now] - back) / window)
+    k = now
+    while time[k] > began:
+        k -= 1
+    span = time[k + 1] - time[k]
+    part = (began - time[k]) / span
+    rest = 1.0 - part
+    # between two samples, the cubic that has both positions and both velocities
+    back = rest * rest * (
+        (1.0 + 2.0 * part) * position[k] + part * span * velocity[k]
+    ) + part * part * ((1.0 + 2.0 * rest) * position[k + 1] - rest * span * velocity[k + 1])
+    return float((position[now] - back) / window)
+
+
+def ordinary(_: Scale, size: float) -> Mapping[str, float]:
+    """A lag of 40 ms, for size 1."""
+    return {"window": 0.08 * size}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """How long the velocity runs behind the slope of the position, and three sizes to try."""
+    lags = []
+    for run in seen.log.runs:
+        if len(run) < 8:  # noqa: PLR2004 - too short to compare
+            continue
+        slope = np.gradient(run.position, run.time)
+        change = np.gradient(run.velocity, run.time)
+        if float(change @ change) > 0.0:
+            lags.append(float(change @ (slope - run.velocity)) / float(change @ change))
+    if lags:
+        yield {"window": float(np.clip(2.0 * np.median(lags), 0.01, 0.5))}
+    for window in (0.03, 0.08, 0.2):
+        yield {"window": window}
+
+
+EFFECT = Effect(
+    name="velocity-filter",
+    kind="sense",
+    summary="a velocity that is averaged over a while, and so comes late",
+    formula="seen(t) = (x(t) - x(t - window))/window",
+    parameters=(Parameter("window", "time averaged over", "s", most=1.0),),
+    fingerprint="The velocity follows the slope of the position with a delay; steps look rounded.",
+    inspect="Velocity filter and measurement period of the motor controller's encoder.",
+    apart={
+        "delay": "Look at the position: a delay moves it too, a filter does not.",
+        "inertia-change": "Look at the position: its second difference is not filtered.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"transform_velocity": transform_velocity},
+    order=1,
+)

@@ -1,0 +1,53 @@
+"""Voltage limit: the controller applies no more than so many volts.
+
+    |u| ≤ limit
+
+A forgotten peak output or voltage compensation below what the test asks for: the ramp goes on in
+the log, the mechanism does not get faster.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+
+def transform_voltage(u: float, limit: float) -> float:
+    """[V] at the motor."""
+    return min(max(u, -limit), limit)
+
+
+def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+    """Four fifths of the step, for size 1."""
+    return {"limit": max(scale.step * (1.0 - 0.2 * size), 2.0 * scale.ks)}
+
+
+def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """The voltage that the motion shows at most, and shares of the largest asked for."""
+    had = np.abs(seen.voltage - seen.missing)
+    most = float(np.max(np.abs(seen.voltage), initial=0.0))
+    if had.size:
+        yield {"limit": max(float(np.quantile(had, 0.97)), 0.1)}
+    for part in (0.9, 0.7, 0.5):
+        yield {"limit": max(part * most, 0.1)}
+
+
+EFFECT = Effect(
+    name="voltage-limit",
+    kind="path",
+    summary="a bound on the voltage that is applied (peak output)",
+    formula="u kept within ± limit",
+    parameters=(Parameter("limit", "largest voltage applied", "V", least=1e-3, neutral=1e6),),
+    fingerprint="Above one voltage nothing gets faster, in ramps and in steps.",
+    inspect="Peak output and voltage compensation in the motor controller's configuration.",
+    apart={
+        "drag": "A coast: drag slows it while no voltage is applied, a limit does not.",
+        "current-limit": "A ramp: a current limit lets it reach full speed, slowly.",
+    },
+    example=ordinary,
+    starts=starts,
+    acts={"transform_voltage": transform_voltage},
+    order=2,
+)

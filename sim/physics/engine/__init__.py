@@ -1,0 +1,255 @@
+"""The simulation engine: one compiled kernel for simulation, fit and reconcile.
+
+It is composed from the effects of the catalogue when first used: about ten seconds once, from the
+cache on disk within a tenth of a second after that.
+"""
+
+import math
+import sys
+from dataclasses import dataclass, field, fields
+from functools import cache
+from threading import Lock
+from types import ModuleType
+
+import numpy as np
+
+from sim.data.log import Array
+from sim.physics.effects import EFFECTS
+from sim.physics.engine.compose import compose, is_compiled
+from sim.physics.engine.kernel import Kernel
+from sim.physics.engine.model_arrays import (
+    COARSEST,
+    EXACT,
+    ORDER,
+    effect_arrays,
+    finest_step,
+    model_constants,
+    only_delays,
+    search_step_limits,
+    slack_of,
+    step_limits,
+)
+from sim.physics.engine.run_batch import RunBatch
+from sim.physics.engine.stepping import (
+    APPLIED,
+    BUS,
+    CURRENT,
+    EXPECTED,
+    LOAD_POSITION,
+    POSITION,
+    SEEN,
+    VELOCITY,
+    empty,
+)
+from sim.physics.engine.two_body_modes import WAYS
+from sim.physics.model import Model
+
+__all__ = [
+    "COARSEST",
+    "EXACT",
+    "EXPECTED",
+    "NO_TRUST",
+    "NO_WIRES",
+    "ORDER",
+    "RunBatch",
+    "State",
+    "Track",
+    "effect_arrays",
+    "engine_is_cached",
+    "finest_step",
+    "follow",
+    "load_engine",
+    "model_constants",
+    "move",
+]  # fmt: skip
+
+ONE_AT_A_TIME = Lock()
+NO_WIRES: Array = np.zeros(9)
+UNSEEN: Array = np.zeros((0, 2))
+NO_TRUST: Array = np.zeros((2, 2))
+
+
+@dataclass(eq=False)
+class State:
+    """Where a mechanism stands; goes on from one run to the next.
+
+    Args:
+        body: (5,) position and velocity of the motor, then of the load, and the end of a cut.
+        memory: (effects,) what effects remember.
+        clock: [s] since the log began.
+    """
+
+    body: Array = field(default_factory=lambda: np.zeros(5))
+    memory: Array = field(default_factory=lambda: np.zeros(len(EFFECTS)))
+    clock: float = 0.0
+
+    @classmethod
+    def at(cls, position: float, velocity: float = 0.0) -> "State":
+        """A cold mechanism at a place [m or rad] and a velocity [m/s or rad/s]."""
+        return cls(np.array([position, velocity, position, velocity, 0.0]))
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """A motion, sample by sample, before the sensor's own noise.
+
+    Args:
+        position: (n,) [m or rad] at the motor, which is what a sensor there reads.
+        velocity: (n,) the same, [m/s or rad/s].
+        load_position: (n,) [m or rad]; the same as ``position`` where there is one body.
+        applied: (n,) [V] at the motor, before hidden paths.
+        bus: (n,) [V] of the battery; 0 where there are no wires.
+        current: (n,) [A] of one motor; 0 where there are no wires.
+        seen: (n,) [m/s or rad/s] the velocity that the sensor reports.
+        expected: (n,) [m or rad] the position, before a measurement corrected it.
+    """
+
+    position: Array
+    velocity: Array
+    load_position: Array
+    applied: Array
+    bus: Array
+    current: Array
+    seen: Array
+    expected: Array
+
+    @classmethod
+    def of(cls, out: Array) -> "Track":
+        """The motion that the engine wrote, (n, 8)."""
+        return cls(
+            out[:, POSITION], out[:, VELOCITY], out[:, LOAD_POSITION], out[:, APPLIED],
+            out[:, BUS], out[:, CURRENT], out[:, SEEN], out[:, EXPECTED],
+        )  # fmt: skip
+
+    @property
+    def read(self) -> Array:
+        """(n, 2) position and velocity as the sensors report them."""
+        return np.column_stack((self.position, self.seen))
+
+    def until(self, end: int) -> "Track":
+        """The first ``end`` samples."""
+        return Track(*(getattr(self, one.name)[:end] for one in fields(self)))
+
+
+def move(
+    model: Model,
+    *,
+    time: Array,
+    voltage: Array,
+    state: State,
+    wires: Array = NO_WIRES,
+    step: float | None = None,
+    plain: bool = False,
+    measured: Array = UNSEEN,
+    trust: Array = NO_TRUST,
+) -> Track:
+    """Move a model along a voltage.
+
+    Args:
+        model: what moves.
+        time: (n,) [s], increasing.
+        voltage: (n,) [V], each held until the next.
+        state: where it begins; afterward, where it ended.
+        wires: (9,) battery and limits, see ``power_path.py``; none is an ideal source.
+        step: [s] the longest; None chooses.
+        plain: in uncompiled Python, for comparison.
+        measured: (n, 2) position and velocity that correct the motion as it goes, nan where there
+            is none; none goes its way.
+        trust: (2, 2) by how much: from both deviations to the corrections of both.
+    """
+    on, parameters = effect_arrays(model)
+    out = empty(time.size)
+    simple = not wires.any() and model.type != "arm" and all(map(only_delays, model.parts))
+    longest = EXACT if simple else step_limits(model)
+    if step:
+        longest = np.array([step, math.inf, step])
+    kernel = _plain() if plain else _compiled()
+    kernel.move(
+        np.array([0.0, time.size]), _doubles(time), _doubles(voltage), state.body[None],
+        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1),
+        model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
+        np.array([state.clock]), longest, simple, _doubles(measured), _doubles(trust), out,
+    )  # fmt: skip
+    state.clock += float(time[-1] - time[0])
+    return Track.of(out)
+
+
+def _doubles(array: Array) -> Array:
+    """The same numbers, in one piece."""
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def follow(
+    model: Model, course: RunBatch, *, trust: Array, beside: Array, meshed: Array, rubs: Array
+) -> Array:
+    """Move a model along many runs, quickly: what a search does some hundred times a second.
+
+    Steps are as coarse as a search can bear (``SEARCHED``): a tenth of a percent does not decide
+    between two effects.
+
+    Args:
+        model: what moves.
+        course: the runs.
+        trust: (2, 2) by how much measurements correct; ``NO_TRUST`` leaves it alone.
+        beside: (runs,) [m or rad] by which each begins, and has its stops, beside where it says.
+        meshed: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where a weight
+            decides.
+        rubs: (runs,) [V] dry friction of each beyond kS.
+
+    Returns:
+        (n, 8) of all runs, one after another, as ``Track.of`` takes it; the last two columns, from
+        ``EXPECTED`` on, are what was expected before a measurement corrected it.
+    """
+    on, parameters = effect_arrays(model)
+    simple = model.type != "arm" and all(map(only_delays, model.parts))
+    longest = EXACT if simple else search_step_limits(model)
+    begin = course.position + beside
+    load = begin - 0.5 * slack_of(model) * _leans(model, begin, meshed)
+    bodies = np.column_stack([begin, course.velocity, load, course.velocity, np.zeros(begin.size)])
+    aside = beside + (load - begin)
+    out = empty(course.time.size)
+    _compiled().move(
+        course.edges, course.time, course.voltage, bodies, course.low + aside, course.high + aside,
+        _doubles(rubs), course.sessions, model_constants(model), NO_WIRES, on, parameters,
+        np.zeros(len(EFFECTS)), np.zeros(WAYS), course.clocks, longest, simple,
+        course.measured if trust.any() else UNSEEN, _doubles(trust), out,
+    )  # fmt: skip
+    return out
+
+
+def _leans(model: Model, position: Array, meshed: Array) -> Array:
+    """(runs,) where in its free play each motor is: a weight hangs on its motor's teeth."""
+    load = np.full(position.size, model.gains.get("kG", 0.0))
+    if model.type == "arm":
+        load *= np.cos(position + model.gains.get("offset_rad", 0.0))
+    return np.where(np.isnan(meshed), np.sign(load), meshed)
+
+
+def engine_is_cached() -> bool:
+    """Whether the engine waits in the cache; if not, its first use takes about ten seconds."""
+    return is_compiled(EFFECTS)
+
+
+def load_engine() -> None:
+    """Compile the engine, or load it."""
+    gains = {"kS": 0.0, "kV": 1.0, "kA": 1.0}
+    move(Model("simple", gains), time=np.zeros(1), voltage=np.zeros(1), state=State())
+
+
+def _compiled() -> Kernel | ModuleType:
+    """The compiled engine, made once whoever asks first."""
+    with ONE_AT_A_TIME:
+        return _made()
+
+
+@cache
+def _made() -> Kernel | ModuleType:
+    """The compiled engine; a person at a terminal is told why the first time takes a while."""
+    if sys.stderr.isatty() and not engine_is_cached():
+        sys.stderr.write("Compiling the simulation, once; this takes about ten seconds…\n")
+    return compose(EFFECTS)
+
+
+@cache
+def _plain() -> Kernel | ModuleType:
+    return compose(EFFECTS, compiled=False)

@@ -1,0 +1,214 @@
+"""Compose the engine: the effects' functions and the integrator, compiled as one unit.
+
+The text of one module is written: functions that ask every effect that is on (in place of
+``hooks.py``), then ``MODULES`` as they are. What is compiled of it stands in a
+folder of the user's cache under a name made of that text, so that a changed or a new effect is a
+new engine.
+"""
+
+import hashlib
+import inspect
+import sys
+from collections.abc import Iterator, Mapping
+from types import ModuleType
+
+from sim.data.errors import BadRequest
+from sim.physics.effect import Effect
+from sim.physics.engine import one_body, power_path, stepping, two_bodies, two_body_modes
+from sim.physics.engine.kernel import Kernel, kernel_file, load_kernel
+from sim.physics.engine.two_body_modes import WAYS
+from sim.support.work.cache import cache_folder
+
+MODULES = (power_path, two_body_modes, one_body, two_bodies, stepping)
+CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
+
+HOOKS: Mapping[str, tuple[str, str, str]] = {
+    # hook: arguments of the composed function, value to begin with, how an effect's answer joins
+    "late": ("on, p", "0.0", "{0} + {1}"),
+    "transform_voltage": ("on, p, memory, u, v, kv", "u", "{1}"),
+    "force": ("on, p, x, v", "0.0", "{0} + {1}"),
+    "coulomb_friction": ("on, p, v, way", "0.0", "{0} + {1}"),
+    "added_inertia": ("on, p, clock", "0.0", "{0} + {1}"),
+    "impact": ("on, p", "0.0", "max({0}, {1})"),
+    "changes": ("on, p, clock", "math.inf", "min({0}, {1})"),
+    "slack": ("on, p", "0.0", "{0} + {1}"),
+    "softness": ("on, p", "0.0", "{0} + {1}"),
+    "share": ("on, p", "0.0", "max({0}, {1})"),
+    "transform_velocity": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
+}
+SHAPES = {  # of the arrays that `runs` asks for, but for what effects remember
+    "edges": "(count + 1,)",
+    "time": "(n,)",
+    "asked": "(n,)",
+    "bodies": "(count, 5)",
+    "low": "(count,)",
+    "high": "(count,)",
+    "rubs": "(count,)",
+    "sessions": "(count,)",
+    "began": "(count,)",
+    "ways": f"({WAYS},)",
+    "steps": "(3,)",
+    "measured": "(rows, 2)",
+    "trust": "(2, 2)",
+    "out": "(n, 8)",
+}
+RUNNING = {
+    "transform_voltage": "u",
+    "transform_velocity": "seen",
+}  # a chain: each effect changes what the last one left
+
+
+def parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
+    """Where the parameters of each effect stand in the engine's one array of parameters."""
+    found, at = {}, 0
+    for name, effect in effects.items():
+        found[name] = slice(at, at + len(effect.parameters))
+        at += len(effect.parameters)
+    return found
+
+
+def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel | ModuleType:
+    """The engine for these effects: something with ``move``.
+
+    Args:
+        effects: the catalogue.
+        compiled: False leaves plain Python: some hundred times slower, for comparison.
+
+    Raises:
+        BadRequest: an effect is written wrongly; the message says which, and what is wrong.
+    """
+    for name, effect in effects.items():
+        if wrong := effect.faults():
+            raise BadRequest(
+                wrong[0],
+                where=f"effect {name}",
+                advice="Compare with drag.py beside it, and with ASKS in sim/physics/effect.py.",
+            )
+    text = "\n".join(_text(effects, compiled=compiled))
+    if compiled:
+        return load_kernel(text, kernel_file(cache_folder(), _seal(effects, text)))
+    module = ModuleType("plain_engine")
+    exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
+    return module
+
+
+def is_compiled(effects: Mapping[str, Effect]) -> bool:
+    """Whether an engine for these effects waits in the cache."""
+    text = "\n".join(_text(effects, compiled=True))
+    return kernel_file(cache_folder(), _seal(effects, text)).is_file()
+
+
+def _seal(effects: Mapping[str, Effect], text: str) -> str:
+    """What is different for every other engine: its text, and that of the effects' functions."""
+    sources = [
+        inspect.getsource(sys.modules[act.__module__])
+        for effect in effects.values()
+        for act in effect.acts.values()
+    ]
+    return hashlib.sha256("\n".join([text, *sources]).encode()).hexdigest()
+
+
+def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
+    """The lines of the module."""
+    yield '"""Composed by compose.py."""'
+    yield "from __future__ import annotations"
+    yield "import math"
+    yield "import numpy as np"
+    if compiled:
+        yield "from numba import carray, cfunc, njit, types"
+        yield "step = njit(error_model='numpy', forceinline=True)"
+    else:
+        yield "step = lambda function: function"
+    for effect in effects.values():
+        for hook, act in effect.acts.items():
+            yield f"import {act.__module__}"
+            yield f"{_alias(effect, hook)} = step({act.__module__}.{act.__name__})"
+    at = parameter_slices(effects)
+    for hook in HOOKS:
+        yield from _chain(hook, effects, at)
+    yield from _memories(effects, at)
+    for module in MODULES:
+        yield from _body(module)
+    yield from _entry(effects, compiled=compiled)
+
+
+def _chain(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
+    """One function that asks every effect that is on."""
+    arguments, first, joins = HOOKS[hook]
+    yield "@step"
+    yield f"def {hook}({arguments}):"
+    running = RUNNING.get(hook, "total")
+    yield f"    {running} = {first}"
+    order = list(effects)
+    yield f"    if on[{len(order) + list(HOOKS).index(hook)}] == 0.0:"
+    yield f"        return {running}"
+    for name in sorted(effects, key=lambda name: effects[name].order):
+        effect = effects[name]
+        if hook in effect.acts:
+            answer = _call(effect, hook, at[name], order.index(name))
+            yield f"    if on[{order.index(name)}] != 0.0:"
+            yield f"        {running} = {joins.format(running, answer)}"
+    yield f"    return {running}"
+
+
+def _memories(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
+    yield "@step"
+    yield "def remembers(on, p, memory, dt, u, v, kv):"
+    yield f"    if on[{len(effects) + len(HOOKS)}] == 0.0:"
+    yield "        return"
+    for place, (name, effect) in enumerate(effects.items()):
+        if "remembers" in effect.acts:
+            yield f"    if on[{place}] != 0.0:"
+            yield f"        memory[{place}] = {_call(effect, 'remembers', at[name], place)}"
+
+
+def _entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
+    """What is called from outside: arrays that stay the same through all runs become tuples."""
+    asked = list(inspect.signature(stepping.runs).parameters)
+    sizes = {
+        "c": CONSTANTS,
+        "w": WIRES,
+        "on": len(effects) + len(HOOKS) + 1,
+        "p": sum(len(effect.parameters) for effect in effects.values()),
+    }
+    given = {
+        name: f"({', '.join(f'{name}[{place}]' for place in range(size))},)"
+        for name, size in sizes.items()
+    }
+    if compiled:  # as CALLED in kernel.py: three lengths, then what `runs` asks for
+        shapes = {**SHAPES, "memory": f"({len(effects)},)"}
+        given |= {name: f"carray({name}, {shape})" for name, shape in shapes.items()}
+        given["plain"] = "plain != 0"
+        places = ("types.int64" if name == "plain" else "place" for name in asked)
+        yield "place = types.CPointer(types.float64)"
+        yield f"called = types.void(types.int64, types.int64, types.int64, {', '.join(places)})"
+        yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
+        yield f"def move(count, n, rows, {', '.join(asked)}):"
+    else:
+        yield f"def move({', '.join(asked)}):"
+    yield f"    runs({', '.join(given.get(name, name) for name in asked)})"
+
+
+def _call(effect: Effect, hook: str, at: slice, place: int) -> str:
+    """The call of an effect's function, with what it asks for."""
+    given = {name: f"p[{at.start + n}]" for n, name in enumerate(effect.names)}
+    given["memory"] = f"memory[{place}]"
+    asked = inspect.signature(effect.acts[hook]).parameters
+    return f"{_alias(effect, hook)}({', '.join(given.get(name, name) for name in asked)})"
+
+
+def _alias(effect: Effect, hook: str) -> str:
+    return f"_{effect.name.replace('-', '_')}_{hook}"
+
+
+def _body(module: ModuleType) -> Iterator[str]:
+    """A module's text without its imports, each function made a compiled one."""
+    lines = inspect.getsource(module).splitlines()
+    ends = [n for n, line in enumerate(lines) if line.endswith("# composed: end")]
+    imports = [n for n, line in enumerate(lines) if line.startswith(("import ", "from "))]
+    for line in lines[max([*ends, *imports]) + 1 :]:
+        if line.startswith("def "):
+            yield "@step"
+            yield "def " + line[4:]
+        else:
+            yield line

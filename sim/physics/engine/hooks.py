@@ -1,0 +1,82 @@
+"""The functions that the engine asks of all effects together; here, their defaults.
+
+When the engine is composed (``compose.py``), these functions are replaced by others of
+the same names and arguments that ask each effect that is ``on``. ``p`` holds the parameters of all
+effects, ``memory`` one number for each effect.
+"""
+
+import math
+
+from sim.data.log import Array
+
+Numbers = tuple[float, ...]
+"""What stays the same through a run.
+
+Compiled functions count who holds an array at each call, which takes longer than a step; of tuples
+they hold the numbers.
+"""
+
+
+def late(on: Numbers, p: Numbers) -> float:
+    """[s] by which a command comes late."""
+    return 0.0
+
+
+def transform_voltage(
+    on: Numbers, p: Numbers, memory: Array, u: float, v: float, kv: float
+) -> float:
+    """[V] that gets through to the motor."""
+    return u
+
+
+def force(on: Numbers, p: Numbers, x: float, v: float) -> float:
+    """[V] that terms take from the motor's."""
+    return 0.0
+
+
+def coulomb_friction(on: Numbers, p: Numbers, v: float, way: float) -> float:
+    """[V] of dry friction beyond kS when moving toward ``way``."""
+    return 0.0
+
+
+def added_inertia(on: Numbers, p: Numbers, clock: float) -> float:
+    """[V·s²/unit] of inertia beyond kA."""
+    return 0.0
+
+
+def impact(on: Numbers, p: Numbers) -> float:
+    """[1] of the momentum it needs that joining inertia takes from what moves."""
+    return 0.0
+
+
+def changes(on: Numbers, p: Numbers, clock: float) -> float:
+    """[s] of the clock at which something happens next."""
+    return math.inf
+
+
+def slack(on: Numbers, p: Numbers) -> float:
+    """[unit] of free play between motor and load."""
+    return 0.0
+
+
+def softness(on: Numbers, p: Numbers) -> float:
+    """[unit/V] of what joins motor and load."""
+    return 0.0
+
+
+def share(on: Numbers, p: Numbers) -> float:
+    """[1] of the inertia that is on the motor's side; 0 where there is one body."""
+    return 0.0
+
+
+def remembers(
+    on: Numbers, p: Numbers, memory: Array, dt: float, u: float, v: float, kv: float
+) -> None:
+    """Bring every effect's memory up to date, after ``dt`` [s] under ``u`` [V]."""
+
+
+def transform_velocity(
+    on: Numbers, p: Numbers, now: int, time: Array, position: Array, velocity: Array
+) -> float:
+    """[unit/s] that the sensor says at sample ``now``."""
+    return float(velocity[now])

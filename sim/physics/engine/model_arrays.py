@@ -1,0 +1,126 @@
+"""A model as arrays for the engine: gains, parameters and step sizes."""
+
+import inspect
+import math
+
+import numpy as np
+
+from sim.data.log import Array
+from sim.physics.effects import EFFECTS
+from sim.physics.engine.compose import HOOKS, parameter_slices
+from sim.physics.model import Model, Part
+
+__all__ = [
+    "COARSEST",
+    "EXACT",
+    "ORDER",
+    "effect_arrays",
+    "finest_step",
+    "model_constants",
+    "only_delays",
+    "search_step_limits",
+    "slack_of",
+    "step_limits",
+]  # fmt: skip
+
+COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
+# middle rule is then far below a thousandth for anything slower than 10 ms
+SEARCHED = 0.01  # [s] the same while a search looks for an effect
+LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] nothing on a robot needs finer ones
+SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
+EXACT: Array = np.array([math.inf, math.inf, 0.0])  # steps of a model with an exact solution
+PLACES = parameter_slices(EFFECTS)
+NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutral.values()])
+ORDER = {name: place for place, name in enumerate(EFFECTS)}
+SLACKS = {
+    name: (act, tuple(inspect.signature(act).parameters))
+    for name, act in ((one.name, one.acts.get("slack")) for one in EFFECTS.values())
+    if act is not None
+}
+DELAYS = frozenset(
+    one.name for one in EFFECTS.values() if set(one.acts) <= {"late", "transform_velocity"}
+)
+
+
+def only_delays(part: Part) -> bool:
+    """Whether an effect changes when things happen and are seen, and no force."""
+    return part.effect in DELAYS
+
+
+def model_constants(model: Model) -> Array:
+    """(8,) what the engine knows of the base model, in the order of ``one_body.py``."""
+    gains = model.gains
+    level = gains.get("kG", 0.0)
+    low, high = model.travel or (-math.inf, math.inf)
+    return np.array(
+        [
+            gains["kS"],
+            gains["kV"],
+            gains["kA"],
+            level if model.type == "elevator" else 0.0,
+            level if model.type == "arm" else 0.0,
+            gains.get("offset_rad", 0.0),
+            low,
+            high,
+        ]
+    )
+
+
+def effect_arrays(model: Model) -> tuple[Array, Array]:
+    """Which effects are on, then which hooks are needed; and the parameters of all effects."""
+    on = np.zeros(len(EFFECTS) + len(HOOKS) + 1)
+    parameters = NEUTRAL.copy()
+    for part in model.parts:
+        on[ORDER[part.effect]] = 1.0
+        for hook in EFFECTS[part.effect].acts:
+            on[len(EFFECTS) + (*HOOKS, "remembers").index(hook)] = 1.0
+        parameters[PLACES[part.effect]] = [part.parameters[n] for n in EFFECTS[part.effect].names]
+    return on, parameters
+
+
+def slack_of(model: Model) -> float:
+    """[unit] of free play between motor and load."""
+    total = 0.0
+    for part in model.parts:
+        if part.effect in SLACKS:
+            slack, asked = SLACKS[part.effect]
+            total += float(slack(*(part.parameters[name] for name in asked)))
+    return total
+
+
+def finest_step(model: Model) -> float:
+    """[s] the step that the fastest of a model's effects asks for."""
+    return max(min(COARSEST, SHARE_OF_PACE * _fastest(model)), LEAST_STEP)
+
+
+def step_limits(model: Model) -> Array:
+    """(3,) the longest step: [s], [unit] of way, and [s] that even a fast one lasts."""
+    longest = min(COARSEST, SHARE_OF_PACE * _fastest(model, places=False))
+    return np.array([max(longest, LEAST_STEP), SHARE_OF_PACE * _shortest(model), LEAST_STEP])
+
+
+def search_step_limits(model: Model) -> Array:
+    """(3,) the same while a search looks for an effect."""
+    share = 2.0 * SHARE_OF_PACE
+    longest = min(SEARCHED, share * _fastest(model, places=False))
+    return np.array([max(longest, LEAST_SEARCHED), share * _shortest(model), LEAST_SEARCHED])
+
+
+def _fastest(model: Model, *, places: bool = True) -> float:
+    """[s] the shortest time scale of a model; ``places``: of what depends on them, too."""
+    paces = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
+    for part in model.parts:
+        effect = EFFECTS[part.effect]
+        if effect.pace is not None and (places or effect.span is None):
+            paces.append(effect.pace(part.parameters, model.gains))
+    return min(paces)
+
+
+def _shortest(model: Model) -> float:
+    """[unit] the shortest way along which something stays much the same."""
+    spans = [math.inf]
+    for part in model.parts:
+        span = EFFECTS[part.effect].span
+        if span is not None:
+            spans.append(span(part.parameters))
+    return min(spans)

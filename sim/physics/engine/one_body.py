@@ -1,0 +1,150 @@
+"""One step of a single inertia.
+
+    kA·v' = u - kV·v - gravity - pull(x, v) - (kS + grip)·sgn(v)
+
+The linear part has an exact solution (an exponential), so the base model is exact whatever the
+step. What an effect pulls is taken at the middle of each step, and friction's change of sign is met
+at its exact time: a step that ends at rest stays there until friction gives way.
+
+Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
+"""
+
+import math
+
+from sim.data.log import Array  # composed: end
+from sim.physics.engine.hooks import (  # composed: begin
+    Numbers,
+    coulomb_friction,
+    force,
+    transform_voltage,
+)
+from sim.physics.engine.power_path import reaches
+
+KS, KV, KA, LOAD, LEVEL, ANGLE, LOW, HIGH = range(8)
+"""Places in ``c``: kS [V], kV, kA, constant gravity [V], gravity of an arm that is level [V],
+angle [rad] added to the position of an arm, lower and upper end of the travel."""
+
+X, V, Y, W, OFF_UNTIL = range(5)
+"""Places in a state: position and velocity of the motor, then of the load, and [s] of the clock
+until which a brownout keeps the motors off. With one body, motor and load are the same."""
+
+
+def bounded(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
+    """The base model of one run, kept between two stops as well as between the ends of its travel.
+
+    ``rubs`` [V] is its dry friction beyond kS.
+    """
+    return (
+        max(c[KS] + rubs, 0.0), c[KV], c[KA], c[LOAD], c[LEVEL], c[ANGLE],
+        max(c[LOW], low), min(c[HIGH], high),
+    )  # fmt: skip
+
+
+def slides(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
+    """[V] of dry friction toward ``way``, never below none."""
+    return float(max(c[KS] + coulomb_friction(on, p, v, way), 0.0))
+
+
+def glide(
+    c: Numbers, on: Numbers, p: Numbers, x: float, v: float, v_mid: float, drive: float,
+    kv: float, ka: float, dt: float, part: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Position and velocity after ``dt`` under a constant drive [V], turning points included.
+
+    Friction while it slides is that at ``v_mid``, of which ``part`` is this body's; at rest it is
+    whatever the drive is, up to a bound.
+    """
+    rate = kv / ka
+    while dt > 0.0:
+        if v == 0.0:
+            way = math.copysign(1.0, drive)
+            hold = part * slides(c, on, p, 0.0, way)
+            slide = part * slides(c, on, p, v_mid, way)
+            if abs(drive) <= max(hold, slide):
+                return x, v
+        else:
+            way = math.copysign(1.0, v)
+            slide = part * slides(c, on, p, v_mid, way)
+        push = (drive - way * slide) / ka
+        until = math.inf
+        if v != 0.0 and push * way < 0.0:  # it slows down, and may turn
+            inside = -v * rate / push
+            if abs(inside) < 1e-9:
+                until = -v / push
+            elif inside > -1.0:
+                until = math.log1p(inside) / rate
+        step = min(dt, until)
+        lost = -math.expm1(-rate * step)
+        reach = step if abs(rate * step) < 1e-9 else lost / rate
+        rest = 0.5 * step * step if abs(rate * step) < 1e-5 else (step - reach) / rate
+        x += v * reach + push * rest
+        v = 0.0 if until <= dt else v * (1.0 - lost) + push * reach
+        dt -= step
+    return x, v
+
+
+def ahead(
+    c: Numbers, on: Numbers, p: Numbers, x: float, v: float, drive: float,
+    kv: float, ka: float, dt: float, part: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Position and velocity a moment ahead, along a straight line: where a step has its middle."""
+    way = math.copysign(1.0, v if v != 0.0 else drive)
+    slide = part * slides(c, on, p, v, way)
+    if v == 0.0 and abs(drive) <= slide:
+        return x, v
+    after = v + dt * (drive - way * slide - kv * v) / ka
+    if v * after < 0.0:
+        after = 0.0
+    return x + 0.5 * dt * (v + after), after
+
+
+def gravity(c: Numbers, x: float) -> float:
+    """[V] that gravity takes."""
+    if c[LEVEL] == 0.0:
+        return float(c[LOAD])
+    return float(c[LOAD] + c[LEVEL] * math.cos(x + c[ANGLE]))
+
+
+def through(
+    c: Numbers,
+    w: Numbers,
+    on: Numbers,
+    p: Numbers,
+    memory: Array,
+    asked: float,
+    v: float,
+    off: bool,
+) -> float:
+    """[V] at the motor, after the wires and then the paths."""
+    u = reaches(w, 0.0 if off else asked, v)
+    return transform_voltage(on, p, memory, u, v, c[KV])
+
+
+def within(c: Numbers, x: float, v: float) -> tuple[float, float]:
+    """Stop at the ends of the travel, without a bounce."""
+    if x < c[LOW]:
+        return c[LOW], max(v, 0.0)
+    if x > c[HIGH]:
+        return c[HIGH], min(v, 0.0)
+    return x, v
+
+
+def single(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    asked: float, off: bool, ka: float, dt: float, plain: bool,
+) -> float:  # fmt: skip
+    """One step of one body; returns the voltage [V] at the motor in its middle."""
+    x, v = state[X], state[V]
+    u = through(c, w, on, p, memory, asked, v, off)
+    if not plain:
+        drive = u - gravity(c, x) - force(on, p, x, v)
+        half, v_half = ahead(c, on, p, x, v, drive, c[KV], ka, 0.5 * dt, 1.0)
+        u = through(c, w, on, p, memory, asked, v_half, off)
+        drive = u - gravity(c, half) - force(on, p, half, v_half)
+        x, v = glide(c, on, p, x, v, v_half, drive, c[KV], ka, dt, 1.0)
+    else:
+        x, v = glide(c, on, p, x, v, v, u - c[LOAD], c[KV], ka, dt, 1.0)
+    x, v = within(c, x, v)
+    state[X] = state[Y] = x
+    state[V] = state[W] = v
+    return u

@@ -1,0 +1,34 @@
+"""The runs of a problem as contiguous arrays, simulated together for many models."""
+
+from dataclasses import dataclass
+
+from sim.data.log import Array
+
+
+@dataclass(frozen=True, eq=False)
+class RunBatch:
+    """Runs, one behind another.
+
+    Args:
+        edges: (runs + 1,) where each begins among all samples, as the engine reads it: in doubles.
+        time: (n,) [s], increasing within a run.
+        voltage: (n,) [V].
+        measured: (n, 2) position and velocity, nan where there is none.
+        position: (runs,) [m or rad] at which each begins.
+        velocity: (runs,) [m/s or rad/s] with which.
+        low: (runs,) [m or rad] a stop beneath it; minus infinity is none.
+        high: (runs,) [m or rad] a stop above it.
+        clocks: (runs,) [s] since its log began.
+        sessions: (runs,) which log; what effects remember goes on within one.
+    """
+
+    edges: Array
+    time: Array
+    voltage: Array
+    measured: Array
+    position: Array
+    velocity: Array
+    low: Array
+    high: Array
+    clocks: Array
+    sessions: Array

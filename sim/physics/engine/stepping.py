@@ -1,0 +1,184 @@
+"""The integrator: move a model along a voltage, sample by sample.
+
+One body (``one_body.py``) or a motor and its load (``two_bodies.py``), step by step,
+with what changes on the way, what the sensor sees, and what a measurement corrects.
+
+Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
+"""
+
+import math
+
+import numpy as np
+
+from sim.data.log import Array  # composed: end
+from sim.physics.engine.hooks import (  # composed: begin
+    Numbers,
+    added_inertia,
+    changes,
+    impact,
+    late,
+    remembers,
+    share,
+    transform_velocity,
+)
+from sim.physics.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bounded, single
+from sim.physics.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_at, reaches
+from sim.physics.engine.two_bodies import double
+
+POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, EXPECTED, SEEN = range(8)
+"""Columns of what is recorded. Where a measurement corrects the motion, the first three are after
+it; the position that was expected and the velocity that the sensor would see are before."""
+
+
+NONE = 1e-9  # [s] a step that is none
+LONGEST, ALONG, LEAST = range(3)  # places in ``steps``: [s], [unit] of way, [s]
+
+
+def advance(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, ways: Array,
+    asked: float, clock: float, dt: float, plain: bool, ka: float,
+) -> float:  # fmt: skip
+    """One step; returns the inertia [V·s²/unit] after it.
+
+    Inertia that joins on the way and was at rest shares the momentum. Inertia that leaves takes its
+    own momentum along.
+    """
+    heavy = c[KA] + added_inertia(on, p, clock)
+    if heavy > ka:
+        kept = 1.0 - impact(on, p) * (1.0 - ka / heavy)
+        state[V] *= kept
+        state[W] *= kept
+    off = clock < state[OFF_UNTIL]
+    if w[REST] != 0.0 and not off:
+        u = reaches(w, asked, state[V])
+        bus = bus_at(w, u, (u - w[EMF] * state[V]) / w[OHM])
+        if bus < w[STOP]:  # noticed now, acted on from the next step on
+            state[OFF_UNTIL] = clock + 0.5 * dt + CUT
+    if share(on, p) > 0.0:
+        u = double(state, c, w, on, p, memory, ways, asked, off, heavy, dt)
+    else:
+        u = single(state, c, w, on, p, memory, asked, off, heavy, dt, plain)
+    remembers(on, p, memory, dt, u, state[V], c[KV])
+    return float(heavy)
+
+
+def record(out: Array, k: int, state: Array, w: Numbers, asked: float, clock: float) -> None:
+    """Write down what is true at sample ``k``, but for what the sensor says."""
+    out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
+    out[k, LOAD_POSITION] = state[Y]
+    off = clock < state[OFF_UNTIL]
+    u = reaches(w, 0.0 if off else asked, state[V])
+    out[k, APPLIED] = u
+    if w[REST] != 0.0:
+        current = (u - w[EMF] * state[V]) / w[OHM]
+        out[k, BUS] = bus_at(w, u, current)
+        out[k, CURRENT] = current
+
+
+def correct(state: Array, ahead: float, faster: float, trust: Array) -> None:
+    """Move the whole mechanism by a share of how far a measurement is from what was expected."""
+    way, speed = 0.0, 0.0
+    if not math.isnan(ahead):
+        way, speed = trust[0, 0] * ahead, trust[1, 0] * ahead
+    if not math.isnan(faster):
+        way, speed = way + trust[0, 1] * faster, speed + trust[1, 1] * faster
+    state[X] += way
+    state[Y] += way
+    state[V] += speed
+    state[W] += speed
+
+
+def pause(on: Numbers, p: Numbers, now: float, after: float, clock: float) -> float:
+    """[s] at which steps must end: ``after``, or before it where something happens."""
+    when = now + changes(on, p, clock) - clock
+    return when if now + NONE < when < after else after
+
+
+def count_of(span: float, steps: Array, v: float, volts: float, c: Numbers) -> float:
+    """In how many steps a time [s] is gone: short ones where it is fast, and places matter."""
+    longest = steps[LONGEST]
+    if steps[ALONG] < math.inf:
+        most = max(abs(v), abs(volts) / c[KV])
+        fast = min(abs(v) + span * abs(volts) / c[KA], most)
+        if fast * longest > steps[ALONG]:
+            longest = max(steps[ALONG] / fast, steps[LEAST])
+    return float(max(math.ceil(span / longest - 1e-9), 1))
+
+
+def run(
+    time: Array, asked: Array, state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers,
+    memory: Array, ways: Array, began: float, steps: Array, plain: bool, measured: Array,
+    trust: Array, out: Array,
+) -> None:  # fmt: skip
+    """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
+
+    A command holds from its sample until the next, later by what the effects delay it; before the
+    first has come, what rests is held where it rests, by a stop or a brake. ``measured`` (n, 2) are
+    positions and velocities that correct the motion as it goes, nan where there is none, by the
+    gains ``trust`` (2, 2); without rows it goes its way. A step lasts as long as ``steps`` lets it:
+    [s], [unit] of way, and [s] that even that does not shorten. ``ways`` is room for the tables of
+    ``joined.py``: of one model only, and empty at first.
+    """
+    lag = late(on, p)
+    n = time.size
+    command = -1  # the last one that has arrived
+    rests = state[V] == 0.0 and state[W] == 0.0
+    ka = c[KA] + added_inertia(on, p, began)
+    for k in range(n):
+        now = time[k]
+        while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
+            command += 1
+        record(out, k, state, w, asked[k], began + now - time[0])
+        out[k, EXPECTED] = state[X]
+        out[k, SEEN] = transform_velocity(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
+        if measured.shape[0] > 0:
+            ahead, faster = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
+            correct(state, ahead, faster, trust)
+            out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
+            out[k, LOAD_POSITION] = state[Y]
+        if k == n - 1:
+            break
+        while now < time[k + 1] - 1e-12:
+            arrives = time[command + 1] + lag if command + 1 < n else math.inf
+            after = pause(on, p, now, min(time[k + 1], arrives), began + now - time[0])
+            if command < 0 and rests:
+                state[V] = state[W] = 0.0  # whatever a measurement made of it
+            else:
+                volts = asked[command] if command >= 0 else 0.0
+                count = count_of(after - now, steps, state[V], volts, c)
+                dt = (after - now) / count
+                for i in range(int(count)):
+                    clock = began + now + (i + 0.5) * dt - time[0]
+                    ka = advance(state, c, w, on, p, memory, ways, volts, clock, dt, plain, ka)
+            now = after
+            while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
+                command += 1
+
+
+def runs(
+    edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array, rubs: Array,
+    sessions: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, ways: Array,
+    began: Array, steps: Array, plain: bool, measured: Array, trust: Array, out: Array,
+) -> None:  # fmt: skip
+    """Move through runs that lie one behind the other, ``run`` by ``run``.
+
+    A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
+    when the clock says ``began``, and is kept between ``low`` and ``high``; its dry friction is
+    ``rubs`` [V] beyond kS. What effects remember goes on through runs of the same number in
+    ``sessions``.
+    """
+    for k in range(began.size):
+        first, last = int(edges[k]), int(edges[k + 1])
+        if k > 0 and sessions[k] != sessions[k - 1]:
+            for i in range(memory.size):
+                memory[i] = 0.0
+        lead = measured[first:last] if measured.shape[0] > 0 else measured
+        run(
+            time[first:last], asked[first:last], bodies[k], bounded(c, low[k], high[k], rubs[k]),
+            w, on, p, memory, ways, began[k], steps, plain, lead, trust, out[first:last],
+        )  # fmt: skip
+
+
+def empty(n: int) -> Array:
+    """Room for what ``move`` writes about ``n`` samples."""
+    return np.zeros((n, 8))

@@ -1,0 +1,269 @@
+"""One step of two inertias, motor and load, coupled by a spring or backlash.
+
+It pushes through what joins them, free play first. A spring that joins them is part of the exact
+solution (``two_body_modes.py``), so a step in which nothing happens is gone in one; a
+body that turns, and teeth that meet or part, are closed in by halving.
+
+Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
+"""
+
+import math
+
+from sim.data.log import Array  # composed: end
+from sim.physics.engine.hooks import Numbers, force, share, slack, softness  # composed: begin
+from sim.physics.engine.one_body import (
+    HIGH,
+    KV,
+    LOW,
+    V,
+    W,
+    X,
+    Y,
+    ahead,
+    glide,
+    gravity,
+    slides,
+    through,
+    within,
+)
+from sim.physics.engine.two_body_modes import (
+    DAMP,
+    KNOWN,
+    LEVELS,
+    MOVES,
+    ROW,
+    SMALL,
+    STANDS,
+    STIFF,
+    becomes,
+    doubled,
+    prepared,
+    tabled,
+)
+
+CONTACT = 40.0  # [Hz] at which motor and load bounce on each other's teeth: stiff, but not endless
+DAMPING = 0.3  # [1] of critical, of that contact: steel teeth in grease
+BLOW = 4  # steps in which one is taken while teeth bounce
+MOMENT = 1e-6  # [s] a shorter part of a step is not worth a step of its own
+LOOSE_DAMPING = 0.05  # [1] of critical, of a belt, a chain or an arm that bends
+FINE, FINEST = 0.06, 2e-4  # [1] of their pace, [s]: a step in which one turns, or teeth meet
+PARTS = 1 << (LEVELS - 1)  # of a step, at most: the half of what swings has a table, too
+TINY, HUGE = 1e-9, 1e12  # [V·s/unit] a kV that is none; [1] an inertia that nothing moves
+
+
+def double(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    ways: Array, asked: float, off: bool, ka: float, dt: float,
+) -> float:  # fmt: skip
+    """One step of a motor and its load; returns the voltage [V] at the motor in its middle.
+
+    As far as nothing happens in it, it is gone in one; what happens is closed in by halving.
+    """
+    part, play = share(on, p), slack(on, p)
+    if ways[KNOWN] != ka:
+        ways[KNOWN] = ka
+        reduced = part * (1.0 - part) * ka
+        stiff, damp = joins(softness(on, p), reduced)
+        pace = min(1.4 * math.sqrt(reduced / stiff), part * ka / max(c[KV], TINY))
+        ways[STIFF], ways[DAMP], ways[SMALL] = stiff, damp, max(FINE * pace, FINEST)
+    stiff, damp = ways[STIFF], ways[DAMP]
+    u, level, gone, size = 0.0, 0, 0, PARTS
+    while gone < PARTS:
+        take = dt / (1 << level)
+        if size == 1 or not take > ways[SMALL]:  # nor where it flies off, and nothing is a number
+            u = meeting(state, c, w, on, p, memory, asked, off, ka, take)
+        else:
+            push = joint(play, stiff, damp, state[X] - state[Y], state[V] - state[W])
+            if play == 0.0 or push != 0.0:
+                one = swing(
+                    state, c, w, on, p, memory, ways, asked, off, ka, dt, level, play, stiff, damp
+                )
+            else:
+                one = loose(state, c, w, on, p, memory, asked, off, ka, take, play, stiff, damp)
+            if math.isnan(one):
+                size, level = size // 2, level + 1
+                continue
+            u = one
+        gone += size
+        while level > 0 and gone % (2 * size) == 0:  # as long a part as may begin here
+            size, level = 2 * size, level - 1
+    return u
+
+
+def swing(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    ways: Array, asked: float, off: bool, ka: float, whole: float, level: int, play: float,
+    stiff: float, damp: float,
+) -> float:  # fmt: skip
+    """The same of bodies that push each other, exactly but for what is not linear.
+
+    It goes a part of the whole step: half of it, half of that, as ``level`` says. What is not
+    linear is taken at the middle. Where one of them turns, teeth part, or a load that
+    stands begins to move, there is no step, and nan is returned.
+    """
+    part = share(on, p)
+    rest = 1.0 - part
+    own, other = part * ka, rest * ka
+    dt = whole / (1 << level)
+    x, v, y, z = state[X], state[V], state[Y], state[W]
+    side = 0.5 * play * math.copysign(1.0, x - y)
+    d = x - y - side
+    u = through(c, w, on, p, memory, asked, v, off)
+    r = -gravity(c, y) - force(on, p, y, z)
+    stands = z == 0.0
+    if stands and not stays(c, on, p, y, stiff * d + damp * v + r, rest):
+        return math.nan
+    if stands and v == 0.0:
+        return u if held(c, on, p, u - stiff * d, part) else math.nan
+
+    which = STANDS if stands else MOVES
+    prepared(ways, which, c[KV], own, HUGE * ka if stands else other, stiff, damp)
+    half, full = tabled(ways, which, whole, level + 1), doubled(ways, which, whole, level)
+    way, toward = math.copysign(1.0, v), math.copysign(1.0, z)
+    b = u - way * part * slides(c, on, p, v, way)
+    r = 0.0 if stands else r - toward * rest * slides(c, on, p, z, toward)
+    d_half = becomes(ways, half, d, v, z, b, r)
+    v_half = becomes(ways, half + ROW, d, v, z, b, r)
+    z_half = becomes(ways, half + 2 * ROW, d, v, z, b, r)
+    y_half = y + becomes(ways, half + 3 * ROW, d, v, z, b, r)
+    u = through(c, w, on, p, memory, asked, v_half, off)
+    b = u - way * part * slides(c, on, p, v_half, way)
+    r = -gravity(c, y_half) - force(on, p, y_half, z_half)
+    r = 0.0 if stands else r - toward * rest * slides(c, on, p, z_half, toward)
+    d_end = becomes(ways, full, d, v, z, b, r)
+    v_end = becomes(ways, full + ROW, d, v, z, b, r)
+    z_end = becomes(ways, full + 2 * ROW, d, v, z, b, r)
+    y_end = y + becomes(ways, full + 3 * ROW, d, v, z, b, r)
+
+    slowest = min(v * way, v_half * way, v_end * way)
+    if stands:
+        y_end, z_end = y, 0.0
+        load = stiff * d_end + damp * v_end - gravity(c, y) - force(on, p, y, 0.0)
+        slowest = slowest if stays(c, on, p, y, load, rest) else 0.0
+    else:
+        slowest = min(slowest, z * toward, z_half * toward, z_end * toward)
+    if not slowest > 0.0:
+        return math.nan
+    if play > 0.0:
+        least = joint(play, stiff, damp, d_half + side, v_half - z_half) * side
+        least = min(least, joint(play, stiff, damp, d_end + side, v_end - z_end) * side)
+        shakes = abs(d_end - d) > 0.5 * max(abs(d), abs(d_end))
+        long = dt * math.sqrt(stiff / (part * other)) > 1.0  # enough to part and meet within it
+        if not least > 0.0 or (shakes and long):
+            return math.nan
+    state[X], state[V] = y_end + d_end + side, v_end
+    state[Y], state[W] = within(c, y_end, z_end)
+    return u
+
+
+def held(c: Numbers, on: Numbers, p: Numbers, drive: float, part: float) -> bool:
+    """Whether friction holds a body at rest that has such a part of it."""
+    return abs(drive) <= part * slides(c, on, p, 0.0, math.copysign(1.0, drive))
+
+
+def stays(c: Numbers, on: Numbers, p: Numbers, y: float, drive: float, part: float) -> bool:
+    """Whether a load at rest stays there, held by friction or lying on a stop."""
+    lies = (y <= c[LOW] and drive <= 0.0) or (y >= c[HIGH] and drive >= 0.0)
+    return bool(lies or held(c, on, p, drive, part))
+
+
+def loose(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    asked: float, off: bool, ka: float, dt: float, play: float, stiff: float, damp: float,
+) -> float:  # fmt: skip
+    """The same of bodies between whose teeth there is room; nan, and no step, where they meet."""
+    part = share(on, p)
+    own, other = part * ka, (1.0 - part) * ka
+    x, v, y, z = state[X], state[V], state[Y], state[W]
+    u = through(c, w, on, p, memory, asked, v, off)
+    _, v_half = ahead(c, on, p, x, v, u, c[KV], own, 0.5 * dt, part)
+    drive = -gravity(c, y) - force(on, p, y, z)
+    y_half, z_half = ahead(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
+    u = through(c, w, on, p, memory, asked, v_half, off)
+    x, v = glide(c, on, p, x, v, v_half, u, c[KV], own, dt, part)
+    drive = -gravity(c, y_half) - force(on, p, y_half, z_half)
+    y, z = glide(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
+    if joint(play, stiff, damp, x - y, v - z) != 0.0:
+        return math.nan
+    state[X], state[V] = x, v
+    state[Y], state[W] = within(c, y, z)
+    return u
+
+
+def meeting(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    asked: float, off: bool, ka: float, dt: float,
+) -> float:  # fmt: skip
+    """The same of whatever happens, in small steps.
+
+    A step in which teeth meet or part is taken in two, on both sides of that moment; and while they
+    bounce, in several.
+    """
+    play = slack(on, p)
+    if play == 0.0:
+        return pair(state, c, w, on, p, memory, asked, off, ka, dt)
+    u = 0.0
+    fine = dt / BLOW
+    while dt > 0.0:
+        x, v, y, z = state[X], state[V], state[Y], state[W]
+        before = abs(x - y) - 0.5 * play
+        take = dt
+        rush = abs(v - z)
+        if before > -rush * dt and rush > 0.02 * (abs(v) + abs(z)):
+            take = min(dt, fine)
+        u = pair(state, c, w, on, p, memory, asked, off, ka, take)
+        after = abs(state[X] - state[Y]) - 0.5 * play
+        if before * after < 0.0:
+            first = take * before / (before - after) + 0.5 * MOMENT
+            if MOMENT < first < take - MOMENT:
+                state[X], state[V], state[Y], state[W] = x, v, y, z
+                u = pair(state, c, w, on, p, memory, asked, off, ka, first)
+                take = first
+        dt -= take
+    return u
+
+
+def pair(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    asked: float, off: bool, ka: float, dt: float,
+) -> float:  # fmt: skip
+    """One step of two bodies, as ``double``, whatever happens in it."""
+    part, play = share(on, p), slack(on, p)
+    own, other = part * ka, (1.0 - part) * ka
+    stiff, damp = joins(softness(on, p), part * other)
+    x, v, y, z = state[X], state[V], state[Y], state[W]
+
+    u = through(c, w, on, p, memory, asked, v, off)
+    push = joint(play, stiff, damp, x - y, v - z)
+    x_half, v_half = ahead(c, on, p, x, v, u - push, c[KV], own, 0.5 * dt, part)
+    drive = push - gravity(c, y) - force(on, p, y, z)
+    y_half, z_half = ahead(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
+
+    u = through(c, w, on, p, memory, asked, v_half, off)
+    push = joint(play, stiff, damp, x_half - y_half, v_half - z_half)
+    x, v = glide(c, on, p, x, v, v_half, u - push, c[KV], own, dt, part)
+    drive = push - gravity(c, y_half) - force(on, p, y_half, z_half)
+    y, z = glide(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
+    state[X], state[V] = x, v
+    state[Y], state[W] = within(c, y, z)
+    return u
+
+
+def joins(soft: float, reduced: float) -> tuple[float, float]:
+    """[V/unit] stiffness and [V·s/unit] damping of what joins motor and load."""
+    stiff, damping = reduced * (2.0 * math.pi * CONTACT) ** 2, DAMPING
+    if soft > 0.0:
+        stiff, damping = 1.0 / soft, LOOSE_DAMPING
+    return stiff, 2.0 * damping * math.sqrt(stiff * reduced)
+
+
+def joint(play: float, stiff: float, damp: float, gap: float, rush: float) -> float:
+    """[V] with which the motor pushes the load, from how far and how fast it is ahead."""
+    into = abs(gap) - 0.5 * play
+    if into <= 0.0:
+        return 0.0
+    way = math.copysign(1.0, gap)
+    push = stiff * into + damp * rush * way
+    if play > 0.0:  # teeth push and never pull
+        push = max(push, 0.0)
+    return push * way

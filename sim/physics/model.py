@@ -1,0 +1,88 @@
+"""A model: gains plus effects.
+
+    V = kS·sgn(v) + kV·v + kA·a + gravity + Σ effects
+
+``model + Part("drag", {...})`` is another model.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from sim.data.errors import BadRequest
+from sim.data.log import TYPES
+from sim.data.units import Unit
+from sim.physics.effects import effect as find
+
+
+@dataclass(frozen=True)
+class Part:
+    """An effect with its parameters.
+
+    Args:
+        effect: its name.
+        parameters: name -> value, in SI.
+
+    Raises:
+        BadRequest: no such effect, a parameter is missing, unknown or outside of what is physics.
+    """
+
+    effect: str
+    parameters: Mapping[str, float]
+
+    def __post_init__(self) -> None:
+        known = find(self.effect)
+        if set(self.parameters) != set(known.names):
+            raise BadRequest(
+                f"{self.effect} with {', '.join(self.parameters) or 'no parameters'}",
+                advice=f"Give: {', '.join(known.names)}.",
+            )
+        for parameter in known.parameters:
+            value = self.parameters[parameter.name]
+            if not parameter.least <= value <= parameter.most:
+                raise BadRequest(
+                    f"{self.effect}: {parameter.name} is {value:g}",
+                    advice=f"Choose {parameter.least:g} to {parameter.most:g}.",
+                )
+
+    def said(self, per: Unit) -> dict[str, dict[str, float | str]]:
+        """The parameters in the owner's unit: name -> its value and its unit, for JSON.
+
+        Args:
+            per: the unit of position.
+        """
+        return {
+            parameter.name: {
+                "value": self.parameters[parameter.name] * per.si**parameter.power,
+                "unit": parameter.unit.format(u=per.symbol),
+            }
+            for parameter in find(self.effect).parameters
+        }
+
+
+@dataclass(frozen=True)
+class Model:
+    """What moves, as a formula with numbers.
+
+    Args:
+        type: ``simple``, ``elevator`` or ``arm``.
+        gains: kS [V], kV, kA, and kG [V] (with ``offset_rad`` for an arm) where there is gravity.
+        parts: the effects on top; each at most once.
+        travel: [m or rad] the lower and the upper stop; None has none.
+    """
+
+    type: str
+    gains: Mapping[str, float]
+    parts: tuple[Part, ...] = field(default=())
+    travel: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        if self.type not in TYPES:
+            raise BadRequest(
+                f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
+            )
+        names = [part.effect for part in self.parts]
+        if twice := [name for name in names if names.count(name) > 1]:
+            raise BadRequest(f"{twice[0]} twice", advice="Add an effect once.")
+
+    def __add__(self, part: Part) -> "Model":
+        return replace(self, parts=(*self.parts, part))

@@ -1,0 +1,95 @@
+"""DC motors as in WPILib's ``DCMotor``, and the kV that their free speed implies.
+
+    R = 12 V / stall current            Kt = stall torque / stall current
+    Ke = (12 V - R·free current) / free speed
+
+Source: WPILib 2026.2.2, ``DCMotor``.
+"""
+
+import math
+from dataclasses import dataclass
+
+from sim.data.errors import BadRequest
+
+NOMINAL = 12.0  # [V] the voltage the data sheets are for
+
+
+@dataclass(frozen=True)
+class Motor:
+    """One motor at 12 V.
+
+    Args:
+        name: as WPILib names it.
+        stall_torque: [N·m].
+        stall_current: [A].
+        free_current: [A].
+        free_speed: [rad/s].
+    """
+
+    name: str
+    stall_torque: float
+    stall_current: float
+    free_current: float
+    free_speed: float
+
+    @property
+    def resistance(self) -> float:
+        """[Ω] of the winding."""
+        return NOMINAL / self.stall_current
+
+    @property
+    def torque_constant(self) -> float:
+        """[N·m/A]."""
+        return self.stall_torque / self.stall_current
+
+    @property
+    def back_emf(self) -> float:
+        """[V·s/rad] voltage per speed of the shaft, with the free current's own drop taken off."""
+        return (NOMINAL - self.resistance * self.free_current) / self.free_speed
+
+
+def _motor(name: str, torque: float, stall: float, free: float, rpm: float) -> Motor:
+    return Motor(name, torque, stall, free, rpm * 2.0 * math.pi / 60.0)
+
+
+MOTORS: dict[str, Motor] = {
+    motor.name: motor
+    for motor in (
+        _motor("krakenX60", 7.09, 366, 2, 6000),
+        _motor("krakenX60FOC", 9.37, 483, 2, 5800),
+        _motor("krakenX44", 4.11, 279, 2, 7758),
+        _motor("krakenX44FOC", 5.01, 329, 2, 7368),
+        _motor("falcon500", 4.69, 257, 1.5, 6380),
+        _motor("falcon500FOC", 5.84, 304, 1.5, 6080),
+        _motor("neo", 2.6, 105, 1.8, 5676),
+        _motor("neoVortex", 3.6, 211, 3.615, 6784),
+        _motor("neo550", 0.97, 100, 1.4, 11000),
+        _motor("minion", 3.17, 211, 2, 7704),
+        _motor("cim", 2.42, 133, 2.7, 5310),
+    )
+}
+
+
+def motor(name: str) -> Motor:
+    """Look up a motor.
+
+    Raises:
+        BadRequest: no such motor; the message lists those there are.
+    """
+    if name not in MOTORS:
+        raise BadRequest(f"unknown motor {name!r}", advice=f"Choose one of: {', '.join(MOTORS)}.")
+    return MOTORS[name]
+
+
+def theoretical_kv(of: Motor, *, ratio: float, radius: float | None = None) -> float:
+    """The kV that 12 V over the free speed promises, as teams compute it on paper.
+
+    Args:
+        of: the motor.
+        ratio: motor turns per turn of the output; below 1 for an overdrive.
+        radius: [m] of wheel or drum; None for a mechanism that turns.
+
+    Returns:
+        [V·s/m], or [V·s/rad] without a radius. The exact back-EMF constant gives 0.4 to 2 % less.
+    """
+    return NOMINAL / of.free_speed * ratio / (radius or 1.0)

@@ -1,0 +1,50 @@
+"""Simulate a model under a log's recorded voltage, from each run's start."""
+
+from sim.data.log import Log
+from sim.physics.effects import EFFECTS
+from sim.physics.engine import ORDER, State, Track, move
+from sim.physics.model import Model
+from sim.physics.voltage_residual import run_start_times
+
+
+def replay(model: Model, log: Log, *, step: float | None = None) -> tuple[Track, ...]:
+    """Simulate a model under a log's voltages, open loop.
+
+    Args:
+        model: what moves.
+        log: any runs. Each begins at the position and velocity of its first sample; what an effect
+            remembers goes on from run to run.
+        step: [s] the longest; None chooses.
+
+    Returns:
+        One track for each run.
+    """
+    state, tracks = State(), []
+    for run, clock in zip(log.runs, run_start_times(log).tolist(), strict=True):
+        let_cool(state, model, clock - state.clock)
+        state.clock = clock
+        state.body[:] = State.at(float(run.position[0]), float(run.velocity[0])).body
+        tracks.append(move(model, time=run.time, voltage=run.voltage, state=state, step=step))
+    return tuple(tracks)
+
+
+def let_cool(state: State, model: Model, pause: float) -> None:
+    """Let time pass without voltage or motion, so that the motor cools.
+
+    Args:
+        state: whose memory is brought up to date; its clock is left alone.
+        model: whose effects remember.
+        pause: [s]; nothing happens in none.
+    """
+    if pause <= 0.0:
+        return
+    for part in model.parts:
+        remembers = EFFECTS[part.effect].acts.get("remembers")
+        if remembers is not None:
+            place = ORDER[part.effect]
+            given = {
+                "memory": float(state.memory[place]), "dt": pause, "u": 0.0, "v": 0.0,
+                "kv": model.gains["kV"], **part.parameters,
+            }  # fmt: skip
+            asked = remembers.__code__.co_varnames[: remembers.__code__.co_argcount]
+            state.memory[place] = remembers(**{name: given[name] for name in asked})

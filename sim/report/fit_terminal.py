@@ -1,0 +1,89 @@
+"""Print a fit on a terminal."""
+
+import math
+from collections.abc import Sequence
+
+from rich.console import Console
+from rich.table import Table
+
+from sim.data.units import unit
+from sim.feedback import Preset
+from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
+from sim.fit.result import Fit, gain_unit
+
+FINEST = 1e-4  # [share of a gain] carpet, battery and heat change it by more
+
+
+def show_fit(
+    found: Fit,
+    *,
+    preset: Preset,
+    title: str,
+    tried: Sequence[FeedbackTrial] = (),
+    notes: Sequence[str] = (),
+    console: Console | None = None,
+) -> None:
+    """Print gains with errors and units, how well they fit, feedback gains, and every doubt.
+
+    Args:
+        found: the fit, in the units to show.
+        preset: the motor controller the feedback gains are for.
+        title: the files it came from.
+        tried: feedback gains on trial, with their doubts among the fit's.
+        notes: what is well, a sentence each.
+        console: where to print; standard output if None.
+    """
+    console = console or Console(soft_wrap=True, highlight=False)
+    per = unit(found.units)
+    console.print(f"{title}: {found.type} mechanism in {per.name}, method {found.method}")
+    rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    rows.add_column("gain")
+    rows.add_column("value", justify="right")
+    rows.add_column("± one standard error", justify="right")
+    rows.add_column("unit")
+    for name, value in found.gains.items():
+        error = found.errors.get(name, math.nan)
+        rows.add_row(
+            "angle" if name == "offset_rad" else name,
+            _digits(value, error),
+            format_error(value, error),
+            gain_unit(name, per),
+        )
+    console.print(rows)
+    console.print(
+        f"simulated velocity R² {found.simulated_velocity_r2:.3f}, "
+        f"RMSE {found.simulated_velocity_rmse:.3g} {per.symbol}/s; "
+        f"acceleration R² {found.acceleration_r2:.3f}, "
+        f"RMSE {found.acceleration_rmse:.3g} {per.symbol}/s²"
+    )
+    if tried:
+        console.print(f"feedback to start from, as SysId suggests it ({preset.name}), simulated:")
+    for trial in tried:
+        step = f"{trial.response.target:.4g} {per.symbol}{'/s' * (trial.loop == 'velocity')}"
+        own = "your own " if trial.whose == OWN else ""
+        bad = "" if trial.good else " (no good start)"
+        console.print(
+            f"  {own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} it "
+            f"{trial.verdict.words}"
+        )
+    for note in notes:
+        console.print(note)
+    for doubt in found.doubts if tried else found.all_doubts(preset):
+        console.print(f"{'wrong' if doubt.grave else 'look'}: {doubt.message}", style="bold")
+
+
+def format_error(value: float, error: float) -> str:
+    """The error, or that it is below what matters on a robot, or that nobody knows it."""
+    if not math.isfinite(error):
+        return "not known"
+    return f"< {FINEST:.2%} of it" if error < FINEST * abs(value) else f"{error:.2g}"
+
+
+def _digits(value: float, error: float) -> str:
+    """The value to the second digit of its error, three to six of its own."""
+    if not (math.isfinite(error) and error > 0.0 and value):
+        return f"{value:.4g}"
+    error = max(error, FINEST * abs(value))
+    size = max(abs(value), error)
+    digits = 1 + math.floor(math.log10(size)) - math.floor(math.log10(error))
+    return f"{value:.{min(max(digits + 1, 3), 6)}g}"

@@ -1,0 +1,276 @@
+"""Robot code for a fit's gains: constants, and WPILib's feedforward object.
+
+    from sim.report.robot_code_snippet import robot_code_snippet
+    print(robot_code_snippet(found.in_log_units(), language="java", season=2026, name="left drive"))
+
+What differs between languages and seasons is data below; the text is put together in one way.
+An arm's numbers are always per radian, because WPILib takes the cosine of the angle it is given.
+"""
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from sim.data.errors import BadRequest
+from sim.data.units import Unit, unit
+from sim.feedback import PRESETS
+from sim.fit import Fit
+
+DIGITS = 6  # a robot's gain deserves no more, however small its error
+FEWEST = 3  # ... and no fewer: a rounded kA of zero would be another model
+PERIOD = 1e3 * PRESETS["default"].period  # [ms] between the two velocities, WPILib's default
+
+
+@dataclass(frozen=True)
+class Language:
+    """How a language writes things down; the words in braces are filled in."""
+
+    comment: str
+    indent: str
+    imports: str
+    opens: str
+    constant: str
+    build: str
+    closes: str
+    linear: str  # the class for a simple mechanism counted in lengths
+    angular: str  # ... and in angles
+
+
+@dataclass(frozen=True)
+class Spelling:
+    """What a season's WPILib calls things.
+
+    Args:
+        module: where the feedforward classes are.
+        method: takes the velocity now and the one a period later (an arm: the angle before both).
+        notes: what is not certain about it, a line each.
+    """
+
+    module: str
+    method: str
+    notes: tuple[str, ...] = ()
+
+
+LANGUAGES = {
+    "java": Language(
+        comment="//",
+        indent="  ",
+        imports="import {module}.{cls};",
+        opens="public final class {name} {{\n  private {name}() {{}}",
+        constant="public static final double {name} = {value};",
+        build="public static final {cls} FEEDFORWARD = new {cls}({gains});",
+        closes="}\n",
+        linear="SimpleMotorFeedforward",
+        angular="SimpleMotorFeedforward",
+    ),
+    "python": Language(
+        comment="#",
+        indent="    ",
+        imports="from {module} import {cls}",
+        opens="class {name}:",
+        constant="{name} = {value}",
+        build="FEEDFORWARD = {cls}({gains})",
+        closes="",
+        linear="SimpleMotorFeedforwardMeters",
+        angular="SimpleMotorFeedforwardRadians",
+    ),
+}
+
+# Sources. 2026: WPILib 2026.2.2; Java's calculate(velocity, acceleration) is deprecated there, and
+# Python's calculate has always taken the next velocity. 2027: allwpilib's development branch, where
+# Java's calculate takes the next velocity and calculateWithVelocities is gone, and where RobotPy's
+# own tests and examples import from wpimath itself. Its early alphas still had wpimath.controller;
+# no 2027 release was there to try either against.
+_ALPHA = "WPILib 2027 is not released: names as on its development branch."
+SPELLINGS = {
+    ("java", 2026): Spelling("edu.wpi.first.math.controller", "calculateWithVelocities"),
+    ("java", 2027): Spelling(
+        "org.wpilib.math.controller",
+        "calculate",
+        notes=(_ALPHA, "Make sure that calculate's last argument is the next velocity."),
+    ),
+    ("python", 2026): Spelling("wpimath.controller", "calculate"),
+    ("python", 2027): Spelling(
+        "wpimath",
+        "calculate",
+        notes=(_ALPHA, "Its early alphas import from wpimath.controller."),
+    ),
+}
+SEASONS = tuple(sorted({season for _, season in SPELLINGS}))
+
+ORDER = {  # of the constructor's arguments
+    "simple": ("kS", "kV", "kA"),
+    "elevator": ("kS", "kG", "kV", "kA"),
+    "arm": ("kS", "kG", "kV", "kA"),
+}
+CLASSES = {"elevator": "ElevatorFeedforward", "arm": "ArmFeedforward"}
+
+
+def robot_code_snippet(found: Fit, *, language: str, season: int = 2026, name: str = "") -> str:
+    """Robot code with the gains of a fit, rounded to the digits that their errors deserve.
+
+    Args:
+        found: the fit, in the unit the code shall count in; an arm's is turned into radians.
+        language: ``java`` or ``python``.
+        season: 2026 or 2027.
+        name: what the mechanism is called; empty takes its type.
+
+    Returns:
+        The text, with a line break at its end.
+
+    Raises:
+        BadRequest: an unknown language or season, a name without a letter in front, or gains that
+            cannot be right.
+    """
+    spelling = _spelling(language, season)
+    _check(found)
+    write = LANGUAGES[language]
+    class_ = _class_name(name or found.type)
+    cls = CLASSES.get(found.type) or (write.angular if unit(found.units).angular else write.linear)
+    inside = (
+        *_constants(found, write),
+        *_feedforward(found, write, spelling, cls=cls),
+        *_feedback(found, write),
+    )
+    return "\n".join(
+        (
+            write.imports.format(module=spelling.module, cls=cls),
+            "",
+            *(f"{write.comment} {line}" for line in _heading(found, spelling, season=season)),
+            write.opens.format(name=class_),
+            *((write.indent + line).rstrip() for line in inside),
+            write.closes,
+        )
+    )
+
+
+def round_to_error(value: float, error: float) -> str:
+    """A number as code, to the second digit of its error, with three to six digits of its own."""
+    if not value:
+        return "0.0"
+    first = math.floor(math.log10(abs(value)))
+    places = DIGITS - 1 - first
+    if math.isfinite(error) and error > 0.0:
+        deserved = 1 - math.floor(math.log10(error))
+        places = min(places, max(deserved, FEWEST - 1 - first))
+    text = f"{round(value, places):.{max(places, 1)}f}"
+    whole, _, fraction = text.partition(".")
+    return f"{whole}.{fraction.rstrip('0') or '0'}"
+
+
+def _spelling(language: str, season: int) -> Spelling:
+    if language not in LANGUAGES:
+        raise BadRequest(
+            f"unknown language {language!r}", advice=f"Choose one of: {', '.join(LANGUAGES)}."
+        )
+    if (language, season) not in SPELLINGS:
+        seasons = ", ".join(str(known) for known in SEASONS)
+        raise BadRequest(f"unknown season {season!r}", advice=f"Choose one of: {seasons}.")
+    return SPELLINGS[language, season]
+
+
+def _check(found: Fit) -> None:
+    """Refuse gains that no robot should run on."""
+    for doubt in found.doubts:
+        if doubt.grave:
+            raise BadRequest(
+                f"no code for gains that cannot be right: {doubt.message}",
+                advice="Fit again when that is settled.",
+            )
+    for gain, value in found.gains.items():
+        if not math.isfinite(value) or (gain in {"kV", "kA"} and value < 0.0):
+            raise BadRequest(
+                f"no code for {gain} = {value:.4g}",
+                advice="Record the four tests again: WPILib refuses such a gain on the robot.",
+            )
+
+
+def _class_name(name: str) -> str:
+    words = re.findall(r"[^\W_]+", name)
+    joined = "".join(word[0].upper() + word[1:] for word in words) + "Gains"
+    if not words or not joined.isidentifier():
+        raise BadRequest(
+            f"no class can be called after {name!r}", advice="Begin the name with a letter."
+        )
+    return joined
+
+
+def _heading(found: Fit, spelling: Spelling, *, season: int) -> Iterator[str]:
+    yield (
+        f"Measured gains of {'an' if found.type[0] in 'ae' else 'a'} {found.type} mechanism, for "
+        f"WPILib {season}; ± is one standard error."
+    )
+    yield from spelling.notes
+    if found.doubts:
+        yield f"Warnings of the fit, to be read first: {len(found.doubts)}."
+
+
+def _constants(found: Fit, write: Language) -> Iterator[str]:
+    """The gains, and for an arm what makes the sensor's reading the angle from horizontal."""
+    given = unit(found.units)
+    turned = found.type == "arm" and given.name != "radians"
+    if turned:
+        yield f"{write.comment} Gains per {given.symbol} in the fit, per radian here."
+    shown = found.in_units("radians") if found.type == "arm" else found
+    for gain in ORDER[found.type]:
+        error = shown.errors.get(gain, math.nan)
+        yield _line(write, gain, shown.gains[gain], error, shown.gain_unit(gain))
+    if found.type != "arm":
+        return
+    reading = "measured"
+    if turned:
+        yield write.constant.format(name="kRadiansPerUnit", value=repr(given.si)) + (
+            f"  {write.comment} [rad/{given.symbol}]"
+        )
+        reading = "measured * kRadiansPerUnit"
+    yield f"{write.comment} angle from horizontal [rad] = {reading} + kAngleOffset"
+    offset, error = shown.gains["offset_rad"], shown.errors.get("offset_rad", math.nan)
+    yield _line(write, "kAngleOffset", offset, error, "rad")
+
+
+def _feedforward(found: Fit, write: Language, spelling: Spelling, *, cls: str) -> Iterator[str]:
+    per = _counts_in(found)
+    angle = "angle, " if found.type == "arm" else ""
+    yield ""
+    yield f"{write.comment} Volts: FEEDFORWARD.{spelling.method}({angle}velocity, nextVelocity)"
+    yield (
+        f"{write.comment} with velocities in {per.symbol}/s, the next one {PERIOD:.0f} ms later "
+        "(not an acceleration)."
+    )
+    yield write.build.format(cls=cls, gains=", ".join(ORDER[found.type]))
+
+
+def _feedback(found: Fit, write: Language) -> Iterator[str]:
+    """The gains the fit suggests; an arm's are brought to radians, so the loop stays the same."""
+    per = _counts_in(found)
+    factor = per.si / unit(found.units).si
+    yield ""
+    loops = found.feedback()
+    if not loops:
+        yield f"{write.comment} The fit suggests no feedback gains."
+    for loop, gains in loops.items():
+        held = f"({per.symbol}/s)" if loop == "velocity" else per.symbol
+        if min(gains.kp, gains.kd) < 0.0:
+            yield f"{write.comment} No gains for the {loop} loop: the delay is too long for them."
+            continue
+        yield (
+            f"{write.comment} To start from, added to the feedforward: PIDController of the "
+            f"{loop} [{held.strip('()')}], {PERIOD:.0f} ms"
+        )
+        word = loop.capitalize()
+        for letter, value, top in (("P", gains.kp, "V"), ("D", gains.kd, "V·s")):
+            start = float(f"{value * factor:.{FEWEST}g}")
+            yield _line(write, f"k{word}{letter}", start, math.nan, f"{top}/{held}")
+
+
+def _counts_in(found: Fit) -> Unit:
+    """The unit of position that the code counts in."""
+    return unit("radians" if found.type == "arm" else found.units)
+
+
+def _line(write: Language, name: str, value: float, error: float, per: str) -> str:
+    """One constant with its unit, and its error where it has one."""
+    known = f" ± {error:.2g}" if math.isfinite(error) else ""
+    constant = write.constant.format(name=name, value=round_to_error(value, error))
+    return f"{constant}  {write.comment} [{per}]{known}"

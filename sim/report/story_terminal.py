@@ -1,0 +1,119 @@
+"""Print a reconcile story on a terminal."""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from textwrap import wrap
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.text import Text
+
+from sim.reconcile.story import Finding, Story
+from sim.reconcile.story_text import (
+    FAULT,
+    format_gap,
+    format_parameter,
+    headline,
+    list_inspections,
+    list_next_tests,
+    list_remarks,
+)
+
+COLUMNS, BAR = 80, 40  # [characters] of a line, and of the longest bar
+PLACES = 5  # that are told
+
+Told = Callable[[str, float], None]
+
+
+@contextmanager
+def progress_bar() -> Iterator[Told]:
+    """A bar on the terminal, to be told a step's words and a share of the whole.
+
+    Where nobody watches it is not drawn.
+    """
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda _, __: None
+        return
+    columns = (TextColumn("{task.description:32}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("", total=1.0)
+        yield lambda words, share: bar.update(task, description=words, completed=share)
+
+
+def show_story(story: Story, *, title: str, console: Console | None = None) -> None:
+    """Print the verdict, then what it rests on.
+
+    Args:
+        story: what was found.
+        title: the files it came from.
+        console: where to print; standard output if None.
+    """
+    console = console or _console()
+    say = _Sayer(console)
+    say(title)
+    say(headline(story), style="bold")
+    for one in story.findings:
+        _finding(say, one, story)
+    say("")
+    _gaps(say, story)
+    if story.where:
+        say("")
+        say("Where the base model disagrees most:")
+    for place in story.where[:PLACES]:
+        say(place.sentence, indent=2)
+    say("")
+    say(f"{story.how} The noise is that of the velocity, measured without a model.")
+    for test in list_next_tests(story):
+        say(f"Test to run next: {test}", style="bold")
+    for message in list_remarks(story):
+        say(f"look: {message}", style="bold")
+
+
+class _Sayer:
+    """Prints wrapped text, which may hold brackets that mean themselves."""
+
+    def __init__(self, console: Console) -> None:
+        self.console = console
+
+    def __call__(self, text: str, *, indent: int = 0, style: str = "") -> None:
+        blank = " " * indent
+        lines = wrap(
+            text, self.console.width, initial_indent=blank, subsequent_indent=blank,
+            break_on_hyphens=False,
+        )  # fmt: skip
+        for line in lines or [""]:
+            self.console.print(Text(line, style=style), soft_wrap=True)
+
+
+def _console() -> Console:
+    """As wide as the terminal, eighty columns at most: longer lines are hard to read."""
+    console = Console(highlight=False, file=sys.stdout)
+    return Console(highlight=False, file=sys.stdout, width=min(console.width, COLUMNS))
+
+
+def _finding(say: _Sayer, one: Finding, story: Story) -> None:
+    size = "damage to the record" if one.kind == FAULT else one.size
+    say("")
+    say(f"{' or '.join([one.effect, *one.ambiguous_with])} ({size})", style="bold")
+    say(one.sentence, indent=2)
+    for name, estimate in one.parameters.items():
+        say(format_parameter(name, estimate), indent=2)
+    if one.kind != FAULT:
+        before, after = (format_gap(gap, story) for gap in (one.gap_before, one.gap_after))
+        say(f"The gap goes from {before} to {after} times the noise.", indent=2)
+    for head, text in list_inspections(one):
+        say(f"{head}: {text}", indent=2)
+
+
+def _gaps(say: _Sayer, story: Story) -> None:
+    """The shrinking gap as bars of characters that every terminal has."""
+    say("The gap, in times the noise (1: nothing but noise):")
+    names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
+    wide = max(map(len, names))
+    most = max(story.gap_before, *(one.gap for one in story.chapters), story.noise_floor)
+    for name, chapter in zip(names, story.chapters, strict=True):
+        share = chapter.gap / most if most > 0.0 and most < float("inf") else 0.0
+        bar = "#" * round(BAR * share)
+        say(f"{name}{'.' * (wide - len(name))} {bar} {format_gap(chapter.gap, story)}", indent=2)

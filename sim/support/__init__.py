@@ -1,0 +1,1 @@
+"""What is no system identification: files, processes, terminals, catalogues."""

@@ -1,0 +1,52 @@
+"""The user's cache: files that can be made again."""
+
+import os
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+
+import platformdirs
+
+from sim.support.atomic_file import write_atomically
+
+CACHE = "SYSID_CACHE"  # environment variable: another folder
+
+
+def cache_folder() -> Path:
+    """The folder of the user's cache, which may not be there yet."""
+    asked = os.environ.get(CACHE)
+    return Path(asked or platformdirs.user_cache_dir("sysid-course", appauthor=False))
+
+
+def read_cached(path: Path) -> bytes | None:
+    """What was kept; None where nothing was, or not for us."""
+    try:
+        return path.read_bytes()
+    except OSError:
+        return None
+
+
+def write_cached(path: Path, content: bytes) -> None:
+    """Write a file, whole: whoever reads at the same time sees all of it, or what was there.
+
+    Raises:
+        OSError: there is no place for it.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_atomically(path, content)
+
+
+def all_but_newest(paths: Iterable[Path], *, than: int) -> list[Path]:
+    """All but the newest of some files, so many; what another process removes is not among them."""
+    ages = []
+    for path in paths:
+        with suppress(OSError):
+            ages.append((path.stat().st_mtime_ns, path))
+    return [path for _, path in sorted(ages)[: max(len(ages) - than, 0)]]
+
+
+def remove_files(paths: Iterable[Path]) -> None:
+    """Remove files, but for those that another process uses."""
+    for path in paths:
+        with suppress(OSError):
+            path.unlink()

@@ -1,0 +1,106 @@
+"""Run jobs in worker processes of this machine."""
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from itertools import islice
+from multiprocessing.connection import wait as wait_for_end
+from typing import TYPE_CHECKING, TypeVar
+
+from sim.data.errors import BadRequest
+from sim.support.work.interrupt import interrupts_blocked_for_children
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
+
+AHEAD = 4  # [jobs a worker] that are handed out at a time: enough that none waits for work
+
+Job = TypeVar("Job")
+Result = TypeVar("Result")
+
+
+class WorkerLost(BadRequest):
+    """A process was ended from outside, or brought down by what it did."""
+
+
+def available_cores() -> int:
+    """How many this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def run_jobs_locally(
+    work: Callable[[Job], Result], jobs: Sequence[Job], *, processes: int, worth: int
+) -> Iterator[Result]:
+    """Do jobs on this machine.
+
+    Args:
+        work: does one job; a function of a module.
+        jobs: what to do.
+        processes: at most so many; one does them in this process.
+        worth: so many jobs a further process has to save, to be worth its start.
+
+    Raises:
+        WorkerLost: a process came to its end before its work did.
+    """
+    processes = min(processes, -(-len(jobs) // worth))
+    if processes <= 1:
+        yield from map(work, jobs)
+        return
+    executor = worker_pool(processes)
+    try:
+        yield from collect_results(executor, work, jobs, ahead=AHEAD * processes)
+    except BrokenProcessPool:
+        raise WorkerLost(
+            "a process that worked for this was ended from outside, perhaps for want of memory",
+            advice="Run the same command again to go on; with --processes 1 if it recurs.",
+        ) from None
+    finally:
+        executor.shutdown(cancel_futures=True)
+
+
+def worker_pool(processes: int) -> ProcessPoolExecutor:
+    """Processes that wait for work, and end when this one does."""
+    return ProcessPoolExecutor(
+        processes,
+        # Started afresh, not copied: the same on every system, and no threads are copied halfway.
+        mp_context=multiprocessing.get_context("spawn"),
+        initializer=serve_quietly,
+    )
+
+
+def collect_results(
+    executor: "Executor", work: Callable[[Job], Result], jobs: Sequence[Job], *, ahead: int
+) -> Iterator[Result]:
+    """Results as they come, with only so many jobs handed out at a time."""
+    waiting = iter(jobs)
+    running: set[Future[Result]] = set()
+    try:
+        with interrupts_blocked_for_children():
+            running |= {executor.submit(work, job) for job in islice(waiting, ahead)}
+        while running:
+            done, running = wait(running, return_when=FIRST_COMPLETED)
+            for future in done:
+                yield future.result()
+                running |= {executor.submit(work, job) for job in islice(waiting, 1)}
+    finally:
+        for future in running:
+            future.cancel()
+
+
+def serve_quietly() -> None:
+    """Begin as a worker: Ctrl+C is not for it, and it ends when the one it works for has."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
+
+
+def _end_with(sentinel: int) -> None:
+    wait_for_end([sentinel])
+    os._exit(1)
