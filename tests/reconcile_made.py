@@ -9,15 +9,15 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.data.log import Log, Run
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import run_records
 from sim.physics.battery import Battery
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import State, move
 from sim.physics.model import Model, Part
 from sim.reconcile import reconcile
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import run_records
 
 FOUR = ("quasistatic", "dynamic")
 SESSIONS = {

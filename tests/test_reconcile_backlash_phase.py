@@ -7,6 +7,10 @@ import pytest
 from reconcile_made import recorded
 
 from sim.data.log import Log
+from sim.estimation.likelihood import PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile import reconcile
@@ -19,12 +23,8 @@ from sim.reconcile.backlash_phase import (
 from sim.reconcile.candidates import FURTHER, descend_candidate, score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.findings import list_remarks
-from sim.reconcile.likelihood import PredictionErrorProblem
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.optimize import levenberg_marquardt, minimize_fully
+from sim.reconcile.local_minimum import levenberg_marquardt, minimize_fully
 from sim.reconcile.residual_tests.summary import ResidualSummary
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import run_records
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Finding
 

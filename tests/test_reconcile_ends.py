@@ -3,16 +3,16 @@
 import pytest
 from reconcile_made import rubbing
 
+from sim.estimation.likelihood import PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import run_records
 from sim.physics.model import Part
-from sim.reconcile import optimize
+from sim.reconcile import local_minimum
 from sim.reconcile.backward_elimination import simplify_effects
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import make_folds, open_loop_errors, rms_gap, validation_gap
-from sim.reconcile.likelihood import PredictionErrorProblem
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.optimize import minimize, minimize_fully
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import run_records
+from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.selection_round import SelectionRound
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
@@ -71,7 +71,7 @@ def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
         costs.append(found.cost)
         return found
 
-    monkeypatch.setattr(optimize, "minimize", halfway)
+    monkeypatch.setattr(local_minimum, "minimize", halfway)
 
     assert minimize_fully(problem, begun).cost == min(costs)
     assert len(costs) > 3  # it was not enough once

@@ -8,6 +8,10 @@ import numpy as np
 import pytest
 from reconcile_made import NOWHERE, SESSIONS, bench, session, told
 
+from sim.estimation.likelihood import FARTHEST, PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import ExcludedInterval, run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import Track
 from sim.physics.model import Part
@@ -15,12 +19,8 @@ from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import rank_candidates
 from sim.reconcile.cross_validation import Gap, open_loop_errors, rms_gap
 from sim.reconcile.forward_selection import select_effects
-from sim.reconcile.likelihood import FARTHEST, PredictionErrorProblem
+from sim.reconcile.local_minimum import joint_jacobian, predicted_improvement
 from sim.reconcile.model_selection import WIDENS, rejection_reason
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.optimize import joint_jacobian, predicted_improvement
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import ExcludedInterval, run_records
 from sim.reconcile.selection_round import WeighedCandidate
 from sim.reconcile.story import Tried
 from sim.reconcile.thresholds import MAJOR

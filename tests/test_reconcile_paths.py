@@ -8,7 +8,10 @@ import pytest
 from reconcile_made import NOWHERE, recorded
 
 from sim.data.log import Log
+from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.measurements import SensorNoise
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_records import run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import State
 from sim.physics.model import Model
@@ -21,10 +24,7 @@ from sim.reconcile.forward_selection import (
     alternative_paths,
     choose_path,
 )
-from sim.reconcile.likelihood import PredictionErrorProblem
 from sim.reconcile.model_selection import HARDLY, WIDENS, choose_simplest
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.run_records import run_records
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import Tried
 

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 from reconcile_made import rubbing
 
+from sim.estimation.likelihood import PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.random_friction import friction_sd, laplace_correction
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import run_records
 from sim.physics.engine import NO_TRUST, RunBatch, follow
 from sim.physics.model import Model, Part
 from sim.reconcile.cross_validation import open_loop_errors, parabola_minima, rms_gap
 from sim.reconcile.findings import standard_errors
-from sim.reconcile.likelihood import PredictionErrorProblem
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.optimize import append_prior_rows, joint_jacobian, minimize, minimize_fully
-from sim.reconcile.random_friction import friction_sd, laplace_correction
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import run_records
+from sim.reconcile.local_minimum import append_prior_rows, joint_jacobian, minimize, minimize_fully
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]

@@ -14,7 +14,7 @@ from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
-from sim.reconcile.optimize import minimize
+from sim.reconcile.local_minimum import minimize
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_repeated_residual
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound

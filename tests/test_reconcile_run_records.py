@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sim.data.log import Log, Run
-from sim.reconcile.run_records import run_records
+from sim.estimation.run_records import run_records
 
 TIME = np.arange(0.0, 4.0, 0.02)
 ROUGH = 6e-4  # [m]

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from sim.data.log import Log, Run
+from sim.estimation.likelihood import PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import run_records
 from sim.inspect.fault import rescale_motion
 from sim.physics.engine import State, move
 from sim.physics.model import Model
-from sim.reconcile.likelihood import PredictionErrorProblem
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import run_records
 from sim.reconcile.slip_detection import SLOW, detect_slips
 
 PERIOD = 0.02  # [s]

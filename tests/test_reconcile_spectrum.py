@@ -10,17 +10,17 @@ from reconcile_made import based, recorded
 
 from sim.data.log import Log, Run
 from sim.data.units import unit
+from sim.estimation.likelihood import PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
-from sim.reconcile.likelihood import PredictionErrorProblem
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.optimize import minimize_fully
+from sim.reconcile.local_minimum import minimize_fully
 from sim.reconcile.residual_tests.spectrum import FASTEST, TURNS, SpectralPeak, find_spectral_peak
 from sim.reconcile.residual_tests.summary import ResidualSummary
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import run_records
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import RHYTHM
 from sim.reconcile.verdict import verdict_of

@@ -10,20 +10,20 @@ from story_made import DRAG, SLIP
 
 from sim.data.log import Log
 from sim.data.units import unit
+from sim.estimation.likelihood import PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.findings import list_remarks, make_findings
-from sim.reconcile.likelihood import PredictionErrorProblem
 from sim.reconcile.model_selection import WIDENS, is_significant
-from sim.reconcile.model_structure import ModelStructure
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import run_records
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import Tried
 from sim.reconcile.verdict import verdict_of

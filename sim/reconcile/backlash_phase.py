@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from sim.data.log import Array
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 
 PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # [1] of half the play
 FINER = 0.2  # [1] to both sides of the place that was the best one

@@ -8,18 +8,18 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from sim.data.log import Log
+from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
 from sim.reconcile.cross_validation import Fold, Gap, validation_gap
-from sim.reconcile.likelihood import PredictionErrorProblem
+from sim.reconcile.local_minimum import minimize
 from sim.reconcile.model_selection import (
     WIDENS,
     rejection_reason,
     required_improvement,
     score_improvement,
 )
-from sim.reconcile.optimize import minimize
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import CLOSE, ONCE, SIMPLER, SURER
 

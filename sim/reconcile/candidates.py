@@ -10,13 +10,13 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
+from sim.estimation.random_friction import laplace_correction
 from sim.physics.effect import Effect
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import VoltageResidual
 from sim.reconcile.backlash_phase import backlash_phase_prior
-from sim.reconcile.likelihood import STEPWISE, Estimate, PredictionErrorProblem
-from sim.reconcile.onset_scan import refine_onset, scan_onsets
-from sim.reconcile.optimize import (
+from sim.reconcile.local_minimum import (
     AGITATED,
     CALM,
     Begun,
@@ -26,7 +26,7 @@ from sim.reconcile.optimize import (
     predicted_improvement,
     total_cost,
 )
-from sim.reconcile.random_friction import laplace_correction
+from sim.reconcile.onset_scan import refine_onset, scan_onsets
 from sim.reconcile.two_body_starts import SHAKES, TwoBodyStarts
 
 TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end

@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.data.log import Array
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.random_friction import LEAST_KS
+from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import Track
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.optimize import levenberg_marquardt
-from sim.reconcile.random_friction import LEAST_KS
-from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.local_minimum import levenberg_marquardt
 
 REFIT = 4  # steps
 MOST_VARIED = 0.12  # [of kS] by which a run's friction may differ

@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from sim.estimation.run_records import ExcludedInterval
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.run_records import ExcludedInterval
 from sim.reconcile.thresholds import SLIPPED, SPOILT
 
 FOR_GOOD = ("hard-stop",)

@@ -5,11 +5,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from sim.data.log import Log
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import measure_removals, replace_effects, simplify_effects
 from sim.reconcile.candidates import Seeds, score_estimate
 from sim.reconcile.cross_validation import Fold, missed_motion, validation_gap
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.local_minimum import ENOUGH, minimize, minimize_fully
 from sim.reconcile.model_selection import (
     HARDLY,
     WIDENS,
@@ -23,7 +24,6 @@ from sim.reconcile.model_selection import (
     weigh_candidates,
 )
 from sim.reconcile.onset_scan import flip_duration, refine_onset
-from sim.reconcile.optimize import ENOUGH, minimize, minimize_fully
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.thresholds import (
     CLOSE,

@@ -9,16 +9,16 @@ from numpy.typing import NDArray
 
 from sim.data.log import Log
 from sim.data.units import unit
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import run_records, session_length
 from sim.gap import Place
 from sim.reconcile.backlash_phase import estimate_backlash_phase
 from sim.reconcile.cross_validation import open_loop_errors, rms_gap
 from sim.reconcile.damage_policy import DamageDecision
 from sim.reconcile.input_checks import count_repeated_runs
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.model_structure import ModelStructure
 from sim.reconcile.residual_map import residual_map
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import run_records, session_length
 from sim.reconcile.selection_round import SelectionRound, reported_estimate
 from sim.reconcile.story import Chapter
 

@@ -4,11 +4,11 @@ import math
 from collections.abc import Mapping, Sequence
 
 from sim.data.log import Log
+from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import Candidate, rank_candidates
 from sim.reconcile.cross_validation import Fold, Gap, validation_gap
-from sim.reconcile.likelihood import PredictionErrorProblem
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import Tried
 from sim.reconcile.thresholds import (

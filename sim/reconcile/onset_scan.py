@@ -15,12 +15,12 @@ from itertools import pairwise, product
 import numpy as np
 
 from sim.data.log import Array
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.effect import ONSET, UNTIL, Effect
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.optimize import JointJacobian
-from sim.reconcile.run_nuisance import RunNuisance
+from sim.reconcile.local_minimum import JointJacobian
 
 PARTS = 24  # moments of a run that are tried
 NEARER, LOOKS = 4, 2  # moments between two of these, and how often they are taken closer

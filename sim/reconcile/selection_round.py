@@ -3,9 +3,9 @@
 import math
 from dataclasses import dataclass, field
 
+from sim.estimation.likelihood import Estimate
 from sim.reconcile.candidates import Candidate, Seeds
 from sim.reconcile.cross_validation import Gap
-from sim.reconcile.likelihood import Estimate
 from sim.reconcile.story import Tried
 
 

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.data.log import Array
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST
+from sim.estimation.run_records import RunRecord
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.run_records import RunRecord
 
 FAR = 10.0  # [robust standard deviations] that a slip's velocity is off at least
 BESIDE = 0.16  # [s] before and after it that must agree

@@ -9,10 +9,10 @@ costs little, and the valleys that these find are tried on all runs.
 from collections.abc import Iterable, Sequence
 from math import isclose, isfinite
 
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
 from sim.physics.effects import EFFECTS
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.optimize import (
+from sim.reconcile.local_minimum import (
     Begun,
     joint_jacobian,
     levenberg_marquardt,

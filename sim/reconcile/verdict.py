@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 
 from sim.data.units import Unit
+from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
 from sim.reconcile.cross_validation import missed_motion
-from sim.reconcile.likelihood import PredictionErrorProblem
 from sim.reconcile.model_selection import list_blocked
 from sim.reconcile.residual_tests.repeatability import POSITION, RepeatedResidual
 from sim.reconcile.residual_tests.summary import ResidualSummary

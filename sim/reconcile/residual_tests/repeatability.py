@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.data.log import Array
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 
 CELLS = 24  # of the way, or of all speeds
 FEWEST = 2  # samples of a run in a cell

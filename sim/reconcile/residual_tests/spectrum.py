@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from sim.data.log import Array
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import smooth_innovations
 
 FASTEST = 5.0  # [Hz] faster is a joint that swings, or a wave along the way

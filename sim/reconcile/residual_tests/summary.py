@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_repeated_residual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak, find_spectral_peak
 from sim.reconcile.residual_tests.whiteness import CALM, WorstWindow, find_worst_window

@@ -11,9 +11,9 @@ from itertools import pairwise
 import numpy as np
 
 from sim.data.log import Array
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.run_records import RunRecord
+from sim.estimation.run_records import RunRecord
 
 WINDOWS = (0.1, 0.2, 0.4)  # [s]
 JUMP, SOON = 1.0, 0.15  # [V] of a step, and [s] after it

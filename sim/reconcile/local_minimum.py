@@ -11,14 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from sim.data.log import Array
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.random_friction import friction_sd
 from sim.reconcile.backlash_phase import (
     backlash_phase_prior,
     estimate_backlash_phase,
     halve_backlash,
 )
-from sim.reconcile.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.random_friction import friction_sd
 from sim.reconcile.thresholds import CLOSE
 
 FIRST_DAMPING, TRIES = 1e-3, 5

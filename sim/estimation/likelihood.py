@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from sim.data.log import Array
 from sim.estimation.kalman import steady_state_gain
 from sim.estimation.measurements import SensorNoise, estimate_noise
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.random_friction import friction_prior, friction_sd
+from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_records import RunRecord
 from sim.physics.engine import EXPECTED, NO_TRUST, RunBatch, Track, follow
 from sim.physics.model import Model
-from sim.reconcile.model_structure import ModelStructure
-from sim.reconcile.random_friction import friction_prior, friction_sd
-from sim.reconcile.run_nuisance import RunNuisance
-from sim.reconcile.run_records import RunRecord
 
 LOOSE = 2.0  # [noises of a position] by which a run may begin beside its first sample
 TOP = 0.98  # quantile that stands for the largest, so that one bad sample does not

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from sim.data.log import Array
-from sim.reconcile.run_nuisance import RunNuisance
+from sim.estimation.run_nuisance import RunNuisance
 
 VARIES = 0.04  # [of kS] τ, measured on logs of one day: two to six hundredths
 LEAST_KS = 0.05  # [V] of which it is a share where kS is less
