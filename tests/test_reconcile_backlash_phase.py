@@ -9,6 +9,7 @@ from reconcile_made import recorded
 from sim.data.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
+from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
 from sim.physics.engine import State
@@ -23,7 +24,7 @@ from sim.reconcile.backlash_phase import (
 from sim.reconcile.candidates import FURTHER, descend_candidate, score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.findings import list_remarks
-from sim.reconcile.local_minimum import levenberg_marquardt, minimize_fully
+from sim.reconcile.local_minimum import minimize_fully
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Finding

@@ -9,6 +9,7 @@ from reconcile_made import bench, recorded, session, told
 from sim.data.log import Log, Run
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
+from sim.estimation.optimize import joint_jacobian
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import join_records, run_records, session_length
 from sim.physics.effects import EFFECTS
@@ -19,7 +20,7 @@ from sim.reconcile import model_selection
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap, make_folds
 from sim.reconcile.findings import is_contradicted
-from sim.reconcile.local_minimum import joint_jacobian, minimize, predicted_improvement
+from sim.reconcile.local_minimum import minimize, predicted_improvement
 from sim.reconcile.onset_scan import flip_duration, refine_onset, scan_onsets
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from reconcile_made import NOWHERE, SESSIONS, bench, session, told
 
-from sim.estimation.likelihood import FARTHEST, PredictionErrorProblem
+from sim.estimation.likelihood import LARGEST, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
+from sim.estimation.optimize import joint_jacobian
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import ExcludedInterval, run_records
 from sim.physics.effects import EFFECTS
@@ -19,7 +20,7 @@ from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import rank_candidates
 from sim.reconcile.cross_validation import Gap, open_loop_errors, rms_gap
 from sim.reconcile.forward_selection import select_effects
-from sim.reconcile.local_minimum import joint_jacobian, predicted_improvement
+from sim.reconcile.local_minimum import predicted_improvement
 from sim.reconcile.model_selection import WIDENS, rejection_reason
 from sim.reconcile.selection_round import WeighedCandidate
 from sim.reconcile.story import Tried
@@ -76,7 +77,7 @@ def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
     white = problem.white(NOWHERE, table)
 
     assert np.isfinite(np.sum(np.square(white)))
-    assert np.max(np.abs(white)) >= FARTHEST
+    assert np.max(np.abs(white)) >= LARGEST
 
 
 @pytest.mark.parametrize("part", [-0.2, -2.0, 8.0])
@@ -257,7 +258,7 @@ def test_a_start_moves_its_own_run_and_heats_as_the_runs_before_it_did(effect):
     nuisance, count = RunNuisance.seen(len(problem.records)), len(problem.records)
     point = problem.at(base, values, nuisance, problem.noise.velocity**2)
 
-    starts = problem.columns(point)[:, -2 * count : -count]
+    starts = problem.jacobian(point)[:, -2 * count : -count]
 
     for number in range(count):
         by = np.zeros(count)

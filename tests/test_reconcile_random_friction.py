@@ -8,6 +8,7 @@ from reconcile_made import rubbing
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
+from sim.estimation.optimize import append_prior_rows, joint_jacobian
 from sim.estimation.random_friction import friction_sd, laplace_correction
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
@@ -15,7 +16,7 @@ from sim.physics.engine import NO_TRUST, RunBatch, follow
 from sim.physics.model import Model, Part
 from sim.reconcile.cross_validation import open_loop_errors, parabola_minima, rms_gap
 from sim.reconcile.findings import standard_errors
-from sim.reconcile.local_minimum import append_prior_rows, joint_jacobian, minimize, minimize_fully
+from sim.reconcile.local_minimum import minimize, minimize_fully
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -88,7 +89,9 @@ def test_its_slope_is_of_the_size_by_which_friction_varies():
         for share in (0.999, 0.9995, 1.0005, 1.001)
     ]  # fmt: skip
 
-    prices = [laplace_correction(one.values, problem.by_frictions(one)) for one in (found, *nudged)]
+    prices = [
+        laplace_correction(one.values, problem.friction_jacobian(one)) for one in (found, *nudged)
+    ]
 
     assert np.ptp(prices) < 8.0  # of 53: a run begins to move at a sample, or at the next
     assert prices[0] > 0.0

@@ -9,12 +9,12 @@ from reconcile_made import SESSIONS, bench, session, told
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
+from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 from sim.physics.voltage_residual import compute_voltage_residual
-from sim.reconcile.local_minimum import levenberg_marquardt
 from sim.reconcile.two_body_starts import MOST, SAME, VALLEYS, TwoBodyStarts, _best_of_each
 
 BASE = ModelStructure("simple")

@@ -1,15 +1,22 @@
-"""The likelihood of a model structure's parameters, given the measurements of all runs.
+"""The likelihood of a model's parameters, given the measurements of all runs.
 
-    -2 log L = N·log det Σ + Σ (start/noise)² + Σ (δ/τ)²    Σ covariance (2, 2) of the innovations
+The prediction-error method (Ljung, *System Identification*, chapter 7): a steady-state Kalman
+filter predicts each sample from those before it, and the parameters are those that make its
+innovations most likely.
 
-A run may begin a little beside where its first sample was seen; that is priced as noise. So is what
-it rubs more or less than the others: kS of a run is kS + δ (``friction.py``).
+    -2 log L = N·log det Σ + Σ (x/σ)² + Σ (δ/τ)²
+
+Σ is the (2, 2) covariance of the innovations and N the number of samples. A run may start at an
+offset x from its first reading, and its friction may differ by δ from that of the others
+(``random_friction.py``); both have a normal prior.
 """
 
 import math
+import os
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -25,12 +32,14 @@ from sim.estimation.run_records import RunRecord
 from sim.physics.engine import EXPECTED, NO_TRUST, RunBatch, Track, follow
 from sim.physics.model import Model
 
-LOOSE = 2.0  # [noises of a position] by which a run may begin beside its first sample
+START_SD = 5.0  # [noises of a position] standard deviation of a start position
 TOP = 0.98  # quantile that stands for the largest, so that one bad sample does not
-NUDGE = 1e-3  # [of a value's size] for a derivative
-COARSE_NUDGE = 0.02  # [of it] where what it does comes in steps, as the samples do
+STEP = 1e-3  # [of a value's size] step of a derivative
+COARSE_STEP = 0.02  # [of it] for parameters whose effect comes in steps, as the samples do
 STEPWISE = ("band",)  # parameters of that kind
-FARTHEST = 1e100  # [1] that an innovation is off: the square of it is a number
+LARGEST = 1e100  # [1] innovation whose square is still a number
+SHORTEST = 0.02  # [sample periods] a shorter kA/kV leaves no trace, and takes ever finer steps
+PARALLEL = 10_000  # [samples] from which simulations run side by side
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,12 +47,12 @@ class Estimate:
     """Parameter values of a model structure, and how well they fit.
 
     Args:
-        structure: what is believed.
+        structure: the model structure.
         values: name -> value.
-        nuisance: how each run begins.
-        process_noise: [unit²/s³] size of what pushes at random.
-        kalman_gain: (2, 2) by how much a measurement corrects.
-        innovations: (n, 2) innovations, nan where nothing is compared.
+        nuisance: the parameters of each run.
+        process_noise: [unit²/s³] spectral density of the random acceleration.
+        kalman_gain: (2, 2) from innovations to corrections of position and velocity.
+        innovations: (n, 2) innovations, 0 where nothing is compared.
         innovation_cov: (2, 2) covariance of these.
         cost: -2 log L, up to a constant.
     """
@@ -59,7 +68,7 @@ class Estimate:
 
     @cached_property
     def whitening(self) -> Array:
-        """(2, 2) that makes innovations independent and of size one."""
+        """(2, 2) matrix that makes innovations independent, with unit variance."""
         return np.asarray(np.linalg.inv(np.linalg.cholesky(self.innovation_cov)))
 
 
@@ -69,18 +78,23 @@ class PredictionErrorProblem:
 
     Args:
         records: the runs.
-        noise: of their samples, measured without a model.
-        most_q: [unit²/s³] beyond which nothing pushes at random.
+        noise: of their samples, estimated without a model.
+        most_q: [unit²/s³] the largest process noise.
+        varying_friction: whether each run has a friction of its own.
     """
 
     records: tuple[RunRecord, ...]
     noise: SensorNoise
     most_q: float = math.inf
+    varying_friction: bool = True
 
     @classmethod
-    def of(cls, records: Sequence[RunRecord]) -> "PredictionErrorProblem":
+    def of(
+        cls, records: Sequence[RunRecord], *, varying_friction: bool = True
+    ) -> "PredictionErrorProblem":
         """The problem of these runs, with the noise that they show."""
-        return cls(tuple(records), estimate_noise(tuple(record.measurements for record in records)))
+        noise = estimate_noise(tuple(record.measurements for record in records))
+        return cls(tuple(records), noise, varying_friction=varying_friction)
 
     @cached_property
     def edges(self) -> NDArray[np.intp]:
@@ -90,7 +104,7 @@ class PredictionErrorProblem:
         )
 
     @cached_property
-    def course(self) -> RunBatch:
+    def batch(self) -> RunBatch:
         """The runs as the engine follows them."""
         seen = [record.measurements for record in self.records]
         return RunBatch(
@@ -119,14 +133,16 @@ class PredictionErrorProblem:
         return telling & ~np.isnan(self.measured).all(axis=1)
 
     @cached_property
-    def untold(self) -> NDArray[np.bool_]:
-        """(n, 2) what is not compared."""
-        return np.isnan(self.measured) | ~self.telling[:, None]
+    def ignored(self) -> NDArray[np.bool_]:
+        """(n, 2) readings that are not compared."""
+        ignored = np.isnan(self.measured) | ~self.telling[:, None]
+        ignored[:, 0] |= np.concatenate([record.measurements.resting for record in self.records])
+        return ignored
 
     @cached_property
-    def told(self) -> tuple[int, int, int]:
-        """How many positions are compared, how many velocities, and how often both."""
-        x, v = ~self.untold.T
+    def compared(self) -> tuple[int, int, int]:
+        """How many positions are compared, how many velocities, and how many pairs; at least 1."""
+        x, v = ~self.ignored.T
         positions, velocities, both = (int(np.count_nonzero(one)) for one in (x, v, x & v))
         return max(positions, 1), max(velocities, 1), max(both, 1)
 
@@ -138,7 +154,7 @@ class PredictionErrorProblem:
     @cached_property
     def count(self) -> int:
         """How many samples are compared."""
-        return int(np.count_nonzero(self.telling))
+        return int(np.count_nonzero(~self.ignored.all(axis=1)))
 
     @cached_property
     def period(self) -> float:
@@ -151,15 +167,20 @@ class PredictionErrorProblem:
 
     @cached_property
     def top(self) -> float:
-        """[unit/s] the fastest it moves, a few samples left out."""
+        """[unit/s] top speed, a few samples left out."""
         speeds = np.abs(self.measured[self.telling, 1])
         speeds = speeds[~np.isnan(speeds)]
         return float(np.quantile(speeds, TOP)) if speeds.size else 0.0
 
     @cached_property
-    def loose(self) -> float:
-        """[unit] by which a run may begin beside its first sample."""
-        return LOOSE * self.noise.position
+    def start_sd(self) -> float:
+        """[unit] standard deviation of a start position."""
+        return START_SD * self.noise.position
+
+    @property
+    def start(self) -> RunNuisance:
+        """The runs as their first samples show them."""
+        return RunNuisance.seen(len(self.records))
 
     # -- simulate --------------------------------------------------------------------------------
 
@@ -169,31 +190,31 @@ class PredictionErrorProblem:
         Args:
             model: what moves.
             nuisance: how each run begins.
-            trust: (2, 2) by how much a measurement corrects; not at all, if it is not given.
+            trust: (2, 2) Kalman gain; by default nothing is corrected.
         """
-        return Track.of(self._followed(model, nuisance, trust, self.course))
+        return Track.of(self._followed(model, nuisance, trust, self.batch))
 
-    def ahead(
+    def predict_errors(
         self, model: Model, nuisance: RunNuisance, trust: Array, clocks: Array | None = None
     ) -> Array:
-        """(n, 2) innovations: measured less expected; 0 where nothing is compared.
+        """(n, 2) innovations: measured minus predicted; 0 where nothing is compared.
 
         Args:
             model: what moves.
             nuisance: how each run begins.
-            trust: (2, 2) by how much a measurement corrects.
+            trust: (2, 2) Kalman gain.
             clocks: (runs,) [s] when each run begins, if not when it did.
         """
-        course = self.course if clocks is None else replace(self.course, clocks=clocks)
-        ahead = self.measured - self._followed(model, nuisance, trust, course)[:, EXPECTED:]
-        np.copyto(ahead, 0.0, where=self.untold)
-        return np.asarray(ahead)
+        batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
+        errors = self.measured - self._followed(model, nuisance, trust, batch)[:, EXPECTED:]
+        np.copyto(errors, 0.0, where=self.ignored)
+        return np.asarray(errors)
 
     def _followed(
-        self, model: Model, nuisance: RunNuisance, trust: Array, course: RunBatch
+        self, model: Model, nuisance: RunNuisance, trust: Array, batch: RunBatch
     ) -> Array:
         return follow(
-            model, course, trust=trust,
+            model, batch, trust=trust,
             beside=nuisance.position_offset, meshed=nuisance.backlash_phase,
             rubs=nuisance.friction_offset,
         )  # fmt: skip
@@ -205,46 +226,46 @@ class PredictionErrorProblem:
         nuisance: RunNuisance,
         q: float,
     ) -> Estimate:
-        """The point of these values; its cost is infinite where they are no physics."""
+        """The estimate at these values; its cost is infinite where they are not physical."""
         if not structure.plays:
             nuisance = nuisance.unmeshed
         nowhere = Estimate(
             structure, values, nuisance, q, NO_TRUST, np.empty((0, 2)), np.eye(2), math.inf
         )
-        if not (values["kV"] > 0.0 and values["kA"] > 0.0):
+        if not (values["kV"] > 0.0 and values["kA"] > SHORTEST * self.period * values["kV"]):
             return nowhere
         if not self.count:
             return nowhere
         model = structure.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
             trust = steady_state_gain(model, noise=self.noise, q=q, period=self.period)
-            ahead = self.ahead(model, nuisance, trust)
-            spread = self.spread(ahead)
-            own = float(np.sum((nuisance.position_offset / self.loose) ** 2))
-            cost = self._cost(spread) + own + friction_prior(values, nuisance)
+            innovations = self.predict_errors(model, nuisance, trust)
+            cov = self.covariance(innovations)
+            own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
+            cost = self._cost(cov) + own + friction_prior(values, nuisance)
         if not math.isfinite(cost):
             return nowhere
-        return Estimate(structure, values, nuisance, q, trust, ahead, spread, cost)
+        return Estimate(structure, values, nuisance, q, trust, innovations, cov, cost)
 
     # -- compare ---------------------------------------------------------------------------------
 
-    def spread(self, ahead: Array) -> Array:
-        """(2, 2) covariance of innovations, never quite nothing."""
-        x, v = ahead.T.copy()
-        positions, velocities, both = self.told
+    def covariance(self, innovations: Array) -> Array:
+        """(2, 2) covariance of innovations, never quite zero."""
+        x, v = innovations.T.copy()
+        positions, velocities, both = self.compared
         xx, vv = float(x @ x) / positions, float(v @ v) / velocities
         most = 0.99 * math.sqrt(xx * vv)
         xv = min(max(float(x @ v) / both, -most), most)
         fine, finer = self.noise.grain
         return np.array([[xx + fine**2, xv], [xv, vv + finer**2]])
 
-    def _cost(self, spread: Array) -> float:
-        (xx, xv), (_, vv) = spread.tolist()
+    def _cost(self, cov: Array) -> float:
+        (xx, xv), (_, vv) = cov.tolist()
         size = xx * vv - xv * xv
         return self.count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
 
     def white(self, point: Estimate, table: Array) -> Array:
-        """(2 n,) made independent and of size one by the spread at a point.
+        """(2 n,) innovations or their changes (n, 2), whitened with an estimate's covariance.
 
         What flies off is large, and its squares can still be summed.
         """
@@ -252,52 +273,82 @@ class PredictionErrorProblem:
             white = np.asarray((table @ point.whitening.T).ravel())
             if math.isfinite(float(white @ white)):
                 return white
-        near = np.clip(np.nan_to_num(table, nan=FARTHEST), -FARTHEST, FARTHEST)
+        near = np.clip(np.nan_to_num(table, nan=LARGEST), -LARGEST, LARGEST)
         return np.asarray((near @ point.whitening.T).ravel())
 
-    def columns(self, point: Estimate) -> Array:
-        """(2 n, searched + 2 runs) change of white innovations with each value, start and friction.
+    def jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
+        """(2 n, searched + runs or 2 runs) derivatives of the whitened innovations.
+
+        With respect to each parameter, then to the start of each run, then, where friction varies
+        between runs, to each run's own friction.
+
+        Args:
+            point: where.
+            fine: central differences for the parameters, for a covariance.
 
         Raises:
-            ValueError: the point follows nothing.
+            ValueError: the cost of the estimate is infinite.
         """
         structure = point.structure
-        values = [self.white(point, self._by_value(point, name)) for name in structure.searched]
-        moved = self._with(
-            point, point.nuisance.moved(np.full(len(self.records), self.noise.position))
-        )
-        starts = (moved - point.innovations) / self.noise.position
-        return np.column_stack(
-            [
-                *values,
-                self._by_run(self.white(point, starts)),
-                self.by_frictions(point),
-            ]
-        )
+        sides = [self._sides(point, name, fine=fine) for name in structure.searched]
+        moved = point.nuisance.moved(np.full(len(self.records), self.noise.position))
+        tried = [
+            (structure.model({**point.values, name: value}), point.nuisance)
+            for name, pair in zip(structure.searched, sides, strict=True)
+            for value in pair
+            if value != point.values[name]
+        ]
+        with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
+            results = iter(
+                self._side_by_side(
+                    [*tried, (structure.model(point.values), moved)], point.kalman_gain
+                )
+            )
+            columns = []
+            for name, (low, high) in zip(structure.searched, sides, strict=True):
+                own = point.values[name]
+                below = next(results) if low != own else point.innovations
+                above = next(results) if high != own else point.innovations
+                columns.append(self.white(point, (above - below) / (high - low)))
+        starts = (next(results) - point.innovations) / self.noise.position
+        columns.append(self._by_run(self.white(point, starts)))
+        if self.varying_friction:
+            columns.append(self.friction_jacobian(point))
+        return np.column_stack(columns)
 
-    def by_frictions(self, point: Estimate) -> Array:
-        """(2 n, runs) change of the white innovations with each run's own friction."""
+    def friction_jacobian(self, point: Estimate) -> Array:
+        """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
         by = np.full(len(self.records), friction_sd(point.values))
-        more, less = (self._with(point, point.nuisance.rubbing(one)) for one in (by, -by))
+        model = point.structure.model(point.values)
+        more, less = self._side_by_side(
+            [(model, point.nuisance.rubbing(one)) for one in (by, -by)], point.kalman_gain
+        )
         return self._by_run(self.white(point, (more - less) / (2.0 * by[0])))
 
-    def _with(self, point: Estimate, nuisance: RunNuisance) -> Array:
-        return self.ahead(point.structure.model(point.values), nuisance, point.kalman_gain)
-
-    def _by_value(self, point: Estimate, name: str) -> Array:
+    def _sides(self, point: Estimate, name: str, *, fine: bool) -> tuple[float, float]:
+        """Two values of a parameter whose simulations give the derivative by it."""
         structure, value = point.structure, point.values[name]
         coarse = name.partition(".")[2] in STEPWISE
-        step = (COARSE_NUDGE if coarse else NUDGE) * structure.size(name, value)
-        if structure.within(name, value + step) != value + step:
-            step = -step
-        model = structure.model({**point.values, name: value + step})
-        with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
-            return np.asarray(
-                (self.ahead(model, point.nuisance, point.kalman_gain) - point.innovations) / step
-            )
+        step = (COARSE_STEP if coarse else STEP) * structure.size(name, value)
+        above, below = value + step, value - step
+        may_rise = structure.within(name, above) == above
+        may_fall = structure.within(name, below) == below
+        return value if may_rise and not (
+            fine and may_fall
+        ) else below, above if may_rise else value
+
+    def _side_by_side(
+        self, tried: Sequence[tuple[Model, RunNuisance]], trust: Array
+    ) -> list[Array]:
+        """The innovations of several simulations; compiled code runs beside other."""
+
+        def one(each: tuple[Model, RunNuisance]) -> Array:
+            return self.predict_errors(*each, trust)
+
+        return list((_threads().map if len(self.measured) > PARALLEL else map)(one, tried))
 
     def _by_run(self, change: Array) -> Array:
-        """(2 n, runs): all runs are moved at once, and each is the business of its own column.
+        """(2 n, runs): all runs are moved at once, and each has a column of its own.
 
         A run is not moved without those before it, which may have heated what it found warm.
         """
@@ -305,3 +356,9 @@ class PredictionErrorProblem:
         for number, (first, last) in enumerate(pairwise((2 * self.edges).tolist())):
             table[first:last, number] = change[first:last]
         return table
+
+
+@cache
+def _threads() -> ThreadPoolExecutor:
+    """As many as there are cores, for logs that are worth it."""
+    return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="simulate")

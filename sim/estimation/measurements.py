@@ -205,4 +205,5 @@ def _resting(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """
     step = np.cumsum(np.diff(run.position, prepend=run.position[:1]) != 0.0)
     rests = np.bincount(step, weights=~_stirs(run, moving)) > 0.0
-    return np.asarray(rests[step])
+    repeats = np.bincount(step) > 1  # a reading with noise of its own is a measurement
+    return np.asarray((rests & repeats)[step])

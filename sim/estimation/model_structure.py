@@ -28,10 +28,12 @@ class ModelStructure:
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
         effects: their names, in the order in which they were found.
+        held: values that a search leaves alone.
     """
 
     type: str
     effects: tuple[str, ...] = ()
+    held: tuple[str, ...] = ()
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -49,7 +51,11 @@ class ModelStructure:
     def searched(self) -> tuple[str, ...]:
         """The values that a search moves; the others are chosen by its start."""
         known = self.parameters
-        return tuple(n for n in self.names if n not in known or known[n].searched)
+        return tuple(
+            name
+            for name in self.names
+            if name not in self.held and (name not in known or known[name].searched)
+        )
 
     @cached_property
     def free(self) -> int:

@@ -89,7 +89,8 @@ def run_records(
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in runs), default=0.0)
     found = {}
     for number, run, one in zip(places, runs, measure_runs(log, friction=None), strict=True):
-        seen = _rested(one, top=top)
+        # readings at rest count here: how a mechanism leaves its rest tells effects apart
+        seen = replace(_rested(one, top=top), resting=np.zeros_like(one.resting))
         memory = session * MOST_RUNS + (0 if together else number)
         clock = since + float(began[number])
         found[number] = RunRecord(seen, run.test, *_stops(seen), clock, session, memory)
@@ -97,6 +98,20 @@ def run_records(
         if part.run in found:
             found[part.run] = found[part.run].without(part)
     return tuple(found.values())
+
+
+def separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tuple[RunRecord, ...]:
+    """Runs that know nothing of one another, and lie on no stop.
+
+    Args:
+        log: the runs.
+        measured: of those with enough samples, the measurements.
+    """
+    runs = [run for run in log.runs if len(run) >= FEWEST]
+    return tuple(
+        RunRecord(seen, run.test, -np.inf, np.inf, 0.0, 0, number)
+        for number, (run, seen) in enumerate(zip(runs, measured, strict=True))
+    )
 
 
 def session_length(*logs: Log) -> float:

@@ -1,15 +1,15 @@
 """Suggest another mechanism type where gravity explains most of the residual."""
 
-from dataclasses import replace
-
 from sim.data.errors import NotIdentifiable
 from sim.data.log import Log
 from sim.data.units import unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
+from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.measurements import measure_runs
-from sim.fit.likelihood import PredictionErrorProblem
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.run_records import separate_records
 from sim.fit.open_loop_fallback import OpenLoopReplay, replay_open_loop
-from sim.fit.optimize import fit_tracking
+from sim.fit.search import fit_tracking
 
 PLAINLY = 0.33  # [1] of what a simple model strays, that another may
 ACTS = {
@@ -18,18 +18,25 @@ ACTS = {
 }
 
 
-def hint_gravity_type(log: Log, problem: PredictionErrorProblem, followed: OpenLoopReplay) -> str:
+def hint_gravity_type(
+    log: Log,
+    problem: PredictionErrorProblem,
+    followed: OpenLoopReplay,
+    *,
+    type: str,  # noqa: A002 - the field's own word
+) -> str:
     """A hint where gravity would explain most of the residual of a simple model.
 
     Args:
         log: any runs.
-        problem: of type simple.
-        followed: how closely its best point follows.
+        problem: its measurements.
+        followed: how closely its best estimate follows.
+        type: as of which it was fitted.
 
     Returns:
         A sentence that names the type to try; empty if there is none.
     """
-    if problem.type != "simple" or not followed.strays:
+    if type != "simple" or not followed.strays:
         return ""
     angular = unit(log.units).angular
     left = {name: _left(log, problem, name) for name in ACTS if angular or name != "arm"}
@@ -47,5 +54,6 @@ def _left(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noq
         return float("inf")
     guess = clamp_to_physical(guess, period=problem.period)
     # with gravity it may lean on a stop, which no model has
-    other = replace(problem, type=type, runs=measure_runs(log, friction=guess["kS"]))
-    return replay_open_loop(other, fit_tracking(other, guess)).rmse
+    records = separate_records(log, measure_runs(log, friction=guess["kS"]))
+    other = PredictionErrorProblem(records, problem.noise, varying_friction=False)
+    return replay_open_loop(other, fit_tracking(other, ModelStructure(type), guess)).rmse

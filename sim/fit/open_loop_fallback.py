@@ -13,24 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.data.log import Array
-from sim.estimation.kalman import model_from_values
-from sim.fit.optimize import (
-    ANEW,
-    DEEP,
-    Estimate,
-    PredictionErrorProblem,
-    estimate_covariance,
-    levenberg_marquardt,
-    whiten,
-)
-from sim.physics.engine import State, move
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.optimize import levenberg_marquardt, parameter_covariance
+from sim.fit.search import OPEN_LOOP, TRACKING
 
 STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
 SMALL = 0.0125  # [share of the top speed] error that is small whatever the noise
 HOLDS = 0.05  # [1/s] q over the variance of a velocity: a model that needs more lacks something
 EXACT = 1e-5  # [1/s] the same, that noise alone never asks for: more, and errors come in whiles
 STEPS = 30  # of the search
-LAGS = ("window", "lag")
+LAGS = ("velocity-filter.window", "delay.lag")
 TOGETHER = 0.5  # [s] for which what is missing errs one way
 
 
@@ -93,28 +85,26 @@ def replay_open_loop(
 ) -> OpenLoopReplay:
     """Simulate every run from its first sample, without correction.
 
-    The starts of a point that is corrected as it goes may lie anywhere, and do not count here.
+    The start offsets of an estimate with process noise may lie anywhere, and do not count here.
 
     Args:
         problem: measurements.
         point: the values.
-        astray: as of ``Followed``.
+        astray: as of ``OpenLoopReplay``.
     """
-    model = model_from_values(problem.type, point.values)
-    seen, errors, moving, changes = [], [], [], []
-    for run in problem.runs:
-        state = State.at(run.position, run.velocity)
-        track = move(model, time=run.time, voltage=run.voltage, state=state)
-        fresh = ~np.isnan(run.measured[:, 1])
-        seen.append(run.measured[fresh, 1])
-        errors.append(run.measured[fresh, 1] - track.seen[fresh])
-        moving.append((run.moving | (track.velocity != 0.0))[fresh])
-        going = np.flatnonzero(fresh & run.moving)
-        both = np.column_stack([run.measured[going, 1], track.seen[going]])
-        changes.append(np.diff(both, axis=0) / np.diff(run.time[going])[:, None])
+    track = problem.track(point.structure.model(point.values), problem.start)
+    both = np.column_stack([problem.measured[:, 1], track.seen])
+    fresh = ~np.isnan(both[:, 0])
+    changes = []
+    for record, first in zip(problem.records, problem.edges, strict=False):
+        run = record.measurements
+        going = np.flatnonzero(fresh[first : first + run.time.size] & run.moving)
+        times = run.time[going]
+        changes.append(np.diff(both[first + going], axis=0) / np.diff(times)[:, None])
     change, told = np.concatenate(changes).T
+    measured, simulated = both[fresh].T
     return OpenLoopReplay(
-        np.concatenate(seen), np.concatenate(errors), np.concatenate(moving),
+        measured, measured - simulated, (problem.moving | (track.velocity != 0.0))[fresh],
         noise=problem.noise.velocity, astray=astray, change=change, told=told,
     )  # fmt: skip
 
@@ -135,16 +125,18 @@ def fit_velocity_only(
         All as they were if the model holds, or if nothing comes closer; and if the likeliest point
         is pardoned next to nothing, for then it is a simulation already, of the position too.
     """
-    if point.process_noise <= ANEW * problem.noise.velocity**2 or not before.strays:
+    if point.process_noise <= TRACKING * problem.noise.velocity**2 or not before.strays:
         return problem, point, before
-    seen = []
-    for run in problem.runs:
-        measured = run.measured.copy()
+    records = []
+    for record in problem.records:
+        measured = record.measurements.measured.copy()
         measured[:, 0] = np.nan
-        seen.append(replace(run, measured=measured))
-    blind = replace(problem, runs=tuple(seen), held=LAGS)
+        run = replace(record.measurements, measured=measured)
+        records.append(replace(record, measurements=run))
+    blind = replace(problem, records=tuple(records))
+    structure = replace(point.structure, held=LAGS)
     found = levenberg_marquardt(
-        blind, blind.at(point.values, np.zeros(len(seen)), 0.0), steps=STEPS, enough=0.01
+        blind, blind.at(structure, point.values, blind.start, 0.0), steps=STEPS, enough=0.01
     )
     after = replay_open_loop(problem, found, astray=True)
     # samples that were left out may weigh more than all that was gained
@@ -169,15 +161,15 @@ def correlated_error_covariance(
 
     Args:
         problem: what was searched.
-        point: the best point, with fine slopes.
+        point: the best estimate.
         followed: how it follows.
     """
     lacks = point.process_noise > EXACT * problem.noise.velocity**2
     if followed.strays or lacks:
         yield _by_whiles(problem, point)
     if lacks and not followed.strays:
-        alone = problem.at(point.values, point.position_offsets, DEEP * problem.noise.velocity**2)
-        yield _by_whiles(problem, problem.sloped(alone))
+        q = OPEN_LOOP * problem.noise.velocity**2
+        yield _by_whiles(problem, problem.at(point.structure, point.values, point.nuisance, q))
 
 
 def _by_whiles(problem: PredictionErrorProblem, point: Estimate) -> Array:
@@ -185,19 +177,21 @@ def _by_whiles(problem: PredictionErrorProblem, point: Estimate) -> Array:
 
     Source: the sandwich of White (1980).
     """
-    count = len(point.values)
-    table, rest = point.jacobian, whiten(point, point.innovations)
+    count = len(point.structure.searched)
+    table = problem.jacobian(point, fine=True)
+    rest = problem.white(point, point.innovations)
     whiles = np.repeat(_whiles(problem), 2)  # two measurements to a sample
     scores = np.zeros((int(whiles.max()) + 1, table.shape[1]))
     np.add.at(scores, whiles, table * rest[:, None])
-    bread = estimate_covariance(problem, point, starts=True)
+    bread = parameter_covariance(problem, point, nuisance=True)
     return np.asarray((bread @ (scores.T @ scores) @ bread)[:count, :count])
 
 
 def _whiles(problem: PredictionErrorProblem) -> NDArray[np.int_]:
     """(n,) which while a sample lies in, counted through all runs."""
     parts, first = [], 0
-    for run in problem.runs:
-        parts.append(first + ((run.time - run.time[0]) // TOGETHER).astype(int))
+    for record in problem.records:
+        time = record.measurements.time
+        parts.append(first + ((time - time[0]) // TOGETHER).astype(int))
         first = int(parts[-1][-1]) + 1
     return np.concatenate(parts)

@@ -14,7 +14,11 @@ from sim.data.errors import BadRequest, NotIdentifiable
 from sim.data.log import Array, Log, Run
 from sim.data.units import unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
-from sim.estimation.measurements import RunMeasurements, estimate_noise, measure_runs
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.measurements import RunMeasurements, measure_runs
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.optimize import joint_jacobian, parameter_covariance
+from sim.estimation.run_records import separate_records
 from sim.fit.fit_doubts import doubt_lags, doubt_misfit, doubt_opposed_signs, doubt_small_misfit
 from sim.fit.gravity_type_hint import hint_gravity_type
 from sim.fit.identifiability import moves_both_ways, refuse_unidentifiable, refuse_unrelated
@@ -26,22 +30,20 @@ from sim.fit.open_loop_fallback import (
     needs_large_process_noise,
     replay_open_loop,
 )
-from sim.fit.optimize import (
-    Estimate,
-    PredictionErrorProblem,
-    estimate_covariance,
+from sim.fit.result import Fit
+from sim.fit.search import (
     fit_open_loop,
     fit_tracking,
     predicted_improvement,
     refine,
+    without_outliers,
 )
-from sim.fit.result import Fit
 from sim.fit.sysid_doubts import uncertain_gains
 
 WORTH = 8.0  # [of -2 log L] what a lag must explain to be believed: odds of some fifty to one
 HINT = 2.0  # [of -2 log L] what a short one must promise before longer ones are tried
-FIRST_LAGS = {"window": (0.5, 2.0, 6.0), "lag": (0.3, 1.0, 2.0, 4.0)}
-SHORT_LAGS = {"lag": (0.05, 0.2)}
+FIRST_LAGS = {"velocity-filter.window": (0.5, 2.0, 6.0), "delay.lag": (0.3, 1.0, 2.0, 4.0)}
+SHORT_LAGS = {"delay.lag": (0.05, 0.2)}
 """[sample periods] from which a search begins, and from which again when gains are nearly right.
 
 An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
@@ -116,22 +118,22 @@ def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     )  # fitted as if the leads were swapped, and told
     begin = clamp_to_physical(guess, period=_period(log.runs))
     seen = measure_runs(log, friction=None if type == "simple" else begin["kS"])
-    problem = PredictionErrorProblem(type, seen, estimate_noise(seen), _period(seen))
-    plain = fit_tracking(problem, begin)
-    if not math.isfinite(plain.cost) or np.isnan(plain.innovations).all():
+    problem = PredictionErrorProblem.of(separate_records(log, seen), varying_friction=False)
+    plain = fit_tracking(problem, ModelStructure(type), begin)
+    if not math.isfinite(plain.cost):
         raise _nonsense(log)
     problem, likeliest, followed = _best(problem, plain)
     searched, point, followed = fit_velocity_only(problem, likeliest, followed)
-    if not point.fine:
-        point = searched.sloped(point, fine=True)
-    gains, errors = _gains(point, estimate_covariance(searched, point), type=type)
+    gains, errors = _gains(point, parameter_covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
     # unknown is refused
     share = searched.noise.velocity / float(np.sqrt(point.innovation_cov[1, 1]))
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
-    if type == "elevator" and not moves_both_ways(searched.runs):
+    if type == "elevator" and not moves_both_ways(
+        [record.measurements for record in searched.records]
+    ):
         least |= {"kS": math.inf, "kG": math.inf}
-    hint = hint_gravity_type(log, problem, followed)
+    hint = hint_gravity_type(log, problem, followed, type=type)
     refuse_unidentifiable(gains, least, log=log, type=type, hint=hint)
     refuse_unrelated(followed, log=log, hint=hint)
     for spread in correlated_error_covariance(searched, point, followed):
@@ -156,23 +158,27 @@ def _best(
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
     """The best point, with a velocity that is averaged, a late answer, or both, if worth it."""
     point = _with_lags(problem, plain, FIRST_LAGS, settle=fit_tracking)
-    everything, problem = problem, problem.without_strays(point)
-    same = problem is everything
-    found = fit_open_loop(problem, point if same else fit_tracking(problem, point.values))
+    everything, problem = problem, without_outliers(problem, point)
+
+    def open_loop(first: Estimate) -> Estimate:
+        if problem is not everything:
+            first = fit_tracking(problem, first.structure, first.values)
+        return fit_open_loop(problem, first)
+
+    found = open_loop(point)
     if point is not plain:
-        without = fit_open_loop(problem, plain if same else fit_tracking(problem, plain.values))
+        without = open_loop(plain)
         found = found if found.cost < without.cost - WORTH else without
     followed = replay_open_loop(problem, found)
     if followed.strays:  # a millisecond is not what is wrong
         return problem, found, followed
 
-    def settle(problem: PredictionErrorProblem, values: Mapping[str, float]) -> Estimate:
-        return fit_open_loop(
-            problem,
-            refine(problem, problem.at(values, found.position_offsets, found.process_noise)),
-        )
+    def settle(
+        problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
+    ) -> Estimate:
+        first = problem.at(structure, values, found.nuisance, found.process_noise)
+        return fit_open_loop(problem, refine(problem, first))
 
-    found = problem.sloped(found, fine=True)
     best = _with_lags(problem, found, SHORT_LAGS, settle=settle)
     return problem, best, followed if best is found else replay_open_loop(problem, best)
 
@@ -182,32 +188,34 @@ def _with_lags(
     point: Estimate,
     lags: Mapping[str, Sequence[float]],
     *,
-    settle: Callable[[PredictionErrorProblem, Mapping[str, float]], Estimate],
+    settle: Callable[[PredictionErrorProblem, ModelStructure, Mapping[str, float]], Estimate],
 ) -> Estimate:
     """A point with those lags that are worth it, one after another.
 
     Args:
         problem: what is searched.
-        point: a best point, with slopes.
+        point: a best estimate.
         lags: name -> [sample periods] from which to try.
-        settle: the best point near some values.
+        settle: the best estimate near some values.
     """
     left = {name: sizes for name, sizes in lags.items() if name not in point.values}
     while left:
-        firsts = [{name: sizes[0] * problem.period} for name, sizes in left.items()]
+        firsts = [(name, sizes[0] * problem.period) for name, sizes in left.items()]
         # a lag of any size shows in what a short one promises
-        if not predicted_improvement(problem, point, firsts).max() > HINT:
+        kept = joint_jacobian(problem, point, fine=True)
+        if not predicted_improvement(problem, point, firsts, kept=kept).max() > HINT:
             break
-        tried = [{name: size * problem.period} for name, sizes in left.items() for size in sizes]
-        worth = predicted_improvement(problem, point, tried)
+        tried = [(name, size * problem.period) for name, sizes in left.items() for size in sizes]
+        worth = predicted_improvement(problem, point, tried, kept=kept)
         if not worth.max() > WORTH:
             break
-        best = tried[int(np.argmax(worth))]
-        other = settle(problem, {**point.values, **best})
+        name, value = tried[int(np.argmax(worth))]
+        structure = point.structure + name.partition(".")[0]
+        other = settle(problem, structure, {**point.values, name: value})
         if not other.cost < point.cost - WORTH:
             break
         point = other
-        del left[next(iter(best))]
+        del left[name]
     return point
 
 
@@ -219,7 +227,8 @@ def _gains(
 ) -> tuple[dict[str, float], dict[str, float]]:
     """The gains and their standard errors; an arm's gravity as kG and an angle."""
     values, errors = dict(point.values), np.sqrt(np.maximum(np.diag(spread), 0.0))
-    sizes = dict(zip(values, errors.tolist(), strict=True))
+    names = list(point.structure.searched)
+    sizes = dict(zip(names, errors.tolist(), strict=True))
     gains = {name: values[name] for name in ("kS", "kV", "kA")}
     if type == "elevator":
         gains["kG"] = values["kG"]
@@ -227,7 +236,6 @@ def _gains(
         level, upright = values["level"], values["upright"]
         kg = math.hypot(level, upright)
         gains |= {"kG": kg, "offset_rad": math.atan2(-upright, level)}
-        names = list(values)
         pair = [names.index("level"), names.index("upright")]
         part = spread[np.ix_(pair, pair)]
         along = np.array([level, upright]) / kg
@@ -247,7 +255,7 @@ def _fit(
     window, lag = (point.values.get(name, 0.0) for name in LAGS)
     signed = {name: value if name == "offset_rad" else way * value for name, value in gains.items()}
     return Fit(
-        type=problem.type,
+        type=point.structure.type,
         method="output-error",
         units="radians" if unit(log.units).angular else "meters",
         log_units=unit(log.units).name,
@@ -276,6 +284,6 @@ def _used(log: Log, problem: PredictionErrorProblem) -> dict[str, int]:
     """Test -> samples in motion that were compared."""
     counts: dict[str, int] = {}
     long = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - as ``see`` has it
-    for run, part in zip(long, problem.runs, strict=True):
-        counts[run.test] = counts.get(run.test, 0) + int(part.moving.sum())
+    for run, record in zip(long, problem.records, strict=True):
+        counts[run.test] = counts.get(run.test, 0) + int(record.measurements.moving.sum())
     return counts

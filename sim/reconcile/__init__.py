@@ -20,6 +20,7 @@ from sim.data.units import unit
 from sim.estimation.initial_guess import clamp_to_physical, first_guess
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
+from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import ExcludedInterval, join_records, run_records, session_length
 from sim.reconcile.cross_validation import make_folds, missed_motion, open_loop_errors, rms_gap
@@ -29,12 +30,7 @@ from sim.reconcile.findings import list_remarks, make_findings
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
-from sim.reconcile.local_minimum import (
-    levenberg_marquardt,
-    minimize,
-    minimize_fully,
-    scan_process_noise,
-)
+from sim.reconcile.local_minimum import minimize, minimize_fully, scan_process_noise
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.slip_detection import detect_slips
 from sim.reconcile.story import Story

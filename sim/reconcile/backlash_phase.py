@@ -44,7 +44,7 @@ def estimate_backlash_phase(
     model = point.structure.model(point.values)
     costs = [_costs(problem, point, point.innovations, before)]
     for each in others:
-        ahead = problem.ahead(model, point.nuisance.meshing(each), point.kalman_gain)
+        ahead = problem.predict_errors(model, point.nuisance.meshing(each), point.kalman_gain)
         costs.append(_costs(problem, point, ahead, each))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
     if not chosen.any():

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
+from sim.estimation.optimize import joint_jacobian, levenberg_marquardt
 from sim.estimation.random_friction import laplace_correction
 from sim.physics.effect import Effect
 from sim.physics.effects import EFFECTS
@@ -20,8 +21,6 @@ from sim.reconcile.local_minimum import (
     AGITATED,
     CALM,
     Begun,
-    joint_jacobian,
-    levenberg_marquardt,
     minimize,
     predicted_improvement,
     total_cost,
@@ -64,7 +63,7 @@ class Candidate:
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
     """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
     values = point.structure.free * math.log(max(problem.count, 2))
-    own = laplace_correction(point.values, problem.by_frictions(point))
+    own = laplace_correction(point.values, problem.friction_jacobian(point))
     return Candidate(effect, point, point.cost + own + backlash_phase_prior(point) + values)
 
 

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from sim.data.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.random_friction import LEAST_KS
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import Track
-from sim.reconcile.local_minimum import levenberg_marquardt
 
 REFIT = 4  # steps
 MOST_VARIED = 0.12  # [of kS] by which a run's friction may differ

@@ -9,12 +9,12 @@ import numpy as np
 
 from sim.data.units import Unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.optimize import append_prior_rows
 from sim.physics.effect import ONSET
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import separating_test
 from sim.reconcile.cross_validation import missed_motion
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.local_minimum import append_prior_rows
 from sim.reconcile.model_selection import is_ordinary_size, is_significant, is_unrivalled
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 from sim.data.log import Log
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.optimize import ENOUGH
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import measure_removals, replace_effects, simplify_effects
 from sim.reconcile.candidates import Seeds, score_estimate
 from sim.reconcile.cross_validation import Fold, missed_motion, validation_gap
-from sim.reconcile.local_minimum import ENOUGH, minimize, minimize_fully
+from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.model_selection import (
     HARDLY,
     WIDENS,

@@ -1,19 +1,21 @@
-"""Levenberg–Marquardt search over parameters, nuisance parameters and process noise.
+"""The local minimum near an estimate, and what a start of a candidate promises.
 
-Levenberg and Marquardt's steps on white innovations, in turn with a search for the size q of what
-pushes at random.
+Levenberg–Marquardt steps alternate with a search for the process noise and for the backlash phase
+of each run.
 """
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
-import numpy as np
-
-from sim.data.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.random_friction import friction_sd
+from sim.estimation.optimize import (
+    ENOUGH,
+    FACTOR,
+    JointJacobian,
+    levenberg_marquardt,
+    tune_process_noise,
+)
 from sim.reconcile.backlash_phase import (
     backlash_phase_prior,
     estimate_backlash_phase,
@@ -21,10 +23,7 @@ from sim.reconcile.backlash_phase import (
 )
 from sim.reconcile.thresholds import CLOSE
 
-FIRST_DAMPING, TRIES = 1e-3, 5
-SOFTER = 4.0  # [1] steps of q
-LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which q is none
-SCANNED = (-12, -9, -6, -4, -2)  # powers of it: what pushes is first thought too large
+SCANNED = (-12, -9, -6, -4, -2)  # powers of it: the process noise is first thought too large
 SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size between which a part of it is tried, too
 LARGEST_PART = 30.0  # [1] the same, the other way
 SURELY_MORE = 10.0  # [of -2 log L]
@@ -32,38 +31,8 @@ HALVINGS = 3  # of the best start: what an effect offers may be too large for wh
 ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
 AGAIN = 6  # times that a point is settled at most
 CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
-Begun = tuple[float, Estimate]  # what a start promises, and where it begins
 HALVED = 6  # times at most that play is halved
-ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
-NOTHING = 0.1  # [of -2 log L] a step that promises less is not taken
-
-
-@dataclass(frozen=True, eq=False)
-class JointJacobian:
-    """Jacobian of the whitened innovations with respect to parameters and nuisance parameters.
-
-    Args:
-        ways: (2 n, k) orthonormal with rows for the priors, which are left out here.
-        held: (k,) what those rows hold of the point along each.
-    """
-
-    ways: Array
-    held: Array
-
-    def told(self, white: Array) -> Array:
-        """(k,) what of innovations (2 n,) the point adjusts to."""
-        return np.asarray(self.ways.T @ white + self.held)
-
-    def square(self, white: Array) -> float:
-        """Sum of the squares that are left once it has, but for a constant."""
-        told = self.told(white)
-        return float(white @ white - told @ told)
-
-    def along(self, change: Array, white: Array) -> tuple[float, float]:
-        """What is left of a change's product with innovations, and with itself."""
-        told = self.ways.T @ change
-        product = float(change @ white - told @ self.told(white))
-        return product, float(change @ change - told @ told)
+Begun = tuple[float, Estimate]  # what a start promises, and where it begins
 
 
 def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -121,59 +90,6 @@ def _settled(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
         before = point.cost
         point = minimize(problem, point)
         if not before - point.cost > SURELY_MORE:
-            break
-    return point
-
-
-def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same values with the likeliest process noise: factors of four, then a parabola."""
-    least = LEAST_Q * problem.noise.velocity**2
-
-    def at(part: float) -> Estimate:
-        return problem.at(point.structure, point.values, point.nuisance, point.process_noise * part)
-
-    beside = {way: at(way) for way in (SOFTER, 1.0 / SOFTER)}
-    for way in (SOFTER, 1.0 / SOFTER):
-        while (
-            beside[way].cost < point.cost - 0.1
-            and least < beside[way].process_noise < problem.most_q
-        ):
-            beside[1.0 / way], point = point, beside[way]
-            beside[way] = at(way)
-    more, less = beside[SOFTER].cost, beside[1.0 / SOFTER].cost
-    bend = more + less - 2.0 * point.cost
-    if not (math.isfinite(bend) and bend > 0.0 and beside[SOFTER].process_noise < problem.most_q):
-        return point
-    other = at(SOFTER ** (0.5 * (less - more) / bend))
-    return min(point, other, key=lambda one: one.cost)
-
-
-def levenberg_marquardt(
-    problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float = ENOUGH
-) -> Estimate:
-    """Levenberg–Marquardt steps until the gain per step is small."""
-    if not math.isfinite(point.cost):
-        return point
-    damping = FIRST_DAMPING
-    for _ in range(steps):
-        table, rest = append_prior_rows(problem, point)
-        with np.errstate(over="ignore"):  # a value that nothing bears to be moved
-            size = np.linalg.norm(table, axis=0)
-        size[size == 0.0] = 1.0
-        table /= size
-        square, slope = table.T @ table, table.T @ rest
-        found = point
-        for _ in range(TRIES):
-            way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
-            if -float(way @ (2.0 * slope + square @ way)) < NOTHING:
-                break
-            moved = _moved(problem, point, way / size)
-            if moved.cost < point.cost:
-                found, damping = moved, max(damping / 10.0, 1e-9)
-                break
-            damping *= 10.0
-        gained, point = point.cost - found.cost, found
-        if not gained > enough:
             break
     return point
 
@@ -269,50 +185,11 @@ def _sized(structure: ModelStructure, one: Mapping[str, float], part: float) -> 
     }
 
 
-def joint_jacobian(problem: PredictionErrorProblem, point: Estimate) -> JointJacobian:
-    """The joint Jacobian at an estimate."""
-    table, rest = append_prior_rows(problem, point)
-    size = 2 * len(problem.measured)
-    ways, _ = np.linalg.qr(table)
-    return JointJacobian(np.ascontiguousarray(ways[:size]), np.asarray(ways[size:].T @ rest[size:]))
-
-
-def append_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
-    """Jacobian and residual with a row for the prior of each nuisance parameter.
-
-    Args:
-        problem: the measurements.
-        point: the values.
-    """
-    table, rest = problem.columns(point), problem.white(point, point.innovations)
-    runs, tau = len(problem.records), friction_sd(point.values)
-    prior = np.zeros((2 * runs, table.shape[1]))
-    prior[:, -2 * runs :] = np.diag(np.repeat([1.0 / problem.loose, 1.0 / tau], runs))
-    own = [point.nuisance.position_offset / problem.loose, point.nuisance.friction_offset / tau]
-    return np.vstack([table, prior]), np.concatenate([rest, *own])
-
-
-def _moved(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Estimate:
-    structure = point.structure
-    values = dict(point.values)
-    searched = structure.searched
-    for name, step in zip(searched, by.tolist(), strict=False):
-        values[name] = structure.stepped(name, values[name], step)
-    starts, rubs = by[len(searched) :].reshape(2, -1)
-    nuisance = point.nuisance.moved(starts).rubbing(rubs)
-    common = float(
-        np.mean(nuisance.friction_offset)
-    )  # what all runs have is kS: only the price tells, hardly
-    values["kS"] = max(values["kS"] + common, 0.0)
-    nuisance = nuisance.rubbing(np.full_like(nuisance.friction_offset, -common))
-    return problem.at(structure, values, nuisance, point.process_noise)
-
-
 def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The same values with the likeliest process noise of its whole range."""
     tried = [
         problem.at(
-            point.structure, point.values, point.nuisance, point.process_noise * SOFTER**power
+            point.structure, point.values, point.nuisance, point.process_noise * FACTOR**power
         )
         for power in SCANNED
     ]

@@ -16,11 +16,11 @@ import numpy as np
 
 from sim.data.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.optimize import JointJacobian
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.effect import ONSET, UNTIL, Effect
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
-from sim.reconcile.local_minimum import JointJacobian
 
 PARTS = 24  # moments of a run that are tried
 NEARER, LOOKS = 4, 2  # moments between two of these, and how often they are taken closer
@@ -170,7 +170,7 @@ class _Scan:
     def __init__(
         self, problem: PredictionErrorProblem, point: Estimate, effect: Effect, kept: JointJacobian
     ) -> None:
-        self.problem, self.point, self.effect, self.kept = problem, point, effect, kept.ways
+        self.problem, self.point, self.effect, self.kept = problem, point, effect, kept.basis
         most = min(one.most for one in effect.parameters if one.searched)
         self.ka = min(point.values["kA"], most / MOST)  # which may be any number in the wild
         self.lasts = [
@@ -179,7 +179,7 @@ class _Scan:
         ]
         self._some: dict[tuple[int, ...], tuple[PredictionErrorProblem, RunNuisance]] = {}
         rest = problem.white(point, point.innovations)
-        self.rest = rest - kept.ways @ kept.told(rest)
+        self.rest = rest - kept.basis @ kept.taken(rest)
 
     def coarse(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
         """Each run's likeliest moment, for the rest of the run and for good.
@@ -272,7 +272,7 @@ class _Scan:
         model = self.point.structure.model(self.point.values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
             model += Part(self.effect.name, given)
-            ahead = some.ahead(model, nuisance, self.point.kalman_gain, clocks)
+            ahead = some.predict_errors(model, nuisance, self.point.kalman_gain, clocks)
             return [
                 self._summed(run, (ahead[slice(*rows)] - self._plain[run]) / size)
                 for run, rows in zip(runs, pairwise(some.edges.tolist()), strict=True)
@@ -301,5 +301,5 @@ class _Scan:
         """A run -> (n, 2) innovations without it."""
         alone, nuisance = self._alone(tuple(range(len(self.problem.records))))
         model = self.point.structure.model(self.point.values)
-        ahead = alone.ahead(model, nuisance, self.point.kalman_gain)
+        ahead = alone.predict_errors(model, nuisance, self.point.kalman_gain)
         return [ahead[slice(*rows)] for rows in pairwise(self.problem.edges.tolist())]

@@ -11,14 +11,9 @@ from math import isclose, isfinite
 
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
+from sim.estimation.optimize import joint_jacobian, levenberg_marquardt
 from sim.physics.effects import EFFECTS
-from sim.reconcile.local_minimum import (
-    Begun,
-    joint_jacobian,
-    levenberg_marquardt,
-    predicted_improvement,
-    total_cost,
-)
+from sim.reconcile.local_minimum import Begun, predicted_improvement, total_cost
 from sim.reconcile.thresholds import SURE
 
 SHAKES = "two-body"  # kind of effects

@@ -6,6 +6,7 @@ folder of the user's cache under a name made of that text, so that a changed or 
 new engine.
 """
 
+import ast
 import hashlib
 import inspect
 import sys
@@ -203,10 +204,9 @@ def _alias(effect: Effect, hook: str) -> str:
 
 def _body(module: ModuleType) -> Iterator[str]:
     """A module's text without its imports, each function made a compiled one."""
-    lines = inspect.getsource(module).splitlines()
-    ends = [n for n, line in enumerate(lines) if line.endswith("# composed: end")]
-    imports = [n for n, line in enumerate(lines) if line.startswith(("import ", "from "))]
-    for line in lines[max([*ends, *imports]) + 1 :]:
+    text = inspect.getsource(module)
+    imports = [one for one in ast.parse(text).body if isinstance(one, ast.Import | ast.ImportFrom)]
+    for line in text.splitlines()[imports[-1].end_lineno :]:
         if line.startswith("def "):
             yield "@step"
             yield "def " + line[4:]

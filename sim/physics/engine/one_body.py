@@ -11,8 +11,8 @@ Plain functions of numbers: ``compose.py`` compiles them together with the effec
 
 import math
 
-from sim.data.log import Array  # composed: end
-from sim.physics.engine.hooks import (  # composed: begin
+from sim.data.log import Array
+from sim.physics.engine.hooks import (
     Numbers,
     coulomb_friction,
     force,

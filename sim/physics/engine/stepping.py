@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from sim.data.log import Array  # composed: end
-from sim.physics.engine.hooks import (  # composed: begin
+from sim.data.log import Array
+from sim.physics.engine.hooks import (
     Numbers,
     added_inertia,
     changes,

@@ -9,8 +9,8 @@ Plain functions of numbers: ``compose.py`` compiles them together with the effec
 
 import math
 
-from sim.data.log import Array  # composed: end
-from sim.physics.engine.hooks import Numbers, force, share, slack, softness  # composed: begin
+from sim.data.log import Array
+from sim.physics.engine.hooks import Numbers, force, share, slack, softness
 from sim.physics.engine.one_body import (
     HIGH,
     KV,

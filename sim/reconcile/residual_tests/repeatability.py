@@ -72,7 +72,7 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
     track = problem.track(point.structure.model(point.values), point.nuisance, point.kalman_gain)
     speed, position = track.seen, problem.measured[:, 0]
     position = np.where(np.isnan(position), track.position, position)
-    told = ~problem.untold.all(axis=1)
+    told = ~problem.ignored.all(axis=1)
     told &= np.abs(speed) > SLOW * problem.top
     run = np.repeat(np.arange(len(problem.records)), np.diff(problem.edges))
     found = []

@@ -63,7 +63,7 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
 
 def _runs(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[Array, Array]]:
     """Of each run that is long enough: times, and pushes less their mean."""
-    every, told = smooth_innovations(problem, point), np.asarray(~problem.untold.all(axis=1))
+    every, told = smooth_innovations(problem, point), np.asarray(~problem.ignored.all(axis=1))
     for record, (first, last) in zip(
         problem.records, pairwise(problem.edges.tolist()), strict=True
     ):

@@ -92,7 +92,7 @@ def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
         delayed = delayed + DELAY
     late = PART * problem.period
     values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
-    more = problem.ahead(delayed.model(values), point.nuisance, point.kalman_gain)
+    more = problem.predict_errors(delayed.model(values), point.nuisance, point.kalman_gain)
     white = point.innovations @ point.whitening.T
     change = np.nan_to_num(more - point.innovations) @ point.whitening.T
     for first, last in pairwise(problem.edges.tolist()):

@@ -1,0 +1,177 @@
+"""Levenberg–Marquardt search for parameters, and a line search for the process noise.
+
+Steps are taken on whitened innovations with a row for each prior; derivatives are differences of
+simulations.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.data.log import Array
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.random_friction import friction_sd
+
+FIRST_DAMPING, LEAST_DAMPING, TRIES = 1e-3, 1e-9, 5
+ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
+NOTHING = 0.1  # [of -2 log L] a step that promises less is not taken
+FACTOR = 4.0  # [1] steps of the process noise
+LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which it is none
+UNKNOWN, NO_INFORMATION = 1e-11, 1e-20  # [1] share of the information, and what stands for none
+
+
+@dataclass(frozen=True, eq=False)
+class JointJacobian:
+    """What of any innovations an estimate's parameters and nuisance parameters can take up.
+
+    Args:
+        basis: (2 n, k) an orthonormal basis of the Jacobian's columns, its prior rows left out.
+        prior: (k,) what the prior rows hold of the estimate, in that basis.
+    """
+
+    basis: Array
+    prior: Array
+
+    def taken(self, white: Array) -> Array:
+        """(k,) what of whitened innovations (2 n,) the parameters take up."""
+        return np.asarray(self.basis.T @ white + self.prior)
+
+    def square(self, white: Array) -> float:
+        """Sum of squares that is left once they have, up to a constant."""
+        taken = self.taken(white)
+        return float(white @ white - taken @ taken)
+
+    def along(self, change: Array, white: Array) -> tuple[float, float]:
+        """What is left of a change's product with innovations, and with itself."""
+        taken = self.basis.T @ change
+        product = float(change @ white - taken @ self.taken(white))
+        return product, float(change @ change - taken @ taken)
+
+
+def joint_jacobian(
+    problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
+) -> JointJacobian:
+    """The joint Jacobian at an estimate; ``fine`` takes central differences."""
+    table, rest = append_prior_rows(problem, point, fine=fine)
+    size = 2 * len(problem.measured)
+    basis, _ = np.linalg.qr(table)
+    return JointJacobian(
+        np.ascontiguousarray(basis[:size]), np.asarray(basis[size:].T @ rest[size:])
+    )
+
+
+def append_prior_rows(
+    problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
+) -> tuple[Array, Array]:
+    """Jacobian and whitened innovations, with a row for the prior of each nuisance parameter."""
+    table, rest = problem.jacobian(point, fine=fine), problem.white(point, point.innovations)
+    runs = len(problem.records)
+    sds, offsets = [problem.start_sd], [point.nuisance.position_offset]
+    if problem.varying_friction:
+        sds.append(friction_sd(point.values))
+        offsets.append(point.nuisance.friction_offset)
+    count = runs * len(sds)
+    prior = np.zeros((count, table.shape[1]))
+    prior[:, -count:] = np.diag(np.repeat([1.0 / sd for sd in sds], runs))
+    own = [offset / sd for offset, sd in zip(offsets, sds, strict=True)]
+    return np.vstack([table, prior]), np.concatenate([rest, *own])
+
+
+def levenberg_marquardt(
+    problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float = ENOUGH
+) -> Estimate:
+    """Levenberg–Marquardt steps until the gain per step is small; the process noise stays.
+
+    Args:
+        problem: the measurements.
+        point: where it begins.
+        steps: at most.
+        enough: [of -2 log L] what a step must gain for another one.
+    """
+    if not math.isfinite(point.cost):
+        return point
+    damping = FIRST_DAMPING
+    for _ in range(steps):
+        table, rest = append_prior_rows(problem, point)
+        with np.errstate(over="ignore"):  # a value that nothing bears to be moved
+            size = np.linalg.norm(table, axis=0)
+        size[size == 0.0] = 1.0
+        table /= size
+        square, slope = table.T @ table, table.T @ rest
+        found = point
+        for _ in range(TRIES):
+            way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
+            if -float(way @ (2.0 * slope + square @ way)) < NOTHING:
+                break
+            moved = _step(problem, point, way / size)
+            if moved.cost < point.cost:
+                found, damping = moved, max(damping / 10.0, LEAST_DAMPING)
+                break
+            damping *= 10.0
+        gained, point = point.cost - found.cost, found
+        if not gained > enough:
+            break
+    return point
+
+
+def _step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Estimate:
+    """The estimate after a step."""
+    structure, values = point.structure, dict(point.values)
+    searched = structure.searched
+    for name, step in zip(searched, by.tolist(), strict=False):
+        values[name] = structure.stepped(name, values[name], step)
+    starts, *frictions = by[len(searched) :].reshape(-1, len(problem.records))
+    nuisance = point.nuisance.moved(starts)
+    for rubs in frictions:
+        nuisance = nuisance.rubbing(rubs)
+        # what all runs have is kS: only the price tells, hardly
+        common = float(np.mean(nuisance.friction_offset))
+        values["kS"] = max(values["kS"] + common, 0.0)
+        nuisance = nuisance.rubbing(np.full_like(nuisance.friction_offset, -common))
+    return problem.at(structure, values, nuisance, point.process_noise)
+
+
+def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The same values with the likeliest process noise: factors of four, then a parabola."""
+    least = LEAST_Q * problem.noise.velocity**2
+
+    def at(part: float) -> Estimate:
+        return problem.at(point.structure, point.values, point.nuisance, point.process_noise * part)
+
+    beside = {way: at(way) for way in (FACTOR, 1.0 / FACTOR)}
+    for way in (FACTOR, 1.0 / FACTOR):
+        while (
+            beside[way].cost < point.cost - 0.1
+            and least < beside[way].process_noise < problem.most_q
+        ):
+            beside[1.0 / way], point = point, beside[way]
+            beside[way] = at(way)
+    more, less = beside[FACTOR].cost, beside[1.0 / FACTOR].cost
+    bend = more + less - 2.0 * point.cost
+    if not (math.isfinite(bend) and bend > 0.0 and beside[FACTOR].process_noise < problem.most_q):
+        return point
+    other = at(FACTOR ** (0.5 * (less - more) / bend))
+    return min(point, other, key=lambda one: one.cost)
+
+
+def parameter_covariance(
+    problem: PredictionErrorProblem, point: Estimate, *, nuisance: bool = False
+) -> Array:
+    """(searched, searched) covariance of the parameters, the nuisance parameters marginalized.
+
+    A combination of parameters that the log says nothing about has a huge error, not none.
+
+    Args:
+        problem: the measurements.
+        point: the best estimate.
+        nuisance: whether to keep rows and columns of the nuisance parameters.
+    """
+    table, _ = append_prior_rows(problem, point, fine=True)
+    square = table.T @ table
+    size = np.sqrt(np.maximum(np.diag(square), 1e-100))
+    told, ways = np.linalg.eigh(square / np.outer(size, size))
+    share = np.where(told > UNKNOWN, told, NO_INFORMATION)
+    inverse = (ways / share) @ ways.T / np.outer(size, size)
+    count = None if nuisance else len(point.structure.searched)
+    return np.asarray(inverse[:count, :count])
