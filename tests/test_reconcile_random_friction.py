@@ -128,7 +128,7 @@ def test_what_a_point_adjusts_to_is_what_the_priors_allow():
     assert kept.square(white) + float(prior @ prior) == pytest.approx(float(left @ left), rel=1e-6)
     along, size = kept.along(white, white)
     assert 0.0 < size <= float(white @ white)
-    assert along == pytest.approx(size - kept.ways.T @ white @ kept.held, rel=1e-6)
+    assert along == pytest.approx(size - kept.basis.T @ white @ kept.prior, rel=1e-6)
 
 
 @pytest.mark.parametrize("share", [0.93, 0.97, 1.02, 1.055, 1.1])

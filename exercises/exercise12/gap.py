@@ -15,12 +15,9 @@ COARSE = 0.01  # [s] step while a search looks around
 LEAST = {"kS": 0.0, "kV": 1e-9, "kA": 1e-9}
 ROBUST, THIRD = 1.4826, math.sqrt(20.0)  # of a median deviation, of a third difference
 STARTS = 2  # of each effect
-ROUNDS, ENOUGH = 60, 200  # of one search with effects; simulations of one for gains alone
+ROUNDS = 60  # steps of one search
 TRUST = 1e-5  # [share] a change below it is none
-PROBE = 1e-3  # [share of a value] by which it is moved to see what that does
 USUAL = {"kS": 0.1}  # [V] its size where a search begins with none
-NEAR = 0.5  # [share of a value] that one step changes at most: farther away lie other valleys
-FIRST_DAMPING, MOST_DAMPING = 1e-3, 1e6  # [1] of a step; beyond it nothing gains any more
 FAR = 1e4  # [noises] a simulation that ran away is this far off, and no farther
 
 
@@ -73,7 +70,8 @@ def with_gains(log: "Log", parts: "Sequence[Part]") -> "Model":
     def model(values: "Array") -> "Model":
         return _model(dict(zip(start, values.tolist(), strict=True)), parts)
 
-    return model(_narrowest(model, log, list(start.values())))
+    least, most = [*LEAST.values()], [math.inf] * len(LEAST)
+    return model(_searched(model, log, [*start.values()], least, most))
 
 
 def with_effects(log: "Log", names: Sequence[str], *, like: "Model | None" = None) -> "Model":
@@ -117,42 +115,6 @@ def with_effects(log: "Log", names: Sequence[str], *, like: "Model | None" = Non
     if best is None:
         raise ValueError("no effect named here leaves a trace to start from")
     return best
-
-
-def _narrowest(model: "Callable[[Array], Model]", log: "Log", first: Sequence[float]) -> "Array":
-    """Gains whose simulation leaves the smallest squares: Levenberg and Marquardt's steps.
-
-    Three gains need no more, and whoever waits for a grade does not wait for SciPy to load.
-    """
-    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
-
-    least = np.array(list(LEAST.values()))
-    values = np.maximum(np.array(first, dtype=float), least)
-    usual = np.array([USUAL.get(name, 0.0) for name in LEAST])
-    scale = np.maximum(values, usual)
-    left = _left(model, log)
-    rest, damping, used = left(values), FIRST_DAMPING, 1
-    table: Array | None = None
-    while used < ENOUGH and damping < MOST_DAMPING:
-        if table is None:
-            moved = [values + scale * one for one in PROBE * np.eye(values.size)]
-            table = np.column_stack([(left(at) - rest) / PROBE for at in moved])
-            used += values.size
-        slope, before = table.T @ rest, float(rest @ rest)
-        free = ((slope < 0.0) | (values > least)) & np.any(table, axis=0)
-        square = table[:, free].T @ table[:, free]
-        by = np.zeros(values.size)
-        by[free] = -np.linalg.solve(square + damping * np.diag(np.diag(square)), slope[free])
-        if -float(slope @ by) < TRUST * before:
-            break
-        far = float(np.max(np.abs(by) * scale / np.maximum(values, usual)))
-        tried = np.maximum(values + scale * by * min(1.0, NEAR / far), least)
-        after, used = left(tried), used + 1
-        if float(after @ after) < before:
-            values, rest, damping, table = tried, after, damping / 10.0, None
-        else:
-            damping *= 10.0
-    return values
 
 
 def _left(model: "Callable[[Array], Model]", log: "Log") -> "Callable[[Array], Array]":

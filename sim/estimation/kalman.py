@@ -1,8 +1,7 @@
-"""Innovations of a log: one-step prediction errors of a steady-state Kalman filter.
+"""The steady-state gain of the Kalman filter that predicts each sample from those before it.
 
-Each sample is first expected, from the last state and the voltage since; the difference to what was
-measured is the innovation; then the state is moved by a share K of it. K is the steady state of a
-Kalman filter for
+A sample is first predicted, from the last state and the voltage since; the difference to what was
+measured is the innovation; then the state is corrected by the gain K times it. K is that of
 
     d(x, v) = (v, -kV/kA·v + ...)·dt + (0, √q)·dW        measured with noise of known size
 
@@ -11,38 +10,15 @@ small unknowns (a slope in the floor, a worn tooth) are charged to the gains.
 """
 
 import math
-from collections.abc import Mapping
 
 import numpy as np
 
 from sim.data.log import Array
-from sim.estimation.measurements import RunMeasurements, SensorNoise
-from sim.physics.engine import NO_TRUST, State, move
-from sim.physics.model import Model, Part
+from sim.estimation.measurements import SensorNoise
+from sim.physics.engine import NO_TRUST
+from sim.physics.model import Model
 
 DOUBLINGS = 40  # rounds; 2⁴⁰ samples are for ever
-
-
-def model_from_values(type: str, values: Mapping[str, float]) -> Model:  # noqa: A002 - the field's own word
-    """The model for given parameter values.
-
-    Args:
-        type: ``simple``, ``elevator`` or ``arm``.
-        values: kS, kV, kA; ``kG`` or ``level`` and ``upright``; and ``window`` and ``lag`` [s]
-            where the velocity is averaged and the command is late.
-    """
-    gains = {name: values[name] for name in ("kS", "kV", "kA")}
-    if type == "elevator":
-        gains["kG"] = values["kG"]
-    elif type == "arm":
-        gains["kG"] = math.hypot(values["level"], values["upright"])
-        gains["offset_rad"] = math.atan2(-values["upright"], values["level"])
-    parts = []
-    if "window" in values:
-        parts.append(Part("velocity-filter", {"window": values["window"]}))
-    if "lag" in values:
-        parts.append(Part("delay", {"lag": values["lag"]}))
-    return Model(type, gains, tuple(parts))
 
 
 def steady_state_gain(model: Model, *, noise: SensorNoise, q: float, period: float) -> Array:
@@ -112,23 +88,3 @@ def _plus(a: _Four, b: _Four) -> _Four:
 
 def _turned(a: _Four) -> _Four:
     return a[0], a[2], a[1], a[3]
-
-
-def run_innovations(model: Model, run: RunMeasurements, *, start: float, trust: Array) -> Array:
-    """(n, 2) innovations of one run: measured minus predicted; nan where nothing was measured.
-
-    Args:
-        model: what is believed.
-        run: the measurements.
-        start: [unit] true position at the first sample, less the one that is seen there.
-        trust: (2, 2) as of ``trust_for``.
-    """
-    track = move(
-        model, time=run.time, voltage=run.voltage,
-        state=State.at(run.position + start, run.velocity), measured=run.measured, trust=trust,
-    )  # fmt: skip
-    ahead = run.measured - np.column_stack([track.expected, track.seen])
-    ahead[~run.telling] = np.nan
-    ahead[run.resting, 0] = np.nan
-    ahead[0] = np.nan
-    return np.asarray(ahead)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from inspect import signature
 
-from sim.estimation.kalman import model_from_values
 from sim.physics.effect import Parameter
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Model, Part
@@ -86,8 +85,12 @@ class ModelStructure:
         return ModelStructure(self.type, tuple(name for name in self.effects if name != effect))
 
     def model(self, values: Mapping[str, float]) -> Model:
-        """The model with these values."""
-        model = model_from_values(self.type, values)
+        """The model with these values; an arm's gravity is given by two voltages."""
+        gains = {name: values[name] for name in BASE[self.type] if name.startswith("k")}
+        if self.type == "arm":
+            gains["kG"] = math.hypot(values["level"], values["upright"])
+            gains["offset_rad"] = math.atan2(-values["upright"], values["level"])
+        model = Model(self.type, gains)
         for name in self.effects:
             model += Part(name, {p: values[f"{name}.{p}"] for p in EFFECTS[name].names})
         return model

@@ -8,7 +8,7 @@ from sim.data.errors import BadRequest, NotIdentifiable
 from sim.data.log import Log, Run
 from sim.data.units import unit
 from sim.estimation.initial_guess import first_guess
-from sim.estimation.kalman import model_from_values
+from sim.estimation.model_structure import ModelStructure
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
 
 FEWEST_RUNS, FEWEST_SAMPLES = 2, 60
@@ -168,7 +168,7 @@ def _obeys(log: Log, guess: dict[str, float], *, type: str) -> bool:  # noqa: A0
 
 
 def _held_against(log: Log, guess: dict[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - as above
-    return compute_voltage_residual(log, dict(model_from_values(type, guess).gains), type=type)
+    return compute_voltage_residual(log, dict(ModelStructure(type).model(guess).gains), type=type)
 
 
 def _check_travel(log: Log, travel: float) -> None:

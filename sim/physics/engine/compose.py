@@ -83,7 +83,8 @@ def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel |
             raise BadRequest(
                 wrong[0],
                 where=f"effect {name}",
-                advice="Compare with drag.py beside it, and with ASKS in sim/physics/effect.py.",
+                advice="Compare with sim/physics/effects/drag.py, and with ASKS in "
+                "sim/physics/effect.py.",
             )
     text = "\n".join(_text(effects, compiled=compiled))
     if compiled:
