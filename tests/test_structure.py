@@ -1,4 +1,4 @@
-"""What import-linter cannot see: modules that are imported by name at run time."""
+"""What import-linter and ruff cannot see: imports by name at run time, and functions too long."""
 
 import ast
 from pathlib import Path
@@ -63,3 +63,19 @@ def test_only_catalogues_import_our_modules_by_name():
 )
 def test_a_hidden_import_in_the_solver_is_seen(text):
     assert hidden_imports("sim/reconcile/story.py", text)
+
+
+LONGEST = 60  # lines of a function, its docstring included
+
+
+@pytest.mark.parametrize("folder", [*OURS, "exercises"])
+def test_no_function_is_longer_than_a_page(folder):
+    long = {
+        f"{path.relative_to(ROOT).as_posix()}: {node.name}"
+        for path in (ROOT / folder).rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+        and node.end_lineno - node.lineno >= LONGEST
+    }
+
+    assert long == set()

@@ -71,6 +71,10 @@ class Limits:
     prints: int = 4000
     numbers: int = 64 * 1024
 
+    def for_child(self) -> dict[str, int]:
+        """What the child sets for itself: seconds of the processor, bytes."""
+        return {"seconds": int(self.seconds) + 1, "memory": self.memory, "file": self.file}
+
 
 @dataclass(frozen=True)
 class SandboxOutcome:
@@ -119,11 +123,7 @@ def run_functions(
             "landlock_abi": LANDLOCK_ABI,
             "packages": package_paths(packages),
             **_hand_over(source, calls, given),
-            "limits": {
-                "seconds": int(limits.seconds) + 1,
-                "memory": limits.memory,
-                "file": limits.file,
-            },
+            "limits": limits.for_child(),
         }
         child = _Child(orders, work=work, limits=limits)
         ended = child.watch(limits.seconds)

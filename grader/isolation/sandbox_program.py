@@ -48,11 +48,7 @@ def run_program(
         "landlock_abi": sandbox_parent.LANDLOCK_ABI,
         "given": str(given),
         "packages": sandbox_parent.package_paths(packages),
-        "limits": {
-            "seconds": int(limits.seconds) + 1,
-            "memory": limits.memory,
-            "file": limits.file,
-        },
+        "limits": limits.for_child(),
     }
     with tempfile.TemporaryFile() as stdout:
         process = subprocess.Popen(  # noqa: S603 - our own Python and our own program

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
@@ -59,11 +60,7 @@ def simulate(
     Raises:
         BadRequest: a period no robot has, or a test that is over before it has moved.
     """
-    if not FASTEST <= period <= SLOWEST:
-        raise BadRequest(
-            f"a period of {period:g} s",
-            advice=f"Choose {FASTEST:g} to {SLOWEST:g} s; a robot program loops every 0.02 s.",
-        )
+    _check_period(period)
     model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)
     runs: list[Run] = []
     state, start, last, cut = State(), PAUSE, 0.0, False
@@ -78,11 +75,6 @@ def simulate(
         state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
         track = move(model, time=time, voltage=voltage, state=state, wires=wires)
         end = _end(track, mechanism, test=test)
-        if end < FEWEST:
-            raise BadRequest(
-                f"{test} lasts {end} loops",
-                advice="Ask for a longer timeout, a shorter period or a smaller step.",
-            )
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
             if state.memory.any():  # nothing that someone ended goes on to warm a motor
@@ -99,6 +91,14 @@ def simulate(
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
     return log.with_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
+
+
+def _check_period(period: float) -> None:
+    if not FASTEST <= period <= SLOWEST:
+        raise BadRequest(
+            f"a period of {period:g} s",
+            advice=f"Choose {FASTEST:g} to {SLOWEST:g} s; a robot program loops every 0.02 s.",
+        )
 
 
 def _brownout(mechanism: Mechanism) -> Doubt:
@@ -164,17 +164,32 @@ def _begin(mechanism: Mechanism, test: str, last: float) -> float:
 
 
 def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
-    """How many samples there are before someone ends the test."""
-    if mechanism.travel is None:
-        return int(track.position.size)
+    """How many samples there are before someone ends the test.
+
+    Raises:
+        BadRequest: too few to see it move.
+    """
+    end = int(track.position.size)
+    if mechanism.travel is not None:
+        beyond = _beyond(track, mechanism, test=test)
+        end = int(np.argmax(beyond)) if beyond.any() else end
+    if end < FEWEST:
+        raise BadRequest(
+            f"{test} lasts {end} loops",
+            advice="Ask for a longer timeout, a shorter period or a smaller step.",
+        )
+    return end
+
+
+def _beyond(track: Track, mechanism: Mechanism, *, test: str) -> NDArray[np.bool_]:
+    """(n,) where it has come to the end of its travel."""
     if mechanism.stops is None:
-        beyond = np.abs(track.position - track.position[0]) > mechanism.travel
-    else:
-        low, high = mechanism.stops
-        margin = MARGIN * (high - low)
-        far, near = (track.position > high - margin), (track.position < low + margin)
-        if test.endswith("reverse"):
-            far, near = near, far
-        left = np.maximum.accumulate(~near)  # back where it began, after it had left
-        beyond = far | (near & left)
-    return int(np.argmax(beyond)) if beyond.any() else int(beyond.size)
+        travel = math.inf if mechanism.travel is None else mechanism.travel
+        return np.asarray(np.abs(track.position - track.position[0]) > travel)
+    low, high = mechanism.stops
+    margin = MARGIN * (high - low)
+    far, near = (track.position > high - margin), (track.position < low + margin)
+    if test.endswith("reverse"):
+        far, near = near, far
+    left = np.maximum.accumulate(~near)  # back where it began, after it had left
+    return np.asarray(far | (near & left))

@@ -40,27 +40,7 @@ def choices(
     axes.axvline(truth, color=REFERENCE, linestyle="--", linewidth=1.2)
     rows = []
     for place, (way, value) in enumerate(values.items()):
-        mark = place % len(MARKERS)
-        spread = (spreads or {}).get(way, 0.0)
-        axes.errorbar(
-            value,
-            place,
-            xerr=spread or None,
-            fmt=MARKERS[mark],
-            color=COLORS[mark],
-            markersize=8,
-            capsize=4,
-        )
-        axes.annotate(
-            to_text(value),
-            (value, place),
-            xytext=(0, 7),
-            textcoords="offset points",
-            ha="center",
-            fontsize=8,
-            color=INK,
-            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},
-        )
+        _dot(axes, place, value, spread=(spreads or {}).get(way, 0.0))
         rows.append((way, value, _percent(value, truth)))
     label = f"{name} [{unit}]" if unit else name
     axes.set_xlabel(f"{label} (dashed line: the truth, {to_text(truth)})", color=INK)
@@ -76,6 +56,19 @@ def choices(
         + " ".join(f"“{way}”: {to_text(value)}, off by {off}." for way, value, off in rows)
     )
     return Picture(figure, alt, Table(("which", label, "off by"), tuple(rows)))
+
+
+def _dot(axes: Axes, place: int, value: float, *, spread: float) -> None:
+    """A number's dot in its row, with the number above it."""
+    mark = place % len(MARKERS)
+    axes.errorbar(
+        value, place, xerr=spread or None, fmt=MARKERS[mark], color=COLORS[mark],
+        markersize=8, capsize=4,
+    )  # fmt: skip
+    axes.annotate(
+        to_text(value), (value, place), xytext=(0, 7), textcoords="offset points", ha="center",
+        fontsize=8, color=INK, bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8},
+    )  # fmt: skip
 
 
 def curves(
@@ -108,15 +101,9 @@ def curves(
     few = -(-len(x) // TABLE_ROWS)
     for index, (name, y) in enumerate(lines.items()):
         axes.plot(
-            x,
-            y,
-            color=COLORS[index % len(COLORS)],
-            linestyle=LINES[index % len(LINES)],
-            marker=MARKERS[index % len(MARKERS)],
-            markevery=few,
-            markersize=5,
-            label=name,
-        )
+            x, y, color=COLORS[index % len(COLORS)], linestyle=LINES[index % len(LINES)],
+            marker=MARKERS[index % len(MARKERS)], markevery=few, markersize=5, label=name,
+        )  # fmt: skip
     for name, level in (levels or {}).items():
         axes.axhline(level, color=REFERENCE, linestyle="--", linewidth=1.0, label=name)
     if marked is not None:

@@ -89,14 +89,11 @@ def reconcile(
     shown = HeldOutLog.of({"log": log, "validation": validation, "held_out": held_out}, aside)
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
-    last = done[-1].candidate.point
-    left = ResidualSummary.by(problem, last)
+    left, per = ResidualSummary.by(problem, done[-1].candidate.point), unit(log.units)
     findings = make_findings(
-        problem, done, _once(slipped, aside.found), chapters, left=left, per=unit(log.units)
+        problem, done, _once(slipped, aside.found), chapters, left=left, per=per
     )
-    verdict, remainder, remains = verdict_of(
-        findings, done, problem, left=left, per=unit(log.units)
-    )
+    verdict, remainder, remains = verdict_of(findings, done, problem, left=left, per=per)
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,

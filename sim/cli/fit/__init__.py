@@ -139,14 +139,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
     told = _Told(files, found, log, preset, tried, notes)
     _write(told, html=html, plot=plot)
-    if paste:
-        from sim.report.robot_code_snippet import robot_code_snippet  # noqa: PLC0415 - only with --paste
-
-        click.echo(robot_code_snippet(found, language=paste, season=int(season)), nl=False)
-    elif as_json:
-        click.echo(json.dumps(told.to_json(), allow_nan=False))
-    else:
-        told.show()
+    told.echo(as_json=as_json, paste=paste, season=int(season))
     return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
 
 
@@ -160,6 +153,17 @@ class _Told:
     preset: str
     tried: "tuple[FeedbackTrial, ...]"
     notes: tuple[str, ...]
+
+    def echo(self, *, as_json: bool, paste: str | None, season: int) -> None:
+        """Print what was asked for: robot code, JSON, or text for people."""
+        if paste:
+            from sim.report.robot_code_snippet import robot_code_snippet  # noqa: PLC0415 - only with --paste
+
+            click.echo(robot_code_snippet(self.found, language=paste, season=season), nl=False)
+        elif as_json:
+            click.echo(json.dumps(self.to_json(), allow_nan=False))
+        else:
+            self.show()
 
     def to_json(self) -> dict[str, object]:
         """Plain data; the learner's own gains only where they were given."""

@@ -97,20 +97,17 @@ def swing(
 ) -> float:  # fmt: skip
     """The same of bodies that push each other, exactly but for what is not linear.
 
-    It goes a part of the whole step: half of it, half of that, as ``level`` says. What is not
-    linear is taken at the middle. Where one of them turns, teeth part, or a load that
-    stands begins to move, there is no step, and nan is returned.
+    The step is ``whole`` / 2^``level``. What is not linear is taken at its middle. Where one body
+    turns, teeth part, or a load that stands begins to move, there is no step: nan is returned.
     """
     part = share(on, p)
     rest = 1.0 - part
-    own, other = part * ka, rest * ka
-    dt = whole / (1 << level)
+    own, other, dt = part * ka, rest * ka, whole / (1 << level)
     x, v, y, z = state[X], state[V], state[Y], state[W]
     side = 0.5 * play * math.copysign(1.0, x - y)
-    d = x - y - side
+    d, stands = x - y - side, z == 0.0
     u = through(c, w, on, p, memory, asked, v, off)
     r = -gravity(c, y) - force(on, p, y, z)
-    stands = z == 0.0
     if stands and not stays(c, on, p, y, stiff * d + damp * v + r, rest):
         return math.nan
     if stands and v == 0.0:
@@ -147,13 +144,17 @@ def swing(
     if play > 0.0:
         least = joint(play, stiff, damp, d_half + side, v_half - z_half) * side
         least = min(least, joint(play, stiff, damp, d_end + side, v_end - z_end) * side)
-        shakes = abs(d_end - d) > 0.5 * max(abs(d), abs(d_end))
         long = dt * math.sqrt(stiff / (part * other)) > 1.0  # enough to part and meet within it
-        if not least > 0.0 or (shakes and long):
+        if not least > 0.0 or (long and shakes(d, d_end)):
             return math.nan
     state[X], state[V] = y_end + d_end + side, v_end
     state[Y], state[W] = within(c, y_end, z_end)
     return u
+
+
+def shakes(before: float, after: float) -> bool:
+    """Whether a deflection changes by more than half of the larger one within a step."""
+    return abs(after - before) > 0.5 * max(abs(before), abs(after))
 
 
 def held(c: Numbers, on: Numbers, p: Numbers, drive: float, part: float) -> bool:
