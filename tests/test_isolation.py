@@ -362,7 +362,7 @@ def unreadable():
         "the grader": str(course / "grader" / "variant.py"),
         "its own program": str(course / "grader" / "isolation" / "sandbox_child.py"),
         "an exercise's checks": str(course / "exercises" / "exercise9" / "checks.py"),
-        "the bench": str(course / "sim" / "mechanisms" / "shooter.py"),
+        "the bench": str(course / "sim" / "bench" / "mechanisms" / "shooter.py"),
         "the parent's memory": f"/proc/{os.getpid()}/maps",
         "the parent's environment": f"/proc/{os.getpid()}/environ",
         "the system's users": "/etc/passwd",

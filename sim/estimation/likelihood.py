@@ -32,7 +32,7 @@ from sim.estimation.run_records import RunRecord
 from sim.physics.engine import EXPECTED, NO_TRUST, RunBatch, Track, follow
 from sim.physics.model import Model
 
-START_SD = 5.0  # [noises of a position] standard deviation of a start position
+START_SD = 2.0  # [noises of a position] standard deviation of a start position
 TOP = 0.98  # quantile that stands for the largest, so that one bad sample does not
 STEP = 1e-3  # [of a value's size] step of a derivative
 COARSE_STEP = 0.02  # [of it] for parameters whose effect comes in steps, as the samples do
@@ -81,20 +81,22 @@ class PredictionErrorProblem:
         noise: of their samples, estimated without a model.
         most_q: [unit²/s³] the largest process noise.
         varying_friction: whether each run has a friction of its own.
+        slack: [unit] by which free play that no model here describes may shift a start.
     """
 
     records: tuple[RunRecord, ...]
     noise: SensorNoise
     most_q: float = math.inf
     varying_friction: bool = True
+    slack: float = 0.0
 
     @classmethod
     def of(
-        cls, records: Sequence[RunRecord], *, varying_friction: bool = True
+        cls, records: Sequence[RunRecord], *, varying_friction: bool = True, slack: float = 0.0
     ) -> "PredictionErrorProblem":
         """The problem of these runs, with the noise that they show."""
         noise = estimate_noise(tuple(record.measurements for record in records))
-        return cls(tuple(records), noise, varying_friction=varying_friction)
+        return cls(tuple(records), noise, varying_friction=varying_friction, slack=slack)
 
     @cached_property
     def edges(self) -> NDArray[np.intp]:
@@ -175,7 +177,7 @@ class PredictionErrorProblem:
     @cached_property
     def start_sd(self) -> float:
         """[unit] standard deviation of a start position."""
-        return START_SD * self.noise.position
+        return max(START_SD * self.noise.position, self.slack)
 
     @property
     def start(self) -> RunNuisance:

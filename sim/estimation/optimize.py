@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.data.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
@@ -18,6 +19,7 @@ ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
 NOTHING = 0.1  # [of -2 log L] a step that promises less is not taken
 FACTOR = 4.0  # [1] steps of the process noise
 LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which it is none
+TINY = 1e-9  # [of a value's size] step that tells whether a value is at its limit
 UNKNOWN, NO_INFORMATION = 1e-11, 1e-20  # [1] share of the information, and what stands for none
 
 
@@ -97,14 +99,17 @@ def levenberg_marquardt(
         with np.errstate(over="ignore"):  # a value that nothing bears to be moved
             size = np.linalg.norm(table, axis=0)
         size[size == 0.0] = 1.0
-        table /= size
-        square, slope = table.T @ table, table.T @ rest
-        found = point
+        slope = table.T @ rest / size
+        free = _free(point, slope)
+        table, slope = table[:, free] / size[free], slope[free]
+        square, found = table.T @ table, point
         for _ in range(TRIES):
             way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
             if -float(way @ (2.0 * slope + square @ way)) < NOTHING:
                 break
-            moved = _step(problem, point, way / size)
+            by = np.zeros(free.size)
+            by[free] = way / size[free]
+            moved = _step(problem, point, by)
             if moved.cost < point.cost:
                 found, damping = moved, max(damping / 10.0, LEAST_DAMPING)
                 break
@@ -113,6 +118,17 @@ def levenberg_marquardt(
         if not gained > enough:
             break
     return point
+
+
+def _free(point: Estimate, slope: Array) -> NDArray[np.bool_]:
+    """(columns,) which may move: not a parameter at a limit beyond which the cost would fall."""
+    free = np.ones(slope.size, dtype=bool)
+    structure = point.structure
+    for column, name in enumerate(structure.searched):
+        value = point.values[name]
+        by = TINY * structure.size(name, value) * np.sign(slope[column])
+        free[column] = structure.within(name, value - by) != value
+    return free
 
 
 def _step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Estimate:

@@ -7,9 +7,8 @@ from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.measurements import measure_runs
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.run_records import separate_records
 from sim.fit.open_loop_fallback import OpenLoopReplay, replay_open_loop
-from sim.fit.search import fit_tracking
+from sim.fit.search import fit_problem, fit_tracking
 
 PLAINLY = 0.33  # [1] of what a simple model strays, that another may
 ACTS = {
@@ -54,6 +53,5 @@ def _left(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noq
         return float("inf")
     guess = clamp_to_physical(guess, period=problem.period)
     # with gravity it may lean on a stop, which no model has
-    records = separate_records(log, measure_runs(log, friction=guess["kS"]))
-    other = PredictionErrorProblem(records, problem.noise, varying_friction=False)
+    other = fit_problem(log, measure_runs(log, friction=guess["kS"]))
     return replay_open_loop(other, fit_tracking(other, ModelStructure(type), guess)).rmse

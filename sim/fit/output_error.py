@@ -18,7 +18,6 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import RunMeasurements, measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import joint_jacobian, parameter_covariance
-from sim.estimation.run_records import separate_records
 from sim.fit.fit_doubts import doubt_lags, doubt_misfit, doubt_opposed_signs, doubt_small_misfit
 from sim.fit.gravity_type_hint import hint_gravity_type
 from sim.fit.identifiability import moves_both_ways, refuse_unidentifiable, refuse_unrelated
@@ -33,6 +32,7 @@ from sim.fit.open_loop_fallback import (
 from sim.fit.result import Fit
 from sim.fit.search import (
     fit_open_loop,
+    fit_problem,
     fit_tracking,
     predicted_improvement,
     refine,
@@ -118,7 +118,7 @@ def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     )  # fitted as if the leads were swapped, and told
     begin = clamp_to_physical(guess, period=_period(log.runs))
     seen = measure_runs(log, friction=None if type == "simple" else begin["kS"])
-    problem = PredictionErrorProblem.of(separate_records(log, seen), varying_friction=False)
+    problem = fit_problem(log, seen)
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _nonsense(log)

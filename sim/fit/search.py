@@ -9,12 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.data.log import Array, Log
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.measurements import ROBUST
+from sim.estimation.measurements import ROBUST, RunMeasurements
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import JointJacobian, levenberg_marquardt, tune_process_noise
+from sim.estimation.run_records import separate_records
 
+SLACK = 0.02  # [m or rad] of a gear or a chain, which kS, kV and kA do not describe
 TRACKING = 1.0  # [1/s] q over the variance of a velocity: it moves by its noise in a second
 OPEN_LOOP = 1e-7  # [1/s] the same where a simulation is all but left to itself
 BETWEEN = (1e-4, 1e-2)  # [1/s] the same where some models are likeliest
@@ -26,6 +28,17 @@ ROUGHLY = 5.0  # [of -2 log L] the same of a first search
 OUTLIER = 6.0  # [standard deviations] farther than this no noise goes
 START = 0.1  # [s] of a motion in which nothing is left out
 AROUND = 2  # samples on both sides of an outlier
+
+
+def fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErrorProblem:
+    """The problem of a log's runs, each on its own, for a model of gains and lags.
+
+    Args:
+        log: the runs.
+        measured: of those with enough samples, the measurements.
+    """
+    records = separate_records(log, measured)
+    return PredictionErrorProblem.of(records, varying_friction=False, slack=SLACK)
 
 
 def fit_tracking(
