@@ -26,7 +26,7 @@ STEPS = 8  # of the gains in one round
 ENOUGH = 0.05  # [of -2 log L] a step that gains less ends a search
 ROUGHLY = 5.0  # [of -2 log L] the same of a first search
 OUTLIER = 6.0  # [standard deviations] farther than this no noise goes
-START = 0.1  # [s] of a motion in which nothing is left out
+START = 0.15  # [s] of a motion in which nothing is left out: about two time constants
 AROUND = 2  # samples on both sides of an outlier
 
 
