@@ -163,8 +163,13 @@ def test_entries_of_any_name_can_be_given(tmp_path: Path) -> None:
     assert log.doubts == ()
 
 
-def test_an_entry_that_names_tests_is_offered(tmp_path: Path) -> None:
-    with pytest.raises(MissingSignal, match="give --state /RealOutputs/Arm/Sys --voltage ENTRY"):
+def test_an_entry_that_names_tests_is_taken_whatever_its_name(tmp_path: Path) -> None:
+    named = {signal: name for signal, name in ENTRIES.items() if signal != "state"}
+
+    log = sim.read(foreign(tmp_path), entries=named)
+
+    assert [run.test for run in log.runs] == list(FOUR)
+    with pytest.raises(MissingSignal, match="no motor with all three.*--voltage ENTRY"):
         sim.read(foreign(tmp_path))
 
 

@@ -18,6 +18,7 @@ from sim.data.log import Log
 from sim.data.units import UNITS
 from sim.io.format import ReadOptions
 from sim.io.wpilog.contents import FileDamage, contents_of
+from sim.io.wpilog.discovery import driven_interval, find_devices, test_in_name
 from sim.io.wpilog.entry import Entry
 from sim.io.wpilog.motors import motors_of
 from sim.io.wpilog.names import quote_names, type_said
@@ -53,6 +54,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
     records = load_records(path)
     found = contents_of(records)
     damage = found.damage
+    lost = tuple(_orphaned(found.orphans, where))
     if not found.entries:
         raise _unreadable(damage, records.end, where, "there is no record before it")
     try:
@@ -63,10 +65,10 @@ def read(path: Path, asked: ReadOptions) -> Log:
             raise
         raise _unreadable(damage, records.end, where, missing.what) from None
     if damage is None:
-        return log.with_doubts(*_unfinished(spans[-1], where))
+        return log.with_doubts(*lost, *_unfinished(spans[-1], where))
     if not damage.torn and spans[0].end == FOREVER:
         raise _unreadable(damage, records.end, where, "no run is whole before it")
-    return log.with_doubts(_partly(damage, where))
+    return log.with_doubts(*lost, _partly(damage, where))
 
 
 def _log(
@@ -94,8 +96,8 @@ def _of(
     state: StateEntry, entries: Sequence[Entry], *, asked: ReadOptions, where: str
 ) -> tuple[Log, tuple[RunInterval, ...]]:
     """The log of one mechanism, as the tests that are named for it tell it."""
-    motors, doubts = motors_of(state, entries, asked=asked, where=where)
     found, strange = run_intervals(state, where=where)
+    motors, doubts = motors_of(state, entries, found, asked=asked, where=where)
     result = cut_runs(motors, found, asked=asked, where=where)
     if not result.runs:
         names = quote_names([entry.name for entry in motors[0].signals.values()])
@@ -121,7 +123,13 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
     Raises:
         BadRequest: there are several, and what was asked for does not tell which.
     """
-    found = state_entries(entries, asked=asked, where=where)
+    try:
+        found = state_entries(entries, asked=asked, where=where)
+    except MissingSignal:
+        named = None if asked.entries else _state_of_file_name(Path(where), entries)
+        if named is None:
+            raise
+        return named
     if len(found) > 1 and asked.motor is not None:
         having = tuple(state for state in found if _has_motor(state, entries, asked))
         found = having if len(having) == 1 else found
@@ -135,10 +143,22 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
     )
 
 
+def _state_of_file_name(path: Path, entries: Sequence[Entry]) -> StateEntry | None:
+    """The one test of a file whose name tells it: the longest time that something is driven."""
+    test = test_in_name(path.stem)
+    devices = find_devices(entries)
+    interval = driven_interval(test, devices) if test else None
+    if interval is None:
+        return None
+    entry = next(one.signals["voltage"] for one in devices if one.whole)
+    return StateEntry("", "", entry, (interval,))
+
+
 def _has_motor(state: StateEntry, entries: Sequence[Entry], asked: ReadOptions) -> bool:
     """Whether a mechanism has the motor that is asked for."""
     with suppress(Refusal):
-        return bool(motors_of(state, entries, asked=asked, where=""))
+        tests, _ = run_intervals(state, where="")
+        return bool(motors_of(state, entries, tests, asked=asked, where=""))
     return False
 
 
@@ -156,6 +176,16 @@ def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> U
         where=f"{where}, byte {damage.offset}",
         advice="Copy it from the robot again; if it is the same there, record the tests again.",
     )
+
+
+def _orphaned(count: int, where: str) -> Iterator[Doubt]:
+    """A doubt about records that nothing introduces."""
+    if count:
+        yield Doubt(
+            "orphan-records",
+            f"{where}: {count} records come before the record that starts their entry and were "
+            "left out, as in a file that goes on where another one ended.",
+        )
 
 
 def _partly(damage: FileDamage, where: str) -> Doubt:

@@ -38,10 +38,18 @@ class FileDamage:
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """The entries of a file, and what kept the rest of it from being read, if anything did."""
+    """The entries of a file.
+
+    Args:
+        entries: in the order they first appear.
+        damage: what kept the rest of the file from being read, if anything did.
+        orphans: how many records precede the start of their entry, as in a file that goes on where
+            another one ended.
+    """
 
     entries: tuple[Entry, ...]
     damage: FileDamage | None
+    orphans: int = 0
 
 
 @dataclass(frozen=True, order=True)
@@ -97,7 +105,13 @@ def contents_of(records: Records) -> Contents:
     if stops:
         stop = min(stops)
         lives, _ = _lives(records, head, before=stop.index)
-    return Contents(tuple(_joined(lives, groups, records.file)), _damage(records, lives, stop))
+    orphans = sum(
+        int(np.count_nonzero(groups[number].index < several[0].first))
+        for number, several in lives.items()
+        if number in groups
+    )
+    entries = tuple(_joined(lives, groups, records.file))
+    return Contents(entries, _damage(records, lives, stop), orphans)
 
 
 def _groups(head: Fields) -> dict[int, _Group]:
@@ -137,9 +151,10 @@ def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Sto
 def _misfits(number: int, group: _Group, lives: Sequence[_Life]) -> Iterator[_Stop]:
     """The first record of an id that belongs to no entry, and any of a size its type cannot have.
 
-    Records between a finish and the next start are passed over, as WPILib's own tools do.
+    Records before a start, or between a finish and the next start, are passed over, as WPILib's own
+    tools do.
     """
-    if not lives or group.index[0] < lives[0].first:
+    if not lives:
         yield _Stop(int(group.index[0]), f"a record of entry {number}, which was never started")
     for life in lives:
         if life.start.type in SIZES:

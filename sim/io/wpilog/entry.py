@@ -17,6 +17,8 @@ KINDS: dict[str, type[np.generic]] = {
 SIZES = {kind: np.dtype(dtype).itemsize for kind, dtype in KINDS.items()}  # [bytes] of one value
 NUMBERS = ("double", "float", "int64")  # types a signal may have, the likeliest first
 STRING = "string"
+NEEDED = ("voltage", "position", "velocity")  # the signals of a motor
+OPTIONAL = ("current", "bus_voltage")
 SCATTERED = 4096  # [bytes of the file for each string] where strings are rarer, each is cut out
 
 

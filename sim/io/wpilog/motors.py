@@ -12,13 +12,22 @@ from dataclasses import dataclass
 from sim.data.doubt import Doubt
 from sim.data.errors import BadRequest, MissingSignal
 from sim.io.format import ReadOptions
-from sim.io.wpilog.entry import NUMBERS, Entry
-from sim.io.wpilog.names import asked_for, explain_unfit_entry, quote_names, split_name
-from sim.io.wpilog.state import WORD, StateEntry
+from sim.io.wpilog.discovery import driven_devices, find_devices
+from sim.io.wpilog.entry import NEEDED, NUMBERS, OPTIONAL, Entry
+from sim.io.wpilog.names import (
+    asked_for,
+    explain_unfit_entry,
+    quote_names,
+    split_name,
+    words_of,
+)
+from sim.io.wpilog.state import WORD, RunInterval, StateEntry
 
-NEEDED = ("voltage", "position", "velocity")
-OPTIONAL = ("current", "bus_voltage")
 FLAGS = "--voltage ENTRY --position ENTRY --velocity ENTRY"
+EXPORT = (
+    "Signals that only CTRE's or REV's logger recorded have to be exported as WPILOG first, with "
+    "Tuner X or AdvantageScope."
+)
 CALLS = {
     "voltage": "voltage(...)",
     "position": "angularPosition(...) or linearPosition(...), in Python position(...)",
@@ -56,13 +65,19 @@ class _Search:
 
 
 def motors_of(
-    state: StateEntry, entries: Sequence[Entry], *, asked: ReadOptions, where: str
+    state: StateEntry,
+    entries: Sequence[Entry],
+    tests: Sequence[RunInterval],
+    *,
+    asked: ReadOptions,
+    where: str,
 ) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...]]:
     """The motors of a mechanism whose signals are to be used, all of them whole.
 
     Args:
         state: where its tests are named.
         entries: all entries of the file.
+        tests: when its tests ran.
         asked: which motor, and which entries, where a person has said so.
         where: the file, for messages.
 
@@ -84,13 +99,39 @@ def motors_of(
     if all(signal in given for signal in NEEDED):
         return (MotorEntries(asked.motor or "", given),), ()
     found = [MotorEntries(name, signals | given) for name, signals in _by_motor(search).items()]
+    noted: tuple[Doubt, ...] = ()
+    if not given and not any(motor.whole for motor in found):
+        other = _of_other_loggers(search, tests)
+        found, noted = other or found, (_taken(other, where),) if other else ()
     if asked.motor is not None:
         found = [_chosen(found, search)]
     whole = tuple(motor for motor in found if motor.whole)
+    if not (whole or given or found or split_name(state.entry.name, WORD)):
+        raise _no_motor(search)
     if not whole:
         best = max(found, key=lambda motor: len(motor.signals), default=MotorEntries("", given))
         raise _missing(best, search)
-    return whole, tuple(_left_out(found, where))
+    return whole, (*noted, *_left_out(found, where))
+
+
+def _of_other_loggers(search: _Search, tests: Sequence[RunInterval]) -> list[MotorEntries]:
+    """The motors that another logger recorded, and that the tests drove."""
+    driven = driven_devices(find_devices(search.entries), tests)
+    words = set(words_of(search.state.mechanism))
+    named = [one for one in driven if words & set(words_of(one.name))]
+    return [MotorEntries(one.name, one.signals) for one in named or driven]
+
+
+def _taken(motors: Sequence[MotorEntries], where: str) -> Doubt:
+    """What was taken for the signals of which motor."""
+    first = motors[0].signals
+    names = ", ".join(f"{signal} from {first[signal].name!r}" for signal in NEEDED)
+    more = f", and the like of {len(motors) - 1} more" if len(motors) > 1 else ""
+    return Doubt(
+        "signals-found",
+        f"{where}: the log does not use SysId's names, so signals were chosen by name, unit and "
+        f"motion: {names}{more}. If that is wrong, name them with {FLAGS}.",
+    )
 
 
 def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
@@ -178,7 +219,22 @@ def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
     return MissingSignal(
         "; ".join(said),
         where=search.where,
-        advice=f"{_advice(signal)}, or name another logger's entries: {FLAGS}.",
+        advice=f"{_advice(signal)}, or name another logger's entries: {FLAGS}. {EXPORT}",
+    )
+
+
+def _no_motor(search: _Search) -> MissingSignal:
+    """The refusal of a log in which no device was recorded whole."""
+    devices = find_devices(search.entries)
+    lacking = [s for s in NEEDED if not any(s in device.signals for device in devices)]
+    what = f"no {' and no '.join(lacking)}" if lacking else "no motor with all three"
+    near = [name for signal in NEEDED for name in _near(signal, search)]
+    said = f"; nearest are {quote_names(list(dict.fromkeys(near)))}" if near else ""
+    return MissingSignal(
+        f"{what} that moves with the tests: a motor needs a voltage entry, a position and a "
+        f"velocity{said}",
+        where=search.where,
+        advice=f"Log all three of each motor, or name the entries: {FLAGS}. {EXPORT}",
     )
 
 

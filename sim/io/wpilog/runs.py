@@ -21,7 +21,8 @@ from sim.io.wpilog.clock import (
     interpolate_linear,
     loop_times,
 )
-from sim.io.wpilog.motors import NEEDED, OPTIONAL, MotorEntries
+from sim.io.wpilog.entry import NEEDED, OPTIONAL
+from sim.io.wpilog.motors import MotorEntries
 from sim.io.wpilog.records import Numbers
 from sim.io.wpilog.state import RunInterval
 from sim.io.wpilog.units import EntryScale, scale_of
@@ -101,10 +102,10 @@ def cut_runs(
 
 def _scales(motors: Sequence[MotorEntries], *, asked: ReadOptions, where: str) -> list[EntryScale]:
     """The scale of each motor, all into the unit of the first."""
-    first = scale_of(motors[0], asked=asked, where=where)
+    first = scale_of(motors[0].signals, asked=asked, where=where)
     scales = [first]
     for motor in motors[1:]:
-        scale = scale_of(motor, asked=asked, where=where)
+        scale = scale_of(motor.signals, asked=asked, where=where)
         if UNITS[scale.units].angular != UNITS[first.units].angular:
             raise BadRequest(
                 f"motor {motors[0].name!r} is logged in {first.units}, {motor.name!r} in "

@@ -3,6 +3,7 @@
 sysid-test-state-<mechanism> = quasistatic-forward | … | none
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -26,11 +27,13 @@ class StateEntry:
         mechanism: its name; empty if the entry is not named as SysId's are.
         path: what its logger puts before a name; empty, ``NT:/``, …
         entry: the entry itself.
+        intervals: when tests ran, where no entry says it but the name of the file.
     """
 
     mechanism: str
     path: str
     entry: Entry
+    intervals: "tuple[RunInterval, ...]" = ()
 
 
 @dataclass(frozen=True)
@@ -70,11 +73,17 @@ def state_entries(
         if entry.type == STRING and (name := split_name(entry.name, WORD))
     ]
     telling = [state for state in named if _tells(state.entry)]
+    if not telling and not named:
+        telling = [
+            StateEntry(_mechanism_in(entry.name), "", entry)
+            for entry in entries
+            if entry.type == STRING and _tells(entry)
+        ]
     if not telling:
         raise (
             _no_test([state.entry for state in named], where=where)
             if named
-            else _no_state(entries, where=where)
+            else _no_state(where=where)
         )
     mechanisms = dict.fromkeys(state.mechanism for state in telling)
     return tuple(_only(telling, mechanism, where=where) for mechanism in mechanisms)
@@ -88,6 +97,8 @@ def run_intervals(
     Returns:
         The stretches in order, and a doubt if some states are not the name of a test.
     """
+    if state.intervals:
+        return state.intervals, ()
     words = [text.strip().lower() for text in state.entry.texts()]
     times = state.entry.time.tolist()
     fresh = [i for i, word in enumerate(words) if i == 0 or word != words[i - 1]]
@@ -137,18 +148,16 @@ def _no_test(entries: Sequence[Entry], *, where: str) -> MissingSignal:
     )
 
 
-def _no_state(entries: Sequence[Entry], *, where: str) -> MissingSignal:
-    told = [entry.name for entry in entries if entry.type == STRING and _tells(entry)]
-    what = f"no state entry: expected '{WORD}-<mechanism>' (string)"
-    if told:
-        return MissingSignal(
-            f"{what}; {quote_names(told)} names tests",
-            where=where,
-            advice=f"If that is it, give --state {told[0]} --voltage ENTRY --position ENTRY "
-            "--velocity ENTRY.",
-        )
+def _mechanism_in(name: str) -> str:
+    """What is left of the name of another logger's state entry: ``Elevator-SysID-State``."""
+    last = re.split(r"[/:]", name)[-1]
+    parts = re.split(r"[-_ ]+", re.sub(r"(?i)sys[-_ ]?id|routine|state|test", " ", last))
+    return "-".join(filter(None, parts))
+
+
+def _no_state(*, where: str) -> MissingSignal:
     return MissingSignal(
-        what,
+        f"no entry names tests: expected '{WORD}-<mechanism>' (string)",
         where=where,
         advice="SysIdRoutine writes it while a test runs: run the tests with the robot enabled and "
         "give the log of that, or name another logger's entries with --state ENTRY --voltage ENTRY "

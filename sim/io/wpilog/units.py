@@ -1,9 +1,10 @@
-"""The unit of an entry, read from its metadata in the words of either language.
+"""The unit of an entry, read from its metadata in the words of either language, or from its name.
 
     Java     Volt   Rotation   Rotation per Second   Meter   Meter per Second
     Python   volt   turn       turns_per_second      meter   meters_per_second
 
-Other loggers put the same into JSON: ``{"unit": "rad/s"}``.
+Other loggers put the same into JSON (``{"unit": "rad/s"}``), at the end of a sentence (``Units:
+rotations``), or into the name of the entry (``DriveVelocityRadPerSec``).
 """
 
 import json
@@ -15,7 +16,8 @@ from sim.data.doubt import Doubt
 from sim.data.errors import BadRequest
 from sim.data.units import UNITS
 from sim.io.format import ReadOptions
-from sim.io.wpilog.motors import NEEDED, MotorEntries
+from sim.io.wpilog.entry import NEEDED, Entry
+from sim.io.wpilog.names import words_of
 
 _WORDS = {  # unit of ours -> what others call it
     "meters": "meter meters metre metres m",
@@ -78,7 +80,8 @@ def said_unit(metadata: str) -> str:
     """The unit a piece of metadata names, as written; empty if it names none."""
     text = metadata.strip()
     if not text.startswith("{"):
-        return text
+        stated = re.search(r"\bunits?:\s*(.+?)\.?\s*$", text, re.IGNORECASE)
+        return stated[1] if stated else text
     try:
         content = json.loads(text)
     except (ValueError, RecursionError):
@@ -86,6 +89,22 @@ def said_unit(metadata: str) -> str:
     keyed = content if isinstance(content, dict) else {}
     found = next((keyed[key] for key in ("unit", "units") if key in keyed), "")
     return found.strip() if isinstance(found, str) else ""
+
+
+def stated_unit(text: str, signal: str) -> StatedUnit | None:
+    """What the unit of a signal is; None if it is not understood."""
+    read = {"voltage": voltage_unit, "position": position_unit, "velocity": velocity_unit}
+    return read[signal](text) if signal in read else None
+
+
+def _unit_text(entry: Entry, signal: str) -> str:
+    """The unit that an entry's metadata states, or else the end of its name; empty if neither."""
+    text = said_unit(entry.metadata)
+    if text:
+        return text
+    words = words_of(re.split(r"[/:]", entry.name)[-1])
+    ends = (" ".join(words[first:]) for first in range(len(words)))
+    return next((end for end in ends if stated_unit(end, signal)), "")
 
 
 def voltage_unit(text: str) -> StatedUnit | None:
@@ -108,18 +127,14 @@ def velocity_unit(text: str) -> StatedUnit | None:
     return StatedUnit(found[0], found[1] * rate) if found and rate else None
 
 
-def scale_of(motor: MotorEntries, *, asked: ReadOptions, where: str) -> EntryScale:
+def scale_of(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str) -> EntryScale:
     """In which unit a motor was logged: what a person says, else its metadata, else the default.
 
     Raises:
         BadRequest: its position is an angle and its velocity a length, or the other way round.
     """
-    texts = {signal: said_unit(motor.signals[signal].metadata) for signal in NEEDED}
-    said = {
-        "voltage": voltage_unit(texts["voltage"]),
-        "position": position_unit(texts["position"]),
-        "velocity": velocity_unit(texts["velocity"]),
-    }
+    texts = {signal: _unit_text(signals[signal], signal) for signal in NEEDED}
+    said = {signal: stated_unit(text, signal) for signal, text in texts.items()}
     stated = [found.units for found in (said["position"], said["velocity"]) if found]
     if asked.units is None and len({UNITS[units].angular for units in stated}) > 1:
         raise BadRequest(
@@ -136,7 +151,7 @@ def scale_of(motor: MotorEntries, *, asked: ReadOptions, where: str) -> EntrySca
         problem = _problem(text, said[signal], wanted, ordered=asked.units is not None)
         if problem:
             code, what = problem
-            name = motor.signals[signal].name
+            name = signals[signal].name
             doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}"))
     return EntryScale(units, factors, tuple(doubts))
 

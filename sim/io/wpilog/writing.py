@@ -15,7 +15,7 @@ from sim.data.errors import BadRequest
 from sim.data.log import Array, Log, Run
 from sim.data.units import UNITS
 from sim.io.wpilog.control import Start, start_payload
-from sim.io.wpilog.motors import NEEDED, OPTIONAL
+from sim.io.wpilog.entry import NEEDED, OPTIONAL
 from sim.io.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
 from sim.io.wpilog.state import IDLE, WORD
 

@@ -1,0 +1,237 @@
+"""Logs of other loggers: signals are found by the names, units and motion of their entries.
+
+Every log is a bench mechanism's, written under the names that another tool uses. Mechanisms and
+devices have other names than in any log that the reader was written for.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from wpilog_file import Logger
+
+import sim
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.data.errors import MissingSignal
+from sim.data.units import UNITS
+from sim.fit import fit
+
+ROUTINE = Routine(ramp=0.5, step=4.0)
+ADVANTAGESCOPE = '{"exporter":"AdvantageScope"}'
+PHOENIX = (
+    ("Phoenix6/TalonFX-21/MotorVoltage", "The applied (output) motor voltage.\nUnits: V"),
+    ("Phoenix6/TalonFX-21/Position", "Position of the device in rotations.\nUnits: rotations"),
+    ("Phoenix6/TalonFX-21/Velocity", "Velocity of the device.\nUnits: rotations per second"),
+)
+URCL = tuple(
+    (f"NT:/URCL/SparkMax-5/{name}", ADVANTAGESCOPE)
+    for name in ("AppliedOutputVoltage", "MotorPositionRotations", "MotorVelocityRPM")
+)
+AKIT = tuple(
+    (f"/Shooter/Upper/{name}", ADVANTAGESCOPE)
+    for name in ("FlywheelAppliedVolts", "FlywheelPositionRad", "FlywheelVelocityRadPerSec")
+)
+TAU = 2.0 * np.pi
+
+
+def recorded(mechanism="shooter", seed=3):
+    return simulate(MECHANISMS[mechanism], ROUTINE, rng=np.random.default_rng(seed))
+
+
+def samples(log, columns, *, factors=(1.0, 1.0, 1.0), state="", more=()):
+    """Name, time [µs] and value of every sample, in the order in which a robot logs them.
+
+    Args:
+        log: in SI.
+        columns: name and metadata of voltage, position and velocity.
+        factors: what SI numbers are multiplied by.
+        state: name of the entry that names tests; empty for none.
+        more: name and function of a run that gives its values, for entries beside them.
+    """
+    for run in log.runs:
+        signals = (run.voltage, run.position, run.velocity)
+        rows = [
+            (name, column * factor)
+            for (name, _), column, factor in zip(columns, signals, factors, strict=True)
+        ]
+        rows += [(name, of(run)) for name, of in more]
+        times = (1e6 * run.time).astype(int).tolist()
+        for n, time in enumerate(times):
+            if state:
+                yield state, time, run.test
+            for name, values in rows:
+                yield name, time, float(values[n])
+        if state:
+            yield state, times[-1] + 20_000, "none"
+        yield columns[0][0], times[-1] + 20_000, 0.0
+
+
+def write(path, log, columns, *, changes=False, **told):
+    """A WPILOG file with the runs of a log; ``changes`` logs changes only."""
+    logger = Logger(changes_only=changes)
+    said = dict(columns)
+    for name, time, value in samples(log, columns, **told):
+        if name not in logger.ids:
+            logger.start(name, "string" if isinstance(value, str) else "double", said.get(name, ""))
+        logger.put(name, time, value)
+    return logger.save(path)
+
+
+def same_gains(path, log, **asked):
+    """The gains of a file are those of the log that it was written from."""
+    read = sim.read(path, **asked)
+    found = fit(read, type=log.type).in_units("radians" if UNITS[log.units].angular else "meters")
+    truth = fit(log).in_units("radians" if UNITS[log.units].angular else "meters")
+    for gain, value in truth.gains.items():
+        assert found.gains[gain] == pytest.approx(value, rel=0.02, abs=0.01), gain
+    return read
+
+
+def rotations(log):
+    """Factors from SI to rotations and rotations per second."""
+    assert UNITS[log.units].angular
+    return (1.0, 1.0 / TAU, 1.0 / TAU)
+
+
+def test_phoenix_signals_with_a_state_of_the_teams_own_name(tmp_path):
+    log = recorded()
+    path = write(tmp_path / "a.wpilog", log, PHOENIX, factors=rotations(log),
+                 state="Flywheel-SysId-State")  # fmt: skip
+
+    read = same_gains(path, log)
+
+    assert read.mechanism == "Flywheel"
+    assert read.units == "rotations"
+    (said,) = [doubt.message for doubt in read.doubts if doubt.code == "signals-found"]
+    for name, _ in PHOENIX:
+        assert name in said
+
+
+def test_spark_max_through_urcl_in_rotations_per_minute(tmp_path):
+    log = recorded("intake")
+    path = write(
+        tmp_path / "a.wpilog", log, URCL, factors=(1.0, 1.0 / TAU, 60.0 / TAU),
+        state="sysid-test-state-IntakeRollers", changes=True,
+        more=(
+            ("NT:/URCL/SparkMax-5/AnalogSensor_Position", lambda run: np.zeros(len(run))),
+            ("NT:/URCL/SparkMax-5/AbsoluteEncoder_Velocity", lambda run: np.ones(len(run))),
+        ),
+    )  # fmt: skip
+
+    same_gains(path, log)
+
+
+def test_a_share_of_the_bus_voltage_is_a_voltage(tmp_path):
+    log = recorded()
+    columns = (("NT:/URCL/SparkFlex-9/AppliedOutput", ADVANTAGESCOPE), *[
+        (name.replace("SparkMax-5", "SparkFlex-9"), said) for name, said in URCL[1:]
+    ])  # fmt: skip
+    path = write(
+        tmp_path / "a.wpilog", log, columns, factors=(1.0 / 11.5, 1.0 / TAU, 60.0 / TAU),
+        state="sysid-test-state-Shooter",
+        more=(("NT:/URCL/SparkFlex-9/BusVoltage", lambda run: np.full(len(run), 11.5)),),
+    )  # fmt: skip
+
+    same_gains(path, log)
+
+
+@pytest.mark.parametrize(
+    "name", ["sysid-{way}-{kind}", "2025-03-01 {kind} {way}", "Sysid{Kind}{Way}_retry"]
+)
+def test_advantagekit_with_one_file_for_each_test(tmp_path, name):
+    log = recorded()
+    read = None
+    for run in log.runs:
+        kind, _, way = run.test.partition("-")
+        stem = name.format(kind=kind, way=way, Kind=kind.capitalize(), Way=way.capitalize())
+        path = write(
+            tmp_path / f"{stem}.wpilog", replace(log, runs=(run,)), AKIT,
+            more=(("/Shooter/Upper/FlywheelCurrentAmps", lambda run: np.ones(len(run))),),
+        )  # fmt: skip
+        one = sim.read(path)
+        assert [found.test for found in one.runs] == [run.test]
+        read = one if read is None else read.and_also(one)
+
+    found, truth = fit(read), fit(log)
+    for gain, value in truth.gains.items():
+        assert found.in_units("radians").gains[gain] == pytest.approx(value, rel=0.03, abs=0.01)
+
+
+def test_a_motor_that_only_holds_its_place_is_not_the_mechanisms(tmp_path):
+    log = recorded()
+    turn = tuple((name.replace("Flywheel", "Hood"), said) for name, said in AKIT)
+    path = write(
+        tmp_path / "a.wpilog", log, AKIT, state="SysIdState",
+        more=(
+            (turn[0][0], lambda run: 0.1 * np.sin(9.0 * run.time)),
+            (turn[1][0], lambda run: 0.01 * np.sin(9.0 * run.time)),
+            (turn[2][0], lambda run: 0.09 * np.cos(9.0 * run.time)),
+        ),
+    )  # fmt: skip
+
+    read = same_gains(path, log)
+
+    assert "several-motors" not in [doubt.code for doubt in read.doubts]
+
+
+def test_motors_that_move_together_are_combined_and_can_be_chosen(tmp_path):
+    log = recorded()
+    lower = tuple((name.replace("Upper", "Lower"), said) for name, said in AKIT)
+    path = write(
+        tmp_path / "a.wpilog", log, AKIT, state="SysIdState",
+        more=tuple(
+            (name, lambda run, signal=signal: getattr(run, signal))
+            for (name, _), signal in zip(lower, ("voltage", "position", "velocity"), strict=True)
+        ),
+    )  # fmt: skip
+
+    both, one = same_gains(path, log), same_gains(path, log, motor="Lower/Flywheel")
+
+    assert "several-motors" in [doubt.code for doubt in both.doubts]
+    assert "several-motors" not in [doubt.code for doubt in one.doubts]
+
+
+def test_records_before_their_entry_starts_are_left_out_and_counted(tmp_path):
+    log = recorded()
+    path = write(tmp_path / "a.wpilog", log, PHOENIX, factors=rotations(log),
+                 state="sysid-test-state-Shooter")  # fmt: skip
+    content = path.read_bytes()
+    orphans = b"".join(
+        bytes([0x30]) + bytes([number, 8]) + (5).to_bytes(4, "little") + b"\0" * 8
+        for number in (1, 2, 3)
+    )
+    path.write_bytes(content[:12] + orphans + content[12:])
+
+    read = same_gains(path, log)
+
+    (said,) = [doubt.message for doubt in read.doubts if doubt.code == "orphan-records"]
+    assert "3 records" in said
+    assert not {"damaged", "truncated"} & {doubt.code for doubt in read.doubts}
+
+
+def test_a_log_without_a_voltage_says_what_to_log(tmp_path):
+    log = recorded()
+    columns = [("/Robot/drive/a/speed", ""), ("/Robot/drive/a/position", ""), ("/Robot/x", "")]
+    path = write(tmp_path / "a.wpilog", log, columns, state="SysIdState")
+
+    with pytest.raises(MissingSignal, match="voltage") as refused:
+        sim.read(path)
+
+    assert "AdvantageScope" in str(refused.value)
+
+
+def test_what_a_person_names_is_taken_whatever_else_there_is(tmp_path):
+    log = recorded()
+    log = replace(log, units="radians")
+    path = write(
+        tmp_path / "a.wpilog", log, AKIT, state="Tests",
+        more=(("odd", lambda run: run.position), ("odder", lambda run: run.velocity)),
+    )  # fmt: skip
+
+    read = sim.read(path, units="radians", entries={
+        "voltage": AKIT[0][0], "position": "odd", "velocity": "odder",
+    })  # fmt: skip
+
+    assert "signals-found" not in [doubt.code for doubt in read.doubts]
