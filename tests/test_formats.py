@@ -18,7 +18,7 @@ from sim.data.errors import BadRequest, BadSample, UnreadableFile
 from sim.data.log import TESTS, Log, Run
 from sim.data.units import UNITS
 
-MODULES = {name: import_module(f"sim.io.{name}") for name in io.FORMATS}
+MODULES = {name: import_module(f"sim.io.formats.{name}") for name in io.FORMATS}
 WRITERS = sorted(name for name, module in MODULES.items() if hasattr(module, "write"))
 SAYS_NO_UNITS = {"csv"}  # whoever reads such a file has to say them
 LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
@@ -105,8 +105,8 @@ def test_only_the_format_in_use_is_imported(tmp_path: Path, root: Path) -> None:
     )
 
     loaded = set(done.stdout.decode().split())
-    assert "sim.io.csv" in loaded
-    assert not {f"sim.io.{name}" for name in io.FORMATS if name != "csv"} & loaded
+    assert "sim.io.formats.csv" in loaded
+    assert not {f"sim.io.formats.{name}" for name in io.FORMATS if name != "csv"} & loaded
 
 
 @pytest.mark.parametrize("kind", [str, Path])

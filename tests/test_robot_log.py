@@ -13,8 +13,8 @@ from wpilog_file import FOUR, Logger, Motor, records, routine
 import sim
 from sim.data.log import Log, Run
 from sim.fit import fit
-from sim.io.wpilog.contents import contents_of
-from sim.io.wpilog.records import load_records
+from sim.io.formats.wpilog.contents import contents_of
+from sim.io.formats.wpilog.records import load_records
 
 pytestmark = pytest.mark.robot
 

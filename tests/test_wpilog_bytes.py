@@ -16,9 +16,9 @@ from wpilog_file import (
     start,
 )
 
-from sim.io.wpilog.contents import Contents, contents_of
-from sim.io.wpilog.entry import KINDS, Entry
-from sim.io.wpilog.records import load_records, read_headers
+from sim.io.formats.wpilog.contents import Contents, contents_of
+from sim.io.formats.wpilog.entry import KINDS, Entry
+from sim.io.formats.wpilog.records import load_records, read_headers
 
 TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 

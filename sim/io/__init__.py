@@ -1,8 +1,8 @@
 """The log formats: read any file into a Log, write a Log into a file whose name says the format.
 
-Every package of this folder is a format (the contract is in ``format.py``), found by its place
-here. A file is known by its content first and by its suffix second, and only the module that is
-needed gets imported.
+Every module of ``formats`` is a format (the contract is in ``format.py``), found by its place there.
+A file is known by its content first and by its suffix second, and only the module that is needed
+gets imported.
 """
 
 import os
@@ -21,10 +21,11 @@ from sim.data.errors import BadRequest, Refusal, UnreadableFile
 from sim.data.log import Log
 from sim.data.units import unit
 from sim.data.vocabulary import TYPES
+from sim.io import formats
 from sim.io.format import HEAD, Format, ReadOptions
 from sim.support.atomic_file import atomic_path
 
-FORMATS = tuple(sorted(found.name for found in iter_modules(__path__) if found.ispkg))
+FORMATS = tuple(sorted(found.name for found in iter_modules(formats.__path__)))
 LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the one that was meant
 
 
@@ -182,7 +183,7 @@ def _modules(path: str) -> Iterator[tuple[str, Format]]:
     """Every format by name, first those that share the suffix, so that few are imported."""
     ending = Path(path).suffix.lower().lstrip(".")
     for name in sorted(FORMATS, key=lambda name: not (ending and name.endswith(ending))):
-        yield name, cast("Format", import_module(f"{__name__}.{name}"))
+        yield name, cast("Format", import_module(f"{formats.__name__}.{name}"))
 
 
 def _reader(path: Path, head: bytes) -> Format:

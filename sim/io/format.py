@@ -1,4 +1,4 @@
-"""The contract of a log format: a module in ``sim/io`` that reads a file into a Log.
+"""The contract of a log format: a module in ``sim/io/formats`` that reads a file into a Log.
 
 A module offers
 
@@ -48,7 +48,7 @@ class ReadOptions:
 
 
 class Format(Protocol):
-    """What a module in ``sim/io`` looks like from outside."""
+    """What a module in ``sim/io/formats`` looks like from outside."""
 
     SUFFIXES: tuple[str, ...]
 

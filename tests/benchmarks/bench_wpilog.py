@@ -17,10 +17,10 @@ from time import perf_counter
 import numpy as np
 from wpiutil.log import DataLogReader
 
-from sim.io.wpilog.contents import contents_of
-from sim.io.wpilog.control import Start, start_payload
-from sim.io.wpilog.entry import KINDS, STRING
-from sim.io.wpilog.records import MAGIC, load_records
+from sim.io.formats.wpilog.contents import contents_of
+from sim.io.formats.wpilog.control import Start, start_payload
+from sim.io.formats.wpilog.entry import KINDS, STRING
+from sim.io.formats.wpilog.records import MAGIC, load_records
 
 HEADER = MAGIC + bytes((0, 1, 0, 0, 0, 0))
 START = 20_000_000  # [µs] when a robot has started up

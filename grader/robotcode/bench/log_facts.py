@@ -30,8 +30,8 @@ from sim.data.errors import Refusal
 from sim.data.log import Array, Log, Run
 from sim.data.units import unit
 from sim.io import read
-from sim.io.wpilog.contents import contents_of
-from sim.io.wpilog.records import load_records
+from sim.io.formats.wpilog.contents import contents_of
+from sim.io.formats.wpilog.records import load_records
 
 STATE = "sysid-test-state-"
 NEEDED = {"voltage", "position", "velocity"}

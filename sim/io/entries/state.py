@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from sim.data.doubt import Doubt
 from sim.data.errors import BadRequest, MissingSignal
 from sim.data.log import TESTS
+from sim.io.entries.entry import STRING, Entry
+from sim.io.entries.names import asked_for, quote_names, split_name
 from sim.io.format import ReadOptions
-from sim.io.wpilog.entry import STRING, Entry
-from sim.io.wpilog.names import asked_for, quote_names, split_name
 
 WORD = "sysid-test-state"
 IDLE = ("none", "")  # what stands there while no test runs

@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from typing import NamedTuple
 
 from sim.data.errors import MissingSignal
-from sim.io.wpilog.entry import Entry
+from sim.io.entries.entry import Entry
 
 SHOWN = 4  # [names] in a message
 

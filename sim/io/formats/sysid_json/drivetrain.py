@@ -17,7 +17,7 @@ import numpy as np
 
 from sim.data.doubt import Doubt
 from sim.data.errors import BadRequest, MissingSignal
-from sim.io.sysid_json.side import Side, align_signs, doubt_of, test_sign
+from sim.io.formats.sysid_json.side import Side, align_signs, doubt_of, test_sign
 
 STILL = 0.02  # [share of the other side's largest velocity] an encoder that counts nothing
 APART = 0.2  # [share of the mean velocity, RMS] two sides of one chassis do not differ so much

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from sim.data.doubt import Doubt
 from sim.data.errors import BadRequest
 from sim.data.units import UNITS
+from sim.io.entries.entry import NEEDED, Entry
+from sim.io.entries.names import words_of
 from sim.io.format import ReadOptions
-from sim.io.wpilog.entry import NEEDED, Entry
-from sim.io.wpilog.names import words_of
 
 _WORDS = {  # unit of ours -> what others call it
     "meters": "meter meters metre metres m",

@@ -112,10 +112,21 @@ class CsvTable:
         return [cell.strip() or "nan" for cell in cells] if gaps else cells
 
 
-def first_names(text: str) -> set[str]:
+def csv_rows(path: Path) -> tuple[str, Iterator[tuple[int, list[str]]]]:
+    """What stands between the cells, and line and cells of each row that is not blank.
+
+    Raises:
+        UnreadableFile: not UTF-8, or a quotation mark without its partner.
+    """
+    text = _text(path)
+    delimiter = _delimiter(text)
+    return delimiter, _rows(text, delimiter=delimiter, where=str(path))
+
+
+def first_names(text: str) -> list[str]:
     """The names in the first line that is not blank."""
     first = re.split(r"[\r\n]", text.lstrip(), maxsplit=1)[0]
-    return {cell.strip(' "').lower() for cell in re.split(r"[,;\t]", first)}
+    return [cell.strip(' "').lower() for cell in re.split(r"[,;\t]", first)]
 
 
 def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
@@ -131,11 +142,10 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
         BadRequest: ``entries`` names a signal that is none.
     """
     where = str(path)
-    text = _text(path)
-    delimiter = _delimiter(text)
     header: list[str] = []
     rows: list[tuple[int, list[str]]] = []
-    for line, row in _rows(text, delimiter=delimiter, where=where):
+    delimiter, every = csv_rows(path)
+    for line, row in every:
         if not header:
             header = [cell.strip().lower() for cell in row]
         elif len(row) == len(header):

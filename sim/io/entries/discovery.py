@@ -14,12 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.log import TESTS, Array
+from sim.data.log import TESTS
 from sim.data.vocabulary import DIRECTIONS, KINDS
-from sim.io.wpilog.entry import NEEDED, NUMBERS, Entry
-from sim.io.wpilog.names import words_of
-from sim.io.wpilog.state import RunInterval
-from sim.io.wpilog.units import said_unit, stated_unit
+from sim.io.entries.entry import NEEDED, NUMBERS, Entry, ValuesEntry
+from sim.io.entries.names import words_of
+from sim.io.entries.state import RunInterval
+from sim.io.entries.units import said_unit, stated_unit
 
 ROLES: Mapping[str, frozenset[str]] = {  # signal -> words of which one is in its name
     "bus_voltage": frozenset({"bus", "battery", "supply", "input"}),
@@ -55,21 +55,6 @@ MOVES = 0.3  # [1] correlation of a velocity with the slope of its position, at 
 ZERO = 0.02  # [V] a smaller voltage drives nothing
 PAUSE = 500_000  # [µs] without a voltage that ends a test
 _SAME = {"backward": "reverse", "backwards": "reverse", "forwards": "forward"}
-
-
-@dataclass(frozen=True, eq=False)
-class ComputedEntry(Entry):
-    """An entry whose values are computed from others.
-
-    Args:
-        computed: (n,) the values.
-    """
-
-    computed: Array
-
-    def numbers(self) -> Array:
-        """(n,) the values."""
-        return self.computed
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,10 +173,8 @@ def _with_voltage(signals: Mapping[str, Entry]) -> dict[str, Entry]:
     duty, bus = found.pop("duty_cycle", None), found.get("bus_voltage")
     if duty is not None and bus is not None and "voltage" not in found:
         volts = bus.numbers()[np.maximum(np.searchsorted(bus.time, duty.time, side="right") - 1, 0)]
-        found["voltage"] = ComputedEntry(
-            f"{duty.name} × {bus.name}", duty.type, "Volt", duty.time, duty.payload, duty.size,
-            duty.file, duty.numbers() * volts,
-        )  # fmt: skip
+        name = f"{duty.name} × {bus.name}"
+        found["voltage"] = ValuesEntry(name, duty.type, "Volt", duty.time, duty.numbers() * volts)
     return found
 
 

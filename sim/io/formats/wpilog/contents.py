@@ -11,9 +11,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from sim.io.wpilog.control import Metadata, Start, parse_control_record
-from sim.io.wpilog.entry import SIZES, Entry
-from sim.io.wpilog.records import Fields, File, Numbers, Records, read_headers
+from sim.io.formats.wpilog.control import Metadata, Start, parse_control_record
+from sim.io.formats.wpilog.entry import SIZES, FileEntry
+from sim.io.formats.wpilog.records import Fields, File, Numbers, Records, read_headers
 
 SMALL_IDS = 1 << 16  # ids below fit 16 bits, which NumPy sorts by radix
 LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is hardly larger
@@ -47,7 +47,7 @@ class Contents:
             another one ended.
     """
 
-    entries: tuple[Entry, ...]
+    entries: tuple[FileEntry, ...]
     damage: FileDamage | None
     orphans: int = 0
 
@@ -166,7 +166,7 @@ def _misfits(number: int, group: _Group, lives: Sequence[_Life]) -> Iterator[_St
                 yield _Stop(int(part.index[at]), what)
 
 
-def _joined(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[Entry]:
+def _joined(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[FileEntry]:
     """One entry for all lives of the same name and type, in the order they first appear."""
     named: dict[tuple[str, str], list[_Life]] = {}
     for life in sorted(chain.from_iterable(lives.values()), key=lambda life: life.first):
@@ -180,7 +180,7 @@ def _joined(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator
         if (whole.time[1:] < whole.time[:-1]).any():
             whole = whole.of(np.argsort(whole.time, kind="stable"))
         metadata = next((life.metadata for life in reversed(several) if life.metadata), "")
-        yield Entry(name, kind, metadata, whole.time, whole.payload, whole.size, file)
+        yield FileEntry(name, kind, metadata, whole.time, whole.payload, whole.size, file)
 
 
 def _one_after_another(parts: Sequence[_Group]) -> _Group:

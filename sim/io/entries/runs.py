@@ -11,8 +11,7 @@ from sim.data.doubt import Doubt
 from sim.data.errors import BadRequest
 from sim.data.log import Array, Run
 from sim.data.units import UNITS
-from sim.io.format import ReadOptions, sound_run
-from sim.io.wpilog.clock import (
+from sim.io.entries.clock import (
     Series,
     changes_only,
     covered_times,
@@ -21,11 +20,11 @@ from sim.io.wpilog.clock import (
     interpolate_linear,
     loop_times,
 )
-from sim.io.wpilog.entry import NEEDED, OPTIONAL
-from sim.io.wpilog.motors import MotorEntries
-from sim.io.wpilog.records import Numbers
-from sim.io.wpilog.state import RunInterval
-from sim.io.wpilog.units import EntryScale, scale_of
+from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
+from sim.io.entries.motors import MotorEntries
+from sim.io.entries.state import RunInterval
+from sim.io.entries.units import EntryScale, scale_of
+from sim.io.format import ReadOptions, sound_run
 
 SECOND = 1e6  # [µs]
 ENOUGH = 2  # samples of a run; one alone shows no motion

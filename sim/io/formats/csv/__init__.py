@@ -3,7 +3,8 @@
 The columns may stand in any order; ``run``, ``current`` and ``bus_voltage`` may join them. Without
 ``run``, a new run begins where the test changes or time goes back. Positions and velocities are in
 the unit of whoever owns the file, which the file does not say. What a European spreadsheet makes
-of such a file (``;`` between the cells, decimal commas) reads the same.
+of such a file (``;`` between the cells, decimal commas) reads the same. What DataLogTool and
+AdvantageScope export as CSV is read too (``entries``).
 """
 
 from collections.abc import Iterator
@@ -15,17 +16,20 @@ from numpy.typing import NDArray
 from sim.data.errors import BadRequest, BadSample, UnreadableFile
 from sim.data.log import Array, Log, Run
 from sim.data.units import unit
-from sim.io.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, first_names, open_table
-from sim.io.format import ReadOptions, lone_motor, sound_run
+from sim.io.entries import log_of_entries
+from sim.io.format import HEAD, ReadOptions, lone_motor, sound_run
+from sim.io.formats.csv.entries import is_export, read_entries
+from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, first_names, open_table
 
 SUFFIXES = (".csv",)
 ENOUGH = 3  # [columns of ours in the first line] more than chance puts there
 
 
 def knows(head: bytes) -> bool:
-    """Whether the first line names enough of our columns."""
-    names = first_names(head.decode("utf-8-sig", errors="replace"))
-    return len(names & set(KNOWN)) >= ENOUGH
+    """Whether the first line names enough of our columns, or is that of a log viewer's export."""
+    text = head.decode("utf-8-sig", errors="replace")
+    names = first_names(text)
+    return is_export(names) or len(set(names) & set(KNOWN)) >= ENOUGH
 
 
 def read(path: Path, asked: ReadOptions) -> Log:
@@ -40,6 +44,11 @@ def read(path: Path, asked: ReadOptions) -> Log:
         MissingSignal: a column is missing.
         BadSample: a cell is not a finite number; the message names line and column.
     """
+    with path.open(encoding="utf-8-sig", errors="replace") as stream:
+        exported = is_export(first_names(stream.read(HEAD)))
+    if exported:
+        log, _ = log_of_entries(read_entries(path), asked=asked, where=str(path))
+        return log
     table = open_table(path, entries=asked.entries)
     tests, codes = table.tests()
     signals = {"time": table.numbers("time_s")}

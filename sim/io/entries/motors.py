@@ -11,17 +11,11 @@ from dataclasses import dataclass
 
 from sim.data.doubt import Doubt
 from sim.data.errors import BadRequest, MissingSignal
+from sim.io.entries.discovery import driven_devices, find_devices
+from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry
+from sim.io.entries.names import asked_for, explain_unfit_entry, quote_names, split_name, words_of
+from sim.io.entries.state import WORD, RunInterval, StateEntry
 from sim.io.format import ReadOptions
-from sim.io.wpilog.discovery import driven_devices, find_devices
-from sim.io.wpilog.entry import NEEDED, NUMBERS, OPTIONAL, Entry
-from sim.io.wpilog.names import (
-    asked_for,
-    explain_unfit_entry,
-    quote_names,
-    split_name,
-    words_of,
-)
-from sim.io.wpilog.state import WORD, RunInterval, StateEntry
 
 FLAGS = "--voltage ENTRY --position ENTRY --velocity ENTRY"
 EXPORT = (

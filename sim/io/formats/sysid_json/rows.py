@@ -12,7 +12,7 @@ import numpy as np
 from sim.data.doubt import Doubt
 from sim.data.errors import BadSample, UnreadableFile
 from sim.data.log import LARGEST, Array
-from sim.io.sysid_json.said import StatedUnits
+from sim.io.formats.sysid_json.said import StatedUnits
 
 RUNS = {
     "slow-forward": "quasistatic-forward",

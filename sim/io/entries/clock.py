@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sim.data.log import Array
-from sim.io.wpilog.records import Numbers
+from sim.io.entries.entry import Numbers
 
 FEWER = 2.0  # a signal with so many times fewer samples than another was not logged every loop
 SILENT = 5.0  # [typical gaps] a longer silence is no jitter: the value did not change

@@ -14,7 +14,7 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import MissingSignal
+from sim.data.errors import MissingSignal, Refusal
 from sim.data.units import UNITS
 from sim.fit import fit
 
@@ -77,6 +77,25 @@ def write(path, log, columns, *, changes=False, **told):
             logger.start(name, "string" if isinstance(value, str) else "double", said.get(name, ""))
         logger.put(name, time, value)
     return logger.save(path)
+
+
+def export(path, log, columns, *, layout, **told):
+    """The same as a log viewer exports it, without metadata: a ``table``, or a list with its title."""
+    rows = list(samples(log, columns, **told))
+    names = list(dict.fromkeys(name for name, _, _ in rows))
+    quoted = [(name, time / 1e6, f'"{v}"' if isinstance(v, str) else v) for name, time, v in rows]
+    if layout == "table":
+        lines = ["Timestamp," + ",".join(f'"{name}"' for name in names)]
+        blank = dict.fromkeys(names, "")
+        lines += [
+            f"{time}," + ",".join(str(one) for one in {**blank, name: value}.values())
+            for name, time, value in quoted
+        ]
+    else:
+        lines = [f"Timestamp,{layout},Value"]
+        lines += [f'{time},"{name}",{value}' for name, time, value in quoted]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
 
 
 def same_gains(path, log, **asked):
@@ -235,3 +254,45 @@ def test_what_a_person_names_is_taken_whatever_else_there_is(tmp_path):
     })  # fmt: skip
 
     assert "signals-found" not in [doubt.code for doubt in read.doubts]
+
+
+@pytest.mark.parametrize("layout", ["table", "Name", "Key"])
+def test_a_csv_that_a_log_viewer_exported(tmp_path, layout):
+    log = recorded()
+    path = export(tmp_path / "log.csv", log, AKIT, layout=layout, state="SysIdTestState")
+
+    read = same_gains(path, log)
+
+    assert [run.test for run in read.runs] == [run.test for run in log.runs]
+
+
+@pytest.mark.parametrize("layout", ["table", "Name"])
+def test_sysids_own_entries_in_a_csv_need_no_guess(tmp_path, layout):
+    log = recorded()
+    columns = tuple(
+        (f"{signal}-main-Shooter", "") for signal in ("voltage", "position", "velocity")
+    )
+    path = export(tmp_path / "log.csv", log, columns, layout=layout,
+                  state="sysid-test-state-Shooter")  # fmt: skip
+
+    read = same_gains(path, log, units="radians")
+
+    assert read.mechanism == "Shooter"
+    assert "signals-found" not in [doubt.code for doubt in read.doubts]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("Timestamp,Name,Value\n", "a header without rows"),
+        ("Timestamp,Name,Value\nsoon,a,1\n", "the time is 'soon'"),
+        ("Timestamp,Name,Value\n1.0,a\n", "the row has 2 cells"),
+        ("Timestamp,a,b\n1.0,2.0,\n", "no entry names tests"),
+    ],
+)
+def test_an_export_that_cannot_be_read_says_where(tmp_path, text, said):
+    path = tmp_path / "log.csv"
+    path.write_text(text, encoding="utf-8")
+
+    with pytest.raises(Refusal, match=said):
+        sim.read(path)

@@ -15,10 +15,10 @@ from sim.data.errors import BadRequest
 from sim.data.log import Array, Log
 from sim.data.units import unit
 from sim.io.format import ReadOptions, lone_motor, sound_run
-from sim.io.sysid_json.drivetrain import two_sides
-from sim.io.sysid_json.rows import Form, check_columns, form_of, load_json, tables_of
-from sim.io.sysid_json.said import StatedUnits, said_in
-from sim.io.sysid_json.side import Side, one_side
+from sim.io.formats.sysid_json.drivetrain import two_sides
+from sim.io.formats.sysid_json.rows import Form, check_columns, form_of, load_json, tables_of
+from sim.io.formats.sysid_json.said import StatedUnits, said_in
+from sim.io.formats.sysid_json.side import Side, one_side
 
 SUFFIXES = (".json",)
 _KEY = re.compile(rb'"(slow-forward|slow-backward|fast-forward|fast-backward|track-width|sysid)"')

@@ -1,4 +1,4 @@
-"""An entry of a WPILOG file: a named series of values of one type, decoded when asked for."""
+"""An entry of a WPILOG file, decoded when its values are asked for."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.data.log import Array
-from sim.io.wpilog.records import File, Numbers, view_numbers
+from sim.io.entries.entry import Entry, Numbers
+from sim.io.formats.wpilog.records import File, view_numbers
 
 KINDS: dict[str, type[np.generic]] = {
     "double": np.float64,
@@ -15,35 +16,22 @@ KINDS: dict[str, type[np.generic]] = {
     "boolean": np.bool_,
 }
 SIZES = {kind: np.dtype(dtype).itemsize for kind, dtype in KINDS.items()}  # [bytes] of one value
-NUMBERS = ("double", "float", "int64")  # types a signal may have, the likeliest first
-STRING = "string"
-NEEDED = ("voltage", "position", "velocity")  # the signals of a motor
-OPTIONAL = ("current", "bus_voltage")
 SCATTERED = 4096  # [bytes of the file for each string] where strings are rarer, each is cut out
 
 
 @dataclass(frozen=True, eq=False)
-class Entry:
-    """A named series of values.
+class FileEntry(Entry):
+    """A named series of values in a file.
 
     Args:
-        name, type, metadata: as the file says them.
-        time: (n,) [µs], never decreasing.
         payload: (n,) offset of each value in the file.
         size: (n,) length of each value [bytes].
         file: where they are.
     """
 
-    name: str
-    type: str
-    metadata: str
-    time: Numbers
     payload: Numbers
     size: Numbers
     file: File
-
-    def __len__(self) -> int:
-        return int(self.time.size)
 
     def values(self) -> NDArray[np.generic]:
         """(n,) the values of an entry of a type in ``KINDS``."""

@@ -14,10 +14,10 @@ import numpy as np
 from sim.data.errors import BadRequest
 from sim.data.log import Array, Log, Run
 from sim.data.units import UNITS
-from sim.io.wpilog.control import Start, start_payload
-from sim.io.wpilog.entry import NEEDED, OPTIONAL
-from sim.io.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
-from sim.io.wpilog.state import IDLE, WORD
+from sim.io.entries.entry import NEEDED, OPTIONAL
+from sim.io.entries.state import IDLE, WORD
+from sim.io.formats.wpilog.control import Start, start_payload
+from sim.io.formats.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
 
 SECOND = 1e6  # [µs]
 REST = 1_000_000  # [µs] before a run that has to be moved behind the one before it

@@ -1,0 +1,110 @@
+"""WPILOG: the log a robot writes itself, with the entries SysIdRoutine adds to it.
+
+Bytes become records (``records``), records entries (``contents``), and these a Log
+(``sim/io/entries``).
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from sim.data.doubt import Doubt
+from sim.data.errors import MissingSignal, UnreadableFile
+from sim.data.log import Log
+from sim.io.entries import log_of_entries
+from sim.io.entries.state import FOREVER, RunInterval
+from sim.io.format import ReadOptions
+from sim.io.formats.wpilog.contents import FileDamage, contents_of
+from sim.io.formats.wpilog.records import MAGIC, load_records
+from sim.io.formats.wpilog.writing import write
+
+__all__ = ["SUFFIXES", "knows", "read", "write"]
+
+SUFFIXES = (".wpilog",)
+
+
+def knows(head: bytes) -> bool:
+    """Whether a file that starts like this is a WPILOG file."""
+    return head.startswith(MAGIC)
+
+
+def read(path: Path, asked: ReadOptions) -> Log:
+    """Read the runs of one mechanism from a WPILOG file.
+
+    Args:
+        path: the file.
+        asked: what its reader knows: units, motor, and the names of entries.
+
+    Raises:
+        UnreadableFile: it is foreign, empty, or damaged before the end of the first run.
+        MissingSignal: an entry is missing; the message names it and what there is instead.
+        BadRequest: what was asked for is not in it, or it holds several mechanisms.
+        BadSample: it holds a number that cannot be a measurement.
+    """
+    where = str(path)
+    records = load_records(path)
+    found = contents_of(records)
+    damage = found.damage
+    lost = tuple(_orphaned(found.orphans, where))
+    if not found.entries:
+        raise _unreadable(damage, records.end, where, "there is no record before it")
+    try:
+        with np.errstate(all="ignore"):  # what is not finite is refused where a run is made of it
+            log, spans = log_of_entries(found.entries, asked=asked, where=where)
+    except MissingSignal as missing:
+        if damage is None:
+            raise
+        raise _unreadable(damage, records.end, where, missing.what) from None
+    if damage is None:
+        return log.with_doubts(*lost, *_unfinished(spans[-1], where))
+    if not damage.torn and spans[0].end == FOREVER:
+        raise _unreadable(damage, records.end, where, "no run is whole before it")
+    return log.with_doubts(*lost, _partly(damage, where))
+
+
+def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> UnreadableFile:
+    """The refusal of a file in which too little precedes the place where it stops."""
+    if damage is None:
+        return UnreadableFile(
+            "there are no records in it",
+            where=f"{where}, byte {end}",
+            advice="Run the tests with the robot enabled, and give the log of that.",
+        )
+    how = "the file is cut off" if damage.torn else "the file is damaged"
+    return UnreadableFile(
+        f"{how} ({damage.what}), and {what}",
+        where=f"{where}, byte {damage.offset}",
+        advice="Copy it from the robot again; if it is the same there, record the tests again.",
+    )
+
+
+def _orphaned(count: int, where: str) -> Iterator[Doubt]:
+    """A doubt about records that nothing introduces."""
+    if count:
+        yield Doubt(
+            "orphan-records",
+            f"{where}: {count} records come before the record that starts their entry and were "
+            "left out, as in a file that goes on where another one ended.",
+        )
+
+
+def _partly(damage: FileDamage, where: str) -> Doubt:
+    """The doubt about a file that could only be read up to some place."""
+    what = "the file ends too soon" if damage.torn else "THE FILE IS DAMAGED"
+    return Doubt(
+        "truncated" if damage.torn else "damaged",
+        f"{where}: {what}: {damage.what} at byte {damage.offset}. The {damage.left} bytes from "
+        "there on were left out. Copy the file from the robot again, or check that no run is "
+        "missing.",
+    )
+
+
+def _unfinished(last: RunInterval, where: str) -> Iterator[Doubt]:
+    """A doubt if the last run has no end."""
+    if last.end == FOREVER:
+        yield Doubt(
+            "unfinished-run",
+            f"{where}: the file ends while {last.test} is running, so the end of that run is "
+            "missing. Let each test end before the log is closed.",
+        )
