@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Generic, TypeVar
 
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 
 Subject = TypeVar("Subject")
 

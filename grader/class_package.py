@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.variant import same, student_name
-from sim.data.errors import BadRequest, Refusal
+from sim.core.errors import BadRequest, Refusal
 
 PLACE = Path(".course") / "class.toml"
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from grader.class_package import PLACE as ISSUED
 from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
 from grader.variant import student_name
-from sim.data.errors import BadRequest, Refusal
+from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 
 NOBODY = "me"  # who is learning, until they say otherwise

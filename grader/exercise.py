@@ -35,7 +35,7 @@ from typing import Any
 from grader.check import Check, Result, Status, run_all, skip_check
 from grader.consequence import Consequence
 from grader.submission import find_files, whole_answer
-from sim.data.errors import BadRequest, Refusal
+from sim.core.errors import BadRequest, Refusal
 
 HINTS = ("concept", "pointer", "step")  # from far to near
 

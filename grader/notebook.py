@@ -14,7 +14,7 @@ from grader.exercise import Exercise, Grade, find_exercise
 from grader.report import MARKS, SPOKEN, check_feedback, to_lines, to_receipt
 from grader.submission import read_answers
 from grader.terminal import Line, complain, line
-from sim.data.errors import BadRequest, Refusal
+from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 from sim.support.printable import printable
 

@@ -22,7 +22,7 @@ from pathlib import Path
 
 from grader.exercise import Exercise, exercises
 from grader.fingerprint import PACKAGES
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 TOPS = ("LICENSE", "README.md", "pyproject.toml")
 FOLDERS = ("exercises", "lessons")

@@ -13,7 +13,7 @@ from grader.answer import Asked, Band, Key, judge_number
 from grader.check import Wrong
 from grader.misconception import MISCONCEPTIONS
 from grader.wrong_number import Scene
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.teaching.prediction import Prediction
 
 RIGHT, NOT_YET = "Right.", "Not yet."

@@ -13,7 +13,7 @@ from grader.exec_process import INTERRUPTED, run
 from grader.exercise import exercises
 from grader.report import overview
 from grader.terminal import line, show
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.physics.engine import engine_is_cached, load_engine
 from sim.support.command_line import COULD_NOT, DONE
 

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 from grader.class_package import ClassPackage, read_class_package
 from grader.draw_cache import cache_path, write_draw
 from grader.variant import folder_name
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.work.cache import read_cached
 
 if TYPE_CHECKING:
-    from sim.data.log import Log
+    from sim.core.log import Log
 
 Made = str | bytes | Callable[[Path], None]
 

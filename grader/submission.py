@@ -5,7 +5,7 @@ import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
-from sim.data.errors import UnreadableFile
+from sim.core.errors import UnreadableFile
 
 LARGEST = 1_000_000  # [bytes] robot code and answers are far smaller; a log or a picture is not
 LARGEST_ANSWERS = 64_000  # [bytes] of a file of answers; the longest solved one has 3,000

@@ -48,7 +48,7 @@ from sim.bench.duty_cycle import simulate_duty_cycle
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
-from sim.data.units import unit
+from sim.core.units import unit
 from sim.feedback import allowed_velocity_error, velocity_loop
 from sim.fit import fit
 from sim.fit.sysid_rows import median_filter, prepare_rows

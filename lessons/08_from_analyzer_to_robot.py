@@ -47,7 +47,7 @@ from IPython.display import display
 import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
-from sim.data.units import gains_per
+from sim.core.units import gains_per
 from sim.fit import fit
 from sim.physics.motors import MOTORS
 from sim.plot import Picture, Table, curves, live, measure_tracking_error, tracking_error

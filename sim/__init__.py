@@ -10,9 +10,9 @@ Nothing heavy is imported until it is used, so a command that only prints its he
 from importlib import import_module
 
 _HOME = {
-    "Log": "sim.data.log",
-    "Run": "sim.data.log",
-    "Refusal": "sim.data.errors",
+    "Log": "sim.core.log",
+    "Run": "sim.core.log",
+    "Refusal": "sim.core.errors",
     "read": "sim.io",
     "write": "sim.io",
     "Routine": "sim.bench.routine",

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import sim
-from sim.data.log import Log
+from sim.core.log import Log
 
 HEADER = "test,time_s,voltage,position,velocity"
 PLAIN = f"""{HEADER}

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.log import DIRECTIONS, KINDS, Log, Run
+from sim.core.log import DIRECTIONS, KINDS, Log, Run
 
 PERIOD = 0.02
 BEGIN = {"quasistatic-forward": 1.0, "quasistatic-reverse": 12.0, "dynamic-forward": 23.0}

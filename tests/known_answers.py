@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from sim.data.log import Log, Run
-from sim.data.units import unit
+from sim.core.log import Log, Run
+from sim.core.units import unit
 
 NAMES = (
     "simple-clean-20ms",

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 import sim
-from sim.data.doubt import Doubt
-from sim.data.log import Array, Log
+from sim.core.doubt import Doubt
+from sim.core.log import Array, Log
 
 RUNS = {
     "slow-forward": "quasistatic-forward",

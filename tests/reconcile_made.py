@@ -8,7 +8,7 @@ import numpy as np
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance

@@ -14,7 +14,7 @@ from grader.robotcode import read
 from grader.robotcode.bindings import bindings_of
 from grader.robotcode.facts import Certainty, RoutineFacts
 from grader.robotcode.gain_constants import gains_of
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 
 READERS: dict[str, Callable[[Path], object]] = {
     "routine": read,

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.gap import Place
 from sim.physics.model import Model, Part
 from sim.reconcile.story import Chapter, Finding, ParameterEstimate, Story, Tried

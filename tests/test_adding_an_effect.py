@@ -69,7 +69,7 @@ def copy(root, tmp_path_factory):
     for name in ("conftest.py", "test_effects.py"):
         shutil.copy(root / "tests" / name, folder / "tests" / name)
     shutil.copy(root / "pyproject.toml", folder)
-    (folder / "sim" / "effects" / "churn.py").write_text(GOOD, encoding="utf-8")
+    (folder / "sim" / "physics" / "effects" / "churn.py").write_text(GOOD, encoding="utf-8")
     return folder
 
 
@@ -127,7 +127,7 @@ def test_it_is_a_suspect_and_is_named(copy):
 @pytest.mark.parametrize("name", WRONG)
 def test_a_wrong_one_fails_with_a_sentence_that_says_why(copy, name):
     right, wrong, said = WRONG[name]
-    file = copy / "sim" / "effects" / "churn.py"
+    file = copy / "sim" / "physics" / "effects" / "churn.py"
     assert right in GOOD
     file.write_text(GOOD.replace(right, wrong), encoding="utf-8")
 

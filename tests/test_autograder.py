@@ -20,7 +20,7 @@ from grader.exercise import find_exercise
 from grader.package_files import select_package_files
 from grader.release import common_package
 from grader.variant import class_secret
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 EMAIL = "zoë.o'neil@example.org"
 SECRET = b"0123456789abcdef-east"

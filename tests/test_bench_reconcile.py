@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from sim.bench.mechanisms import MECHANISMS
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 

@@ -18,7 +18,7 @@ from grader.classroom.items import analyze_items, count_misconceptions, summariz
 from grader.classroom.page import class_summary, write_pages
 from grader.classroom.results import Results
 from grader.exercise import Grade
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 NASTY = ("=1+1", 'O\'Neil, "Ann"', "José\u0301", "@SUM(A1)", "<script>alert(1)")
 GRADESCOPE = {  # https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format

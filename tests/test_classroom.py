@@ -18,7 +18,7 @@ from grader.classroom.store import Store
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run
 from grader.exercise import exercises
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 ROOT = Path(__file__).resolve().parents[1]
 BOOM = 'size = "boom"\n'  # the small course's check breaks on it

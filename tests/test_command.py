@@ -3,7 +3,7 @@
 import click
 import pytest
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.command_line import run
 
 

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest
-from sim.data.log import TESTS, Log, Run
+from sim.core.errors import BadRequest
+from sim.core.log import TESTS, Log, Run
 from sim.inspect.contaminate import FaultRequest, contaminate, parse_fault_request
 from sim.inspect.fault import MOST
 from sim.inspect.faults import FAULTS

@@ -14,7 +14,7 @@ from small_course import HALF, RIGHT, answer, lay_out
 from grader.cli import run
 from grader.course import PLACE, Progress, Standing, find_course, load_progress, update_progress
 from grader.variant import folder_name, student_name, student_rng, student_seed
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -7,8 +7,8 @@ import pytest
 from csv_text import HEADER, PLAIN, read_text
 
 import sim
-from sim.data.errors import BadRequest
-from sim.data.log import Log, Run
+from sim.core.errors import BadRequest
+from sim.core.log import Log, Run
 
 SIGNALS = ("time", "voltage", "position", "velocity", "current", "bus_voltage")
 

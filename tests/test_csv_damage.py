@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import sim
-from sim.data.errors import BadSample, MissingSignal, Refusal, UnreadableFile
-from sim.data.log import Log
+from sim.core.errors import BadSample, MissingSignal, Refusal, UnreadableFile
+from sim.core.log import Log
 
 
 def read_or_refusal(path: Path) -> Log | Refusal:

@@ -7,7 +7,7 @@ import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 
 from sim.bench.dataset.folder import Shelf
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 
 @pytest.fixture(autouse=True)

@@ -10,7 +10,7 @@ from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 import sim
 from sim.bench.dataset.secret import Secret
 from sim.bench.mechanisms import MECHANISMS
-from sim.data.units import unit
+from sim.core.units import unit
 
 
 @pytest.fixture(autouse=True)

@@ -5,7 +5,7 @@ from dataset_made import DAMAGED, PLAIN, SECRET, spec, sysid
 
 from sim.bench.dataset.spec import read_spec
 from sim.bench.dataset.table import NumberRange
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 FAULT = '[[logs.faults]]\nname = "loop-overrun"\n'
 EFFECT = '[[logs.effects]]\nname = "stribeck"\n'

@@ -15,8 +15,8 @@ import sim.inspect.detect_faults
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.doubt import Doubt
-from sim.data.log import FOUR_TESTS, TESTS, Log, Run
+from sim.core.doubt import Doubt
+from sim.core.log import FOUR_TESTS, TESTS, Log, Run
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import Inspection, inspect
 from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, rescale_motion

@@ -9,7 +9,7 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.inspect.diagnostics import diagnose_log
 from sim.inspect.log_features import LogFeatures
 

@@ -8,7 +8,7 @@ import pytest
 import sim
 from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.fit import fit
 
 DRIVE = sim.MECHANISMS["drivetrain"]

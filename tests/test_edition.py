@@ -9,7 +9,7 @@ from page_flaws import page_flaws
 from grader.cli import run
 from grader.edition import build
 from grader.edition.rendered import highlight_python
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell
 CELLS = (

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest
-from sim.data.log import KINDS, Log, Run
+from sim.core.errors import BadRequest
+from sim.core.log import KINDS, Log, Run
 from sim.physics.effect import Effect, Parameter
 from sim.physics.effects import EFFECTS, effect
 from sim.physics.engine import State, finest_step, move

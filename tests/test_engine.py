@@ -12,7 +12,7 @@ import pytest
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import power_path_arrays
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.physics.effects import EFFECTS
 from sim.physics.effects.drag import EFFECT as DRAG
 from sim.physics.engine import (

@@ -4,7 +4,7 @@ import pickle
 
 import pytest
 
-from sim.data.errors import BadRequest, BadSample, MissingSignal, NotIdentifiable, UnreadableFile
+from sim.core.errors import BadRequest, BadSample, MissingSignal, NotIdentifiable, UnreadableFile
 
 
 @pytest.mark.parametrize(

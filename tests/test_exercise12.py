@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from grader.exercise import Exercise
-from sim.data.units import unit
+from sim.core.units import unit
 from sim.physics.effects import effect
 
 ROOT = Path(__file__).resolve().parents[1]

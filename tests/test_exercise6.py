@@ -17,7 +17,7 @@ from grader.exercise import Exercise
 from grader.variant import folder_name
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.units import unit
+from sim.core.units import unit
 from sim.fit import fit
 from sim.physics.battery import Battery
 from sim.physics.engine import State, move

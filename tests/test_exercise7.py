@@ -14,7 +14,7 @@ import pytest
 from grader.check import Wrong
 from grader.exercise import Exercise
 from grader.variant import class_secret
-from sim.data.log import FOUR_TESTS, Log, Run
+from sim.core.log import FOUR_TESTS, Log, Run
 from sim.inspect.detect_faults import inspect
 from sim.inspect.fault import Stretch
 from sim.inspect.faults import FAULTS

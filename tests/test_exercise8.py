@@ -15,7 +15,7 @@ from grader.cli import run
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import class_secret
-from sim.data.units import unit
+from sim.core.units import unit
 from sim.fit import fit
 from sim.io import read
 

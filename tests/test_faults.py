@@ -20,8 +20,8 @@ import sim.inspect.faults
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest
-from sim.data.log import Log
+from sim.core.errors import BadRequest
+from sim.core.log import Log
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.inspect.fault import Fault, fault_of

@@ -12,7 +12,7 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.inspect.contaminate import contaminate
 from sim.inspect.diagnostics import diagnose_log
 from sim.inspect.fault import select_samples

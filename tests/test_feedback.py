@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.feedback import PRESETS, position_loop, velocity_loop
 
 ALLOWED = {"velocity_error": 1.5, "volts": 7.0}  # SysId's test settings

@@ -14,8 +14,8 @@ from known_answers import NAMES, known_answer
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest, NotIdentifiable
-from sim.data.log import FOUR_TESTS, Log, Run
+from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.log import FOUR_TESTS, Log, Run
 from sim.fit import fit as any_fit
 
 fit = partial(any_fit, method="sysid")

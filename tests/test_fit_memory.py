@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from sim.bench.simulate import move_gains_only
-from sim.data.log import FOUR_TESTS, Log, Run
-from sim.data.vocabulary import METHODS
+from sim.core.log import FOUR_TESTS, Log, Run
+from sim.core.vocabulary import METHODS
 from sim.fit import fit
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}

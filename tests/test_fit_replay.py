@@ -8,7 +8,7 @@ import pytest
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.fit.replay import replay_fit
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.feedback import Plant
 from sim.feedback.following import follow_profile
 from sim.feedback.profile import STEP, Leg, brisk_profile, join_legs, there_and_back

@@ -7,8 +7,8 @@ import pytest
 
 import sim
 from sim import io
-from sim.data.errors import Refusal, UnreadableFile
-from sim.data.log import Log, Run
+from sim.core.errors import Refusal, UnreadableFile
+from sim.core.log import Log, Run
 
 LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
 

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 import sim
 from sim import io
-from sim.data.errors import BadRequest, BadSample, UnreadableFile
-from sim.data.log import TESTS, Log, Run
-from sim.data.units import UNITS
+from sim.core.errors import BadRequest, BadSample, UnreadableFile
+from sim.core.log import TESTS, Log, Run
+from sim.core.units import UNITS
 
 MODULES = {name: import_module(f"sim.io.formats.{name}") for name in io.FORMATS}
 WRITERS = sorted(name for name, module in MODULES.items() if hasattr(module, "write"))

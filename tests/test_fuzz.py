@@ -19,9 +19,9 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import Refusal
-from sim.data.log import LARGEST, Log, Run
-from sim.data.vocabulary import METHODS, TESTS, TYPES
+from sim.core.errors import Refusal
+from sim.core.log import LARGEST, Log, Run
+from sim.core.vocabulary import METHODS, TESTS, TYPES
 from sim.fit import fit
 
 FEW = 40

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from sim.data.errors import BadRequest
-from sim.data.log import DIRECTIONS
+from sim.core.errors import BadRequest
+from sim.core.log import DIRECTIONS
 from sim.estimation.measurements import SensorNoise
 from sim.gap import Residuals, gap_map
 

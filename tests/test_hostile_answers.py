@@ -9,7 +9,7 @@ from authored import authored_answer
 
 from grader.exercise import exercises
 from grader.submission import read_answers
-from sim.data.errors import UnreadableFile
+from sim.core.errors import UnreadableFile
 
 ROOT = Path(__file__).resolve().parents[1]
 STUDENT = "ann"

@@ -14,7 +14,7 @@ from grader.course import load_progress
 from grader.exercise import exercises
 from grader.notebook import submit
 from grader.variant import folder_name
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
 MAKER = '''

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.fit.information_matrix import information_matrix
 from sim.fit.sysid_rows import Rows
 

@@ -26,7 +26,7 @@ from authored import authored_answer, mistakes_of
 from grader.exercise import exercises
 from grader.serve.student_folders import can_separate, prepare_separation
 from grader.variant import class_secret, folder_name
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,8 +14,8 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import MissingSignal, Refusal
-from sim.data.units import UNITS
+from sim.core.errors import MissingSignal, Refusal
+from sim.core.units import UNITS
 from sim.fit import fit
 
 ROUTINE = Routine(ramp=0.5, step=4.0)
@@ -80,7 +80,7 @@ def write(path, log, columns, *, changes=False, **told):
 
 
 def export(path, log, columns, *, layout, **told):
-    """The same as a log viewer exports it, without metadata: a ``table``, or a list with its title."""
+    """The same as a log viewer exports it, no metadata: a ``table``, or a list with its title."""
     rows = list(samples(log, columns, **told))
     names = list(dict.fromkeys(name for name, _, _ in rows))
     quoted = [(name, time / 1e6, f'"{v}"' if isinstance(v, str) else v) for name, time, v in rows]

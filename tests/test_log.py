@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest, BadSample
-from sim.data.log import Log, Run
-from sim.data.units import UNITS, unit
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest, BadSample
+from sim.core.log import Log, Run
+from sim.core.units import UNITS, unit
 from sim.io.format import sound_run
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.estimation.measurements import THIRD, estimate_noise, measure_runs, third_differences
 
 NOISE = 1e-3  # [m]

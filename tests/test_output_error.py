@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import move_gains_only, simulate
-from sim.data.errors import BadRequest, NotIdentifiable
-from sim.data.log import FOUR_TESTS, Log, Run
+from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.log import FOUR_TESTS, Log, Run
 from sim.fit import fit
 from sim.physics.engine import State, move
 from sim.physics.model import Model, Part

@@ -13,7 +13,7 @@ import pytest
 from grader.cli import run
 from grader.exercise import find_exercise
 from grader.package_files import imported_modules, select_package_files, strip_notebook
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
 NOT_COPIED = shutil.ignore_patterns("data", "__pycache__", ".*")
@@ -70,7 +70,7 @@ def test_packages_of_the_course_folder_go_before_the_installed_ones(course):
     packed = select_package_files(course)
 
     assert installed != packed.files["grader/__init__.py"] == b"# mine\n"
-    assert "sim/data/log.py" in packed.files
+    assert "sim/core/log.py" in packed.files
     assert packed.left_out == ("grader/notes.txt",)
 
 
@@ -296,7 +296,7 @@ def test_other_code_in_the_course_folder_is_said_in_one_line(root, tmp_path):
     copy_course(root, course)
     installed(root, course)
     same = grade_installed(place, course, "4")
-    log = course / "sim" / "log.py"
+    log = course / "sim" / "core" / "log.py"
     log.write_text(log.read_text(encoding="utf-8") + "\n", encoding="utf-8")
     other = grade_installed(place, course, "4")
 

@@ -9,7 +9,7 @@ import pytest
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.fit.physics import Parts, compare_directions, compare_sides, physical_doubts
 from sim.physics.motors import MOTORS, motor

@@ -16,7 +16,7 @@ from matplotlib.image import imread
 
 import sim
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.inspect.fault import Stretch
 from sim.plot import (
     Line,

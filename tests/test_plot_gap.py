@@ -11,7 +11,7 @@ import sim
 from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.physics.model import Model
 from sim.physics.replay import replay
 from sim.plot import gap_bars, plot_voltage_residual, residual_views

@@ -8,7 +8,7 @@ from html_tags import Tags
 
 import sim
 from sim.bench.simulate import simulate
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.fit.information_matrix import information_matrix
 from sim.fit.sysid_rows import prepare_rows
 from sim.plot import ellipses, hold_angles, hold_window, information_map

@@ -9,8 +9,8 @@ from matplotlib import rcParams
 from matplotlib.colors import same_color
 from matplotlib.patches import Rectangle
 
-from sim.data.errors import BadRequest
-from sim.data.log import KINDS, Log, Run
+from sim.core.errors import BadRequest
+from sim.core.log import KINDS, Log, Run
 from sim.inspect.fault import Damage, Stretch
 from sim.plot import Line, time_series, timesteps, velocity_time, voltage_velocity
 from sim.plot.picture import COLORS

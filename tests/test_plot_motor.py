@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from html_tags import Tags
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.plot import budget, gauge, measure_tracking_error, relative_change, tracking_error
 from sim.plot.gauge import band_of
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.plot import r2_vs_gain_error
 
 SCORES = {"clean": 0.99, "a lurch": 0.92, "spikes": 0.81}

@@ -7,8 +7,8 @@ import pytest
 from handmade import FOUR, log_of
 
 import sim
-from sim.data.errors import BadRequest, NotIdentifiable
-from sim.data.log import FOUR_TESTS, Log
+from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.log import FOUR_TESTS, Log
 from sim.fit.sysid_rows import prepare_rows
 from sim.plot import acceleration_velocity, velocity_time
 

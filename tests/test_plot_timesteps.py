@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from handmade import FOUR, log_of, with_gaps
 
-from sim.data.errors import BadRequest
-from sim.data.log import DIRECTIONS, KINDS, Log, Run
+from sim.core.errors import BadRequest
+from sim.core.log import DIRECTIONS, KINDS, Log, Run
 from sim.plot import timesteps
 
 GAPPY = Log((with_gaps(FOUR.runs[0], {50: 0.104, 200: 0.05, 300: 0.029}), FOUR.runs[2]))

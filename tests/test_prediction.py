@@ -2,7 +2,7 @@
 
 import pytest
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.teaching.prediction import Prediction
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from grader import QuickCheck, QuickNumberCheck
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 LESSONS = sorted((Path(__file__).resolve().parents[1] / "lessons").glob("*.py"))
 

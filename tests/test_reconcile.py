@@ -7,7 +7,7 @@ import pytest
 from reconcile_made import bench, logs, session, solved, told
 
 from sim.cli.reconcile import inspect_damage
-from sim.data.units import unit
+from sim.core.units import unit
 from sim.inspect.contaminate import contaminate
 from sim.physics.effects import EFFECTS
 from sim.reconcile.damage import DamagedInterval

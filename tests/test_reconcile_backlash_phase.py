@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from reconcile_made import recorded
 
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from reconcile_made import bench, recorded, session, told
 
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import joint_jacobian

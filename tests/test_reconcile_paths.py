@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from reconcile_made import NOWHERE, recorded
 
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.measurements import SensorNoise
 from sim.estimation.model_structure import ModelStructure

@@ -8,8 +8,8 @@ from reconcile_made import bench, logs, session
 
 import sim
 from sim.cli import sysid
-from sim.data.errors import BadRequest, NotIdentifiable, Refusal
-from sim.data.log import Log
+from sim.core.errors import BadRequest, NotIdentifiable, Refusal
+from sim.core.log import Log
 from sim.reconcile import reconcile
 from sim.reconcile.dropout_intervals import dropout_intervals
 from sim.reconcile.input_checks import check_logs, count_repeated_runs

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
-from sim.data.log import Log
-from sim.data.units import unit
+from sim.core.log import Log
+from sim.core.units import unit
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate

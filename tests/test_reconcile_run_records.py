@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.estimation.run_records import run_records
 
 TIME = np.arange(0.0, 4.0, 0.02)

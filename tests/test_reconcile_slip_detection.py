@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance

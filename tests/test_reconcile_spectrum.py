@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
-from sim.data.log import Log, Run
-from sim.data.units import unit
+from sim.core.log import Log, Run
+from sim.core.units import unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance

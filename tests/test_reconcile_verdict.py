@@ -8,8 +8,8 @@ import pytest
 from reconcile_made import recorded
 from story_made import DRAG, SLIP
 
-from sim.data.log import Log
-from sim.data.units import unit
+from sim.core.log import Log
+from sim.core.units import unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance

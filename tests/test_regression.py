@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from sim.data.errors import NotIdentifiable
-from sim.data.log import FOUR_TESTS
+from sim.core.errors import NotIdentifiable
+from sim.core.log import FOUR_TESTS
 from sim.fit.regression import regress
 from sim.fit.sysid_rows import Rows
 

@@ -13,7 +13,7 @@ from grader.course import find_course
 from grader.exercise import find_exercise
 from grader.release import Package, common_package, find_broken_seals, student_package
 from grader.variant import class_secret
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
 PRIVATE = ("course/solutions/", "course/tests/", ".git", ".ci/", ".course", "__pycache__", "/data/")
@@ -54,7 +54,7 @@ def lay_out(folder, *packages):
 def test_the_common_package_holds_the_course_and_nothing_private(course):
     files = read(common_package(course))
 
-    for name in ("README.md", "pyproject.toml", "grader/__main__.py", "sim/data/log.py"):
+    for name in ("README.md", "pyproject.toml", "grader/__main__.py", "sim/core/log.py"):
         assert f"course/{name}" in files
     assert "course/exercises/exercise4/README.md" in files
     assert any(name.startswith("course/lessons/") for name in files)

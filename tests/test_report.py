@@ -13,8 +13,8 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
 from sim.feedback import PRESETS, Feedback
 from sim.fit import fit
 from sim.fit.feedback_trial import OwnGains, try_feedback_gains

@@ -12,9 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tree_sitter import Language, Parser
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
-from sim.data.units import UNITS
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.core.units import UNITS
 from sim.fit import Fit
 from sim.report.robot_code_snippet import (
     CLASSES,

@@ -11,7 +11,7 @@ import pytest
 from wpilog_file import FOUR, Logger, Motor, records, routine
 
 import sim
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.fit import fit
 from sim.io.formats.wpilog.contents import contents_of
 from sim.io.formats.wpilog.records import load_records

@@ -11,7 +11,7 @@ import pytest
 
 from grader.robotcode import read
 from grader.robotcode.facts import Certainty, ConfigQuantity, DriveCall, LoggedSignal, RoutineFacts
-from sim.data.errors import UnreadableFile
+from sim.core.errors import UnreadableFile
 
 CORPUS = Path(__file__).with_name("robotcode")
 SUFFIXES = {".java", ".py"}

@@ -11,7 +11,7 @@ from robotcode_mutants import CHANGES, SUFFIXES, Mutant, mutant, sources
 from robotcode_readings import READERS, Reading, among_neighbors, faults, flaws
 
 from grader.robotcode.facts import Certainty, ConfigQuantity, ParseProblem, RoutineFacts
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 
 MUTANTS = 300
 FEWER = 5  # mutants of each change at least, so that none is forgotten

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from sim.bench.routine import Routine
-from sim.data.errors import BadRequest
-from sim.data.log import KINDS
+from sim.core.errors import BadRequest
+from sim.core.log import KINDS
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 
 import sim
 from sim.bench.mechanisms import MECHANISMS
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.physics.battery import Battery
 from sim.plot import runway
 from sim.teaching.runway import PERIOD, Floor, drive_test

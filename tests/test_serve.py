@@ -34,7 +34,7 @@ from grader.serve.student_folders import (
     prepare_separation,
     student_folder,
 )
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 PATIENCE = 90_000  # [ms] for two Jupyter servers on a busy machine

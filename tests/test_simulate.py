@@ -12,8 +12,8 @@ from sim.bench.mechanism import Sensor
 from sim.bench.mechanisms import MECHANISMS, mechanism
 from sim.bench.routine import Routine
 from sim.bench.simulate import move_gains_only, simulate
-from sim.data.errors import BadRequest
-from sim.data.log import FOUR_TESTS
+from sim.core.errors import BadRequest
+from sim.core.log import FOUR_TESTS
 from sim.fit import fit
 from sim.physics.battery import Battery
 from sim.physics.motors import MOTORS, motor, theoretical_kv

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.feedback import (
     PRESETS,
     Feedback,

@@ -34,7 +34,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.physics.effects import EFFECTS
 from sim.plot.story import (
     candidate_bars,

@@ -7,7 +7,7 @@ from grader.choice_answer import check_choice, read_choice
 from grader.mistake import exchanged, number, put, scaled
 from grader.student_files import write_student_files
 from grader.variant import class_secret, folder_name, student_seed
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 TYPES = ("Simple", "Arm", "Elevator")
 

@@ -10,7 +10,7 @@ from grader.classroom.submission_names import Identities, SubmissionName, parse_
 from grader.classroom.submissions import find_submissions, stray_files
 from grader.cli import run
 from grader.exercise import exercises
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 CANVAS = """\
 Student,ID,SIS User ID,SIS Login ID,Section

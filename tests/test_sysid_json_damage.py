@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from old_tools import RUNS, document, read_json, sysid
 
 import sim
-from sim.data.errors import BadRequest, BadSample, Refusal, UnreadableFile
-from sim.data.log import Log
+from sim.core.errors import BadRequest, BadSample, Refusal, UnreadableFile
+from sim.core.log import Log
 
 
 def with_row(row: object, *, width: int = 4, test: str = "Simple") -> dict[str, Any]:

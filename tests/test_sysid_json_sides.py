@@ -7,7 +7,7 @@ import pytest
 from old_tools import RUNS, document, motion, only_doubt, read_json, scaled, sysid
 
 import sim
-from sim.data.errors import MissingSignal
+from sim.core.errors import MissingSignal
 
 
 def test_an_angular_drivetrain_is_half_the_difference_of_its_sides(tmp_path: Path) -> None:

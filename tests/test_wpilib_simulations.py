@@ -18,7 +18,7 @@ from sim.bench.mechanism import Mechanism, Sensor
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import power_path_arrays, simulate
-from sim.data.log import KINDS
+from sim.core.log import KINDS
 from sim.physics.battery import Battery
 from sim.physics.engine import State, move
 from sim.physics.motors import MOTORS, Motor

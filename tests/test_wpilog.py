@@ -10,8 +10,8 @@ import pytest
 from wpilog_file import FOUR, LOOP, Logger, Motor, codes, motion, routine, saved, voltage
 
 import sim
-from sim.data.errors import BadRequest
-from sim.data.log import Array
+from sim.core.errors import BadRequest
+from sim.core.log import Array
 
 TURN = 2 * np.pi
 JAVA = ("Volt", "Rotation", "Rotation per Second")

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from wpilog_file import FOUR, HEADER, Logger, Motor, record, routine
 
 import sim
-from sim.data.errors import Refusal, UnreadableFile
-from sim.data.log import Log
+from sim.core.errors import Refusal, UnreadableFile
+from sim.core.log import Log
 
 TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 

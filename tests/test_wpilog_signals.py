@@ -11,7 +11,7 @@ import pytest
 from wpilog_file import FOUR, Logger, Motor, codes, motion, routine, saved
 
 import sim
-from sim.data.errors import BadSample, MissingSignal
+from sim.core.errors import BadSample, MissingSignal
 
 METERS = ("volt", "meter", "meters_per_second")
 

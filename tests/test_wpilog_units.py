@@ -11,8 +11,8 @@ import pytest
 from wpilog_file import Motor, codes, motion, saved
 
 import sim
-from sim.data.errors import BadRequest
-from sim.data.log import Log
+from sim.core.errors import BadRequest
+from sim.core.log import Log
 
 METERS = ("volt", "meter", "meters_per_second")
 

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from wpilog_file import records
 
 import sim
-from sim.data.errors import BadRequest
-from sim.data.log import TESTS, Log, Run
-from sim.data.units import UNITS
+from sim.core.errors import BadRequest
+from sim.core.log import TESTS, Log, Run
+from sim.core.units import UNITS
 
 OPTIONAL = ("current", "bus_voltage")
 

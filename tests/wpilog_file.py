@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from sim.data.log import Log
+from sim.core.log import Log
 
 HEADER = b"WPILOG\x00\x01" + struct.pack("<I", 0)
 LOOP = 20_000  # [µs]

@@ -12,7 +12,7 @@ from grader.student_files import write_student_files
 from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
 from grader.sysid_routine_checks import check_compiles
-from sim.data.errors import UnreadableFile
+from sim.core.errors import UnreadableFile
 
 from .drawn import draw
 from .handed import check_order, feedforward_of

@@ -40,7 +40,7 @@ def draw(student: str) -> Variant:
 
 def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.data.units import gains_per  # noqa: PLC0415 - the same
+    from sim.core.units import gains_per  # noqa: PLC0415 - the same
 
     analysis, pairs = KINDS[kind]
     shown_in, used_in = pairs[int(rng.integers(len(pairs)))]

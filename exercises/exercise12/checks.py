@@ -20,7 +20,7 @@ from .patch import names_of, on_a_bound, parts_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sim.data.log import Log
+    from sim.core.log import Log
     from sim.physics.model import Model, Part
 
 __all__ = [  # what try_it.py uses, too
@@ -55,7 +55,7 @@ class Answers:
     @property
     def parts(self) -> "list[Part]":
         """The effects with their parameters; raises Wrong."""
-        from sim.data.units import unit  # noqa: PLC0415 - numpy only where it is needed
+        from sim.core.units import unit  # noqa: PLC0415 - numpy only where it is needed
 
         return parts_of(self.names, self.given, unit(self.variant.log.units))
 

@@ -8,7 +8,7 @@ from grader.variant import cache_draws, student_rng
 
 if TYPE_CHECKING:
     from sim.bench.mechanism import Mechanism
-    from sim.data.log import Log
+    from sim.core.log import Log
 
 FOUR = ("quasistatic", "dynamic")
 HIDDEN = (

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from sim.data.log import Array, Log
+    from sim.core.log import Array, Log
     from sim.physics.model import Model, Part
 
 MOVING = 0.02  # [share of the top speed] slower, and without a voltage, there is nothing to compare

@@ -9,7 +9,7 @@ from grader.answer import Asked, Band, read_answer_number
 from grader.check import Wrong
 
 if TYPE_CHECKING:
-    from sim.data.units import Unit
+    from sim.core.units import Unit
     from sim.physics.effect import Parameter
     from sim.physics.model import Part
 

@@ -14,8 +14,8 @@ import numpy as np
 from grader.course import find_course, load_progress
 from grader.exercise import find_exercise
 from sim import read
-from sim.data.errors import Refusal
-from sim.data.units import gains_per, unit
+from sim.core.errors import Refusal
+from sim.core.units import gains_per, unit
 from sim.physics.replay import replay
 from sim.reconcile.residual_map import residual_map
 

@@ -32,7 +32,7 @@ from grader.sysid_routine_checks import (
     check_units,
     no_advice,
 )
-from sim.data.errors import UnreadableFile
+from sim.core.errors import UnreadableFile
 
 from .settled import Code, asks, noted, settle
 

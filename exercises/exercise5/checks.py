@@ -11,7 +11,7 @@ from grader.robotcode.bindings import bindings_of
 from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
 from grader.sysid_routine_checks import check_compiles
-from sim.data.errors import UnreadableFile
+from sim.core.errors import UnreadableFile
 
 from .explained import check_comment
 from .four import TESTS, all_of, missing, named, times

@@ -91,7 +91,7 @@ def _built(kind: str, rng: "np.random.Generator") -> "Mechanism":
 
 
 def _machine(kind: str, built: "Mechanism", rng: "np.random.Generator") -> Machine:
-    from sim.data.units import gains_per, unit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.units import gains_per, unit  # noqa: PLC0415 - numpy only where it is needed
 
     per = unit(UNITS.get(kind, "rotations"))
     found = gains_per(built.gains, factor=per.si)

@@ -9,7 +9,7 @@ from grader.variant import cache_draws, student_rng
 if TYPE_CHECKING:
     import numpy as np
 
-    from sim.data.log import Log
+    from sim.core.log import Log
     from sim.inspect.fault import Stretch
 
 LOGS = 12
@@ -96,7 +96,7 @@ def _one(faults: tuple[str, ...], rng: "np.random.Generator") -> Case | None:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.data.errors import Refusal  # noqa: PLC0415 - the same
+    from sim.core.errors import Refusal  # noqa: PLC0415 - the same
     from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
     from sim.inspect.faults import FAULTS  # noqa: PLC0415 - the same
 

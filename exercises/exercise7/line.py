@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from grader.check import Wrong, shorten
 
 if TYPE_CHECKING:
-    from sim.data.log import Log
+    from sim.core.log import Log
 
 CLEAN = "clean"
 ACTIONS = ("rerun", "trim", "filter", "fix-config")

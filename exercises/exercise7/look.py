@@ -17,15 +17,15 @@ import click
 import numpy as np
 
 from sim.bench.dataset.student import folder_name
-from sim.data.errors import Refusal
-from sim.data.units import unit
+from sim.core.errors import Refusal
+from sim.core.units import unit
 from sim.io import read
 from sim.plot.picture import COLORS, INK, Picture, panels
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sim.data.log import Log, Run
+    from sim.core.log import Log, Run
 
 DATA = Path(__file__).resolve().parent / "data"
 TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")

@@ -43,7 +43,7 @@ def blame(gain: str, variant: "Variant", preparation: Preparation) -> Said:
 
 def _error(gain: str, variant: "Variant", preparation: Preparation) -> float:
     """How far a gain is off; infinitely, if there is no fit."""
-    from sim.data.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
 
     try:
         found = fitted(variant.log, preparation).gains[gain]

@@ -37,7 +37,7 @@ def read(path: Path, *, student: str) -> Answers:
     Raises:
         UnreadableFile: the file cannot be read.
     """
-    from sim.data.units import unit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.units import unit  # noqa: PLC0415 - numpy only where it is needed
 
     given = {name.lower(): value for name, value in read_answers(path).items()}
     variant = draw(student)
@@ -122,7 +122,7 @@ def _left(answers: Answers) -> tuple[Left, ...]:
 
 
 def _gain(name: str, answers: Answers) -> None:
-    from sim.data.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
 
     preparation, variant = _preparation(answers), answers.variant
     try:

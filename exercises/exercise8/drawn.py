@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from sim.bench.mechanism import Mechanism
-    from sim.data.log import Array, Log
+    from sim.core.log import Array, Log
     from sim.inspect.log_features import Flags
 
 RAMP, STEP, TIMEOUT, PERIOD = 0.5, 4.0, 8.0, 0.02  # [V/s], [V], [s], [s]
@@ -80,8 +80,8 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.data.errors import Refusal  # noqa: PLC0415 - the same
-    from sim.data.units import gains_per, unit  # noqa: PLC0415 - the same
+    from sim.core.errors import Refusal  # noqa: PLC0415 - the same
+    from sim.core.units import gains_per, unit  # noqa: PLC0415 - the same
     from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
 
     mechanism = MECHANISMS[kind].draw(rng)

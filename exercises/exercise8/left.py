@@ -8,7 +8,7 @@ from .preparation import Preparation
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from sim.data.log import Array, Log, Run
+    from sim.core.log import Array, Log, Run
     from sim.inspect.log_features import Flags
 
 ENOUGH = 0.6  # [share] of a test's valid samples that has to be kept

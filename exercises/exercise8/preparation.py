@@ -9,7 +9,7 @@ from grader.answer import HALF, Asked, Band, read_answer_number
 from grader.check import Wrong
 
 if TYPE_CHECKING:
-    from sim.data.log import Log, Run
+    from sim.core.log import Log, Run
     from sim.fit import Fit
 
 TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
@@ -145,7 +145,7 @@ def points(
     log: "Log", preparation: Preparation, asked: Mapping[str, Asked], *, wider: float = 1.0
 ) -> float:
     """What the fit of a log, so prepared, earns; were the bands this many times as wide."""
-    from sim.data.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed
 
     try:
         gains = fitted(log, preparation).gains

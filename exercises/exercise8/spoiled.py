@@ -8,7 +8,7 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from sim.data.log import Log, Run
+    from sim.core.log import Log, Run
     from sim.inspect.log_features import Flags
 
 PRESSED = (1.0, 2.0)  # [severity] of a hard stop: 0.6 to 1.2 s against it

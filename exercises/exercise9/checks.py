@@ -19,7 +19,7 @@ from .unseen import NAME, RAMP, STEPS, TIMEOUT, USUAL_STEP, judge_function
 
 if TYPE_CHECKING:
     from sim.bench.mechanism import Mechanism
-    from sim.data.log import Log
+    from sim.core.log import Log
     from sim.fit import Fit
 
 FILES = ("answers.toml",)
@@ -68,7 +68,7 @@ def _drawn(student: str, _seed: int) -> Variant:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.data.units import gains_per, unit  # noqa: PLC0415 - the same
+    from sim.core.units import gains_per, unit  # noqa: PLC0415 - the same
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
 
     for attempt in range(MOST_DRAWS):
@@ -130,7 +130,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Answers:
 
 def consequence(answers: Answers) -> Consequence | None:
     """What the learner's gains would do on their mechanism."""
-    from sim.data.units import unit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.units import unit  # noqa: PLC0415 - numpy only where it is needed
 
     of = answers.variant.mechanism
     symbol = unit(of.units).symbol
@@ -209,7 +209,7 @@ def _missed(answers: Answers) -> str:
     """How far the learner's model misses the voltage in the log, beside how far a good one does."""
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
-    from sim.data.units import unit  # noqa: PLC0415 - the same
+    from sim.core.units import unit  # noqa: PLC0415 - the same
 
     try:
         gains = [

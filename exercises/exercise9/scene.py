@@ -8,7 +8,7 @@ from grader.wrong_number import Lookalike, Scene, WrongNumber
 
 if TYPE_CHECKING:
     from sim.bench.mechanism import Mechanism
-    from sim.data.log import Array, Log
+    from sim.core.log import Array, Log
 
 STANDSTILL = 0.02  # [share of the top speed] slower rows say nothing about a gain
 USUAL = 0.02  # [s] between two samples of a robot program, and of the learner's own log
@@ -59,7 +59,7 @@ def scene(
     """
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
-    from sim.data.units import unit  # noqa: PLC0415 - the same
+    from sim.core.units import unit  # noqa: PLC0415 - the same
 
     explained, *_ = np.linalg.lstsq(*columns(log, si=unit(mechanism.units).si), rcond=None)
     looks = {

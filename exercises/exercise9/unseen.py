@@ -18,7 +18,7 @@ from .scene import ASSUMED, USUAL, columns, scene
 
 if TYPE_CHECKING:
     from grader.isolation import Answer, SandboxOutcome
-    from sim.data.log import Array, Log
+    from sim.core.log import Array, Log
 
 NAME, FUNCTION = "fit.py", "fit"
 RAMP, TIMEOUT = 0.5, 10.0  # [V/s], [s]
@@ -98,7 +98,7 @@ def _draw(student: str, number: int, recipe: Recipe) -> Hidden:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.data.units import gains_per, unit  # noqa: PLC0415 - the same
+    from sim.core.units import gains_per, unit  # noqa: PLC0415 - the same
 
     routine = Routine(ramp=RAMP, step=STEPS.get(recipe.kind, USUAL_STEP), timeout=TIMEOUT)
     for attempt in range(MOST_DRAWS):

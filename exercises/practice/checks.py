@@ -16,7 +16,7 @@ from grader.course import find_course
 from grader.exercise import Exercise
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 
 from .measured import ANALYSES, Measured, noted, of_bench, of_robot, team_of
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from grader.answer import Asked, Band, Key, gains_asked, read_answer_number
 from grader.check import NotReached, Wrong, shorten
 from grader.choice_answer import normalize_choice
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -62,7 +62,7 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     Raises:
         NotReached: the log cannot be read or fitted.
     """
-    from sim.data.units import unit  # noqa: PLC0415 - the same
+    from sim.core.units import unit  # noqa: PLC0415 - the same
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
     from sim.io import read  # noqa: PLC0415 - the same
 

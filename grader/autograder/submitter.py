@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from grader.variant import student_name
-from sim.data.errors import BadRequest, Refusal
+from sim.core.errors import BadRequest, Refusal
 
 KEYS = ("email", "name", "sid")
 

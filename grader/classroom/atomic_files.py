@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.report.page_file import write_whole
 from sim.support.atomic_file import make_private_folder
 

@@ -18,7 +18,7 @@ from typing import Any
 import click
 
 from sim.bench.dataset.secret import VARIABLE
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.command_line import INTERRUPTED
 
 ENGINES = ("docker", "podman")

@@ -10,7 +10,7 @@ from grader.classroom.secret import identity_seal
 from grader.classroom.submissions import PROGRESS, Submission
 from grader.course import NOBODY
 from grader.variant import folder_name, same, student_name
-from sim.data.errors import BadRequest, Refusal
+from sim.core.errors import BadRequest, Refusal
 
 
 def check_identities(

@@ -7,7 +7,7 @@ from pathlib import Path
 from grader.classroom.submission_names import Identities
 from sim.bench.dataset.roster import distinct_names
 from sim.bench.dataset.roster_file import read_roster
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 COLUMNS = ("student", "sis login id", "login", "email", "sis user id", "id", "name")
 

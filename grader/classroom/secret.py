@@ -7,7 +7,7 @@ import secrets
 from pathlib import Path
 
 from sim.bench.dataset.secret import FEWEST, SIZE, VARIABLE, Secret, kept_in
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 
 def find_secret(path: Path | None, *, make: bool) -> Secret | None:

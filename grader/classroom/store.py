@@ -9,7 +9,7 @@ from pathlib import Path
 from grader.classroom.grading import Graded
 from grader.classroom.submissions import Submission
 from grader.variant import folder_name
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 
 RESULTS = "results"

@@ -22,7 +22,7 @@ from grader.classroom.submission_names import Identities, SubmissionName, parse_
 from grader.exercise import Exercise
 from grader.submission import LARGEST
 from grader.variant import student_name
-from sim.data.errors import BadRequest, Refusal
+from sim.core.errors import BadRequest, Refusal
 
 MOST_SEEN = 20_000  # [entries] of one student's: a whole robot project with its build has fewer
 MOST_FILES = 40  # for one exercise

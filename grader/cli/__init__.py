@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, cast
 import click
 
 from grader.terminal import complain, show
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support import command_line
 from sim.support.command_line import COULD_NOT, DONE, NOT_RIGHT
 

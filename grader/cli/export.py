@@ -7,7 +7,7 @@ import click
 
 from grader.cli.release import PATH, put, refuse_secret_inside, tell_left_out
 from grader.terminal import complain, line, show
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.command_line import DONE
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from grader.terminal import complain, line, show
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.command_line import DONE, NOT_RIGHT
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from grader.terminal import complain, line, show
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.command_line import COULD_NOT, DONE
 
 PATH = click.Path(path_type=Path)

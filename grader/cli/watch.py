@@ -3,7 +3,7 @@
 import click
 
 from grader.terminal import line, show
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 from sim.support.command_line import COULD_NOT, DONE, complain
 
 

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 COPIED = ("lessons", "exercises", "solutions")
 LONGEST_CELL = 120  # [s] after which a cell counts as hung

@@ -7,7 +7,7 @@ from pathlib import Path
 from grader.classroom.atomic_files import write_private_file
 from grader.edition.executed import execute
 from grader.edition.rendered import LessonPart, split_notebook
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.report.page_file import load_templates
 
 FOLDER = Path(__file__).parent

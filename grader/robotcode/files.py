@@ -5,7 +5,7 @@ from pathlib import Path
 
 from grader.robotcode.ir import Module
 from grader.robotcode.source import language_of, text_of
-from sim.data.errors import UnreadableFile
+from sim.core.errors import UnreadableFile
 
 MOST_FILES = 200  # neighbours looked at; a robot program has about fifty
 MOST_FOLDERS = 500  # folders walked through on the way

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sim.data.errors import UnreadableFile
+from sim.core.errors import UnreadableFile
 
 LARGEST = 1_000_000  # [bytes] a whole robot program is smaller; one class is a fiftieth of it
 LANGUAGES = {".java": "java", ".py": "python"}  # suffix in lower case -> language

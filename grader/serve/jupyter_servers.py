@@ -16,7 +16,7 @@ from pathlib import Path
 from grader.serve.student_folders import assign_account
 from grader.start import QUIET, as_root
 from sim.bench.dataset.secret import VARIABLE
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.work.cache import CACHE
 
 PATIENCE = 60.0  # [s] until a server has to answer; a small laptop takes ten

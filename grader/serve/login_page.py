@@ -17,7 +17,7 @@ from tornado.web import Application, RequestHandler, stream_request_body
 
 from grader.serve.jupyter_servers import JupyterServer, JupyterServers
 from grader.serve.student_folders import code_is_right, find_student
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 
 _PAGES = template.Loader(str(Path(__file__).parent))
 PAGE, QUEUE = _PAGES.load("door.html"), _PAGES.load("queue.html")

@@ -18,7 +18,7 @@ from pathlib import Path
 from grader.course import update_progress
 from grader.variant import folder_name, same
 from sim.bench.dataset.roster_file import read_roster
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.report.page_file import write_whole
 
 CODES = "codes.csv"

@@ -15,8 +15,8 @@ import numpy as np
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.doubt import Doubt
-from sim.data.log import Log
+from sim.core.doubt import Doubt
+from sim.core.log import Log
 from sim.physics.battery import CONTROLLERS, Battery
 
 __all__ = ["Battery", "simulate_duty_cycle"]

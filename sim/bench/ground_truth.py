@@ -7,8 +7,8 @@ from pathlib import Path
 
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
-from sim.data.errors import BadRequest
-from sim.data.units import gains_per, unit
+from sim.core.errors import BadRequest
+from sim.core.units import gains_per, unit
 from sim.inspect.fault import Stretch
 
 

@@ -14,8 +14,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from sim.data.errors import BadRequest
-from sim.data.units import unit
+from sim.core.errors import BadRequest
+from sim.core.units import unit
 from sim.physics.battery import CONTROLLERS, Battery
 from sim.physics.effect import Scale
 from sim.physics.effects import effect as find

@@ -16,8 +16,8 @@ loops from a run of RobotPy's.
 import math
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
-from sim.data.log import DIRECTIONS, KINDS
+from sim.core.errors import BadRequest
+from sim.core.log import DIRECTIONS, KINDS
 
 LOOPS_BEFORE_DRIVE = 2  # loops from the start of the timer to the first voltage
 COAST_AFTER = 1.0  # [s] of drive before the motor is left alone

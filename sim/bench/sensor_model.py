@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sim.bench.mechanism import Sensor
-from sim.data.log import Array
+from sim.core.log import Array
 
 
 class SensorReading(NamedTuple):

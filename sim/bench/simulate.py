@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
 from sim.bench.sensor_model import read_sensor
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
-from sim.data.log import Array, Log, Run
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.core.log import Array, Log, Run
 from sim.physics.engine import State, Track, move
 from sim.physics.engine.one_body import OFF_UNTIL
 from sim.physics.model import Model

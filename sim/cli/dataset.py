@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.options import FILE
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, complain
 
 if TYPE_CHECKING:

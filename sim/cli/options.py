@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.data.units import UNITS
-from sim.data.vocabulary import TYPES
+from sim.core.units import UNITS
+from sim.core.vocabulary import TYPES
 
 if TYPE_CHECKING:
-    from sim.data.log import Log
+    from sim.core.log import Log
 
 FILE = click.Path(path_type=Path)
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from contextlib import AbstractContextManager
 
-    from sim.data.log import Log
+    from sim.core.log import Log
     from sim.reconcile import DamagedInterval, Story
 
 IN_MOMENTS = "voltage-dropout"  # a fault that an inspection tells as one stretch

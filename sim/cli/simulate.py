@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.options import FILE
-from sim.data.errors import BadRequest, Refusal
-from sim.data.vocabulary import KINDS
+from sim.core.errors import BadRequest, Refusal
+from sim.core.vocabulary import KINDS
 from sim.physics.battery import CONTROLLERS, Battery
 
 if TYPE_CHECKING:
     import numpy as np
 
     from sim.bench.mechanism import Mechanism
-    from sim.data.log import Log
+    from sim.core.log import Log
     from sim.inspect.fault import Stretch
 
 

@@ -13,8 +13,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.errors import NotIdentifiable
-from sim.data.log import Array, Log, Run
+from sim.core.errors import NotIdentifiable
+from sim.core.log import Array, Log, Run
 
 SHORTEST = 0.2  # [s] of a while; at least four samples
 SAME = 0.03  # [share of the voltage] a smaller change of it tells nothing

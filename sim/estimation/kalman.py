@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.measurements import SensorNoise
 from sim.physics.engine import NO_TRUST
 from sim.physics.model import Model

@@ -22,7 +22,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.kalman import steady_state_gain
 from sim.estimation.measurements import SensorNoise, estimate_noise
 from sim.estimation.model_structure import ModelStructure

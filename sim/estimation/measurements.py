@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array, Log, Run
+from sim.core.log import Array, Log, Run
 
 HELD = 0.3  # [share of fast samples] that repeat the one before them, from which it is frames
 FAST = 0.3  # [share of a run's top speed] above which a sensor should say something new each time

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.run_nuisance import RunNuisance
 
 VARIES = 0.04  # [of kS] τ, measured on logs of one day: two to six hundredths

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.data.log import Array, Log
+from sim.core.log import Array, Log
 from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs
 from sim.physics.voltage_residual import run_start_times, share_a_clock
 

@@ -11,7 +11,7 @@ The suggestion is a starting point, not a tuned controller.
 import math
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 MASSLESS = 1e-7  # [V·s²/unit] below this kA SysId takes the velocity itself for the input
 

@@ -15,7 +15,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.feedback.regulator import PRESETS, Feedback, Preset
 
 BATTERY = 12.0  # [V] the most a controller can ask for

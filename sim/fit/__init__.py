@@ -9,10 +9,10 @@ SysId 2026.2.2 to the last digit, with its silent failures spoken aloud: what Sy
 answers; what it answers with NaN or with nonsense, this refuses or doubts, and says why.
 """
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
-from sim.data.log import Log
-from sim.data.vocabulary import METHODS, TYPES
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.core.log import Log
+from sim.core.vocabulary import METHODS, TYPES
 from sim.fit.result import Fit
 
 __all__ = ["Fit", "fit"]

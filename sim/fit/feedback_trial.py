@@ -9,8 +9,8 @@ not handed over without a word, nor without others that do.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from sim.data.doubt import Doubt
-from sim.data.units import unit
+from sim.core.doubt import Doubt
+from sim.core.units import unit
 from sim.feedback import (
     PRESETS,
     Feedback,

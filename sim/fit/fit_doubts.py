@@ -1,6 +1,6 @@
 """Warnings about an output-error fit: opposed signs, lags, and a model that does not fit."""
 
-from sim.data.doubt import Doubt
+from sim.core.doubt import Doubt
 from sim.fit.open_loop_fallback import OpenLoopReplay
 
 FAR = 0.1  # [share of the top speed] error from which the gains cannot be right

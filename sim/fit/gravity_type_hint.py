@@ -1,8 +1,8 @@
 """Suggest another mechanism type where gravity explains most of the residual."""
 
-from sim.data.errors import NotIdentifiable
-from sim.data.log import Log
-from sim.data.units import unit
+from sim.core.errors import NotIdentifiable
+from sim.core.log import Log
+from sim.core.units import unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.measurements import measure_runs

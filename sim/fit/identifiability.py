@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from sim.data.errors import NotIdentifiable
-from sim.data.log import Log
+from sim.core.errors import NotIdentifiable
+from sim.core.log import Log
 from sim.estimation.measurements import RunMeasurements
 from sim.fit.open_loop_fallback import OpenLoopReplay
 

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array
-from sim.data.vocabulary import TYPES
+from sim.core.errors import BadRequest
+from sim.core.log import Array
+from sim.core.vocabulary import TYPES
 from sim.fit.sysid_rows import Rows
 
 NOTHING = 1e-12  # share of the best known combination; below it, the digits are rounding errors

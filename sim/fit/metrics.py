@@ -15,7 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.fit.sysid_rows import Rows
 
 

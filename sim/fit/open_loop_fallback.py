@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, parameter_covariance
 from sim.fit.search import OPEN_LOOP, TRACKING

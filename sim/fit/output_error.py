@@ -9,10 +9,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest, NotIdentifiable
-from sim.data.log import Array, Log, Run
-from sim.data.units import unit
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.log import Array, Log, Run
+from sim.core.units import unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import RunMeasurements, measure_runs

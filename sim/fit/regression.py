@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.errors import NotIdentifiable
-from sim.data.log import FOUR_TESTS, Array
+from sim.core.errors import NotIdentifiable
+from sim.core.log import FOUR_TESTS, Array
 from sim.fit.sysid_rows import Rows
 
 WEAKEST = 1e-11  # smallest eigenvalue of the scaled normal equations that still carries digits

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array, Log, Run
-from sim.data.units import unit
+from sim.core.errors import BadRequest
+from sim.core.log import Array, Log, Run
+from sim.core.units import unit
 from sim.estimation.measurements import ROBUST, THIRD, RunMeasurements, estimate_noise, measure_runs
 from sim.fit import Fit
 from sim.physics.engine import State, Track, move

@@ -4,9 +4,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
-from sim.data.units import Unit, gains_per, unit
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.core.units import Unit, gains_per, unit
 from sim.feedback import (
     PRESETS,
     Feedback,

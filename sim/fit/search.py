@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.log import Array, Log
+from sim.core.log import Array, Log
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST, RunMeasurements
 from sim.estimation.model_structure import ModelStructure

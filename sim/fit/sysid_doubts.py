@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
+from sim.core.doubt import Doubt
+from sim.core.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
 from sim.fit.metrics import SimulationScore
 from sim.fit.regression import Regression
 from sim.fit.sysid_rows import NEAR_TOP, Prepared

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.errors import BadRequest, NotIdentifiable
-from sim.data.log import FOUR_TESTS, Array, Log, Run
+from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.log import FOUR_TESTS, Array, Log, Run
 
 NOISE_WINDOW = 9  # [samples] SysId's noise floor looks at a moving mean this long
 LONGEST_GAP = 0.5  # [s] a longer step between samples does not count toward the mean period

@@ -1,8 +1,8 @@
 """WPILib SysId's recipe from end to end (method ``sysid``)."""
 
-from sim.data.errors import BadRequest
-from sim.data.log import DIRECTIONS, FOUR_TESTS, Log
-from sim.data.units import unit
+from sim.core.errors import BadRequest
+from sim.core.log import DIRECTIONS, FOUR_TESTS, Log
+from sim.core.units import unit
 from sim.fit.metrics import score_simulated_velocity
 from sim.fit.regression import regress
 from sim.fit.result import Fit

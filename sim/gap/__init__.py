@@ -11,7 +11,7 @@ noises, so a shooter and an arm read alike.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.estimation.measurements import SensorNoise
 from sim.gap.binned_residuals import BinnedResiduals
 from sim.gap.bins import ResidualBins

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.gap.place import SIGNALS, Place
 
 FEWEST = 4  # samples of which a cell's mean says anything

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.measurements import SensorNoise
 from sim.gap.binned_residuals import FEWEST, BinnedResiduals, SampleTable
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS

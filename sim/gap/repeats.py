@@ -12,7 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.gap.residuals import Residuals
 
 SAME = 0.05  # [share of the largest voltage] RMS by which a repetition's voltage may differ

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array
+from sim.core.log import Array
 
 JUMP = 0.2  # [share of the largest voltage] a change of it, from one sample to the next, is a step
 QUIET = 0.25  # [share of that jump] that the voltage may change before and after a step

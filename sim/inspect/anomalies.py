@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.data.log import Array, Run
+from sim.core.log import Array, Run
 from sim.inspect.baseline_model import BaselineModel
 
 WITHIN = 0.1  # [V] a linear model of a real mechanism strays this far anyway,

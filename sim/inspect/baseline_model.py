@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array, Run
+from sim.core.log import Array, Run
 
 WINDOW = 0.1  # [s] a row of the balance; at least three samples
 ROWS = 150  # per run: more tell no more

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.errors import BadRequest
-from sim.data.log import Log, Run
-from sim.data.vocabulary import TESTS
+from sim.core.errors import BadRequest
+from sim.core.log import Log, Run
+from sim.core.vocabulary import TESTS
 from sim.inspect.fault import MOST, Fault, Spoilt, Strike
 from sim.inspect.faults import fault as find
 

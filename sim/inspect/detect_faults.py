@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.log import Log
+from sim.core.doubt import Doubt
+from sim.core.log import Log
 from sim.inspect.diagnostics import diagnose_log
 from sim.inspect.fault import Damage, Fault
 from sim.inspect.faults import FAULTS

@@ -12,9 +12,9 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array, Log, Run
-from sim.data.vocabulary import KINDS, TYPES
+from sim.core.errors import BadRequest
+from sim.core.log import Array, Log, Run
+from sim.core.vocabulary import KINDS, TYPES
 from sim.inspect.log_features import LogFeatures
 
 ABOUT = ("motion", "time")  # what a fault can make odd

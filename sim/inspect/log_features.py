@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array, Log, Run
+from sim.core.log import Array, Log, Run
 from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
 

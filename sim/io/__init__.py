@@ -1,6 +1,6 @@
 """The log formats: read any file into a Log, write a Log into a file whose name says the format.
 
-Every module of ``formats`` is a format (the contract is in ``format.py``), found by its place there.
+Every module of ``formats`` is a format (the contract is in ``format.py``), found by its place.
 A file is known by its content first and by its suffix second, and only the module that is needed
 gets imported.
 """
@@ -16,11 +16,11 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import NamedTuple, Protocol, cast
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest, Refusal, UnreadableFile
-from sim.data.log import Log
-from sim.data.units import unit
-from sim.data.vocabulary import TYPES
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest, Refusal, UnreadableFile
+from sim.core.log import Log
+from sim.core.units import unit
+from sim.core.vocabulary import TYPES
 from sim.io import formats
 from sim.io.format import HEAD, Format, ReadOptions
 from sim.support.atomic_file import atomic_path

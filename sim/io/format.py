@@ -17,9 +17,9 @@ from typing import Protocol
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadSample
-from sim.data.log import LARGEST, Array, Log, Run
+from sim.core.doubt import Doubt
+from sim.core.errors import BadSample
+from sim.core.log import LARGEST, Array, Log, Run
 
 HEAD = 4096  # [bytes] how much of a file `knows` is shown
 
@@ -78,7 +78,7 @@ def sound_run(
     """Make a Run of raw columns: refuse what is no measurement, drop repeated times, go to SI.
 
     Args:
-        test: one of ``sim.data.log.TESTS``.
+        test: one of ``sim.core.log.TESTS``.
         signals: ``time``, ``voltage``, ``position``, ``velocity``, and optionally ``current`` and
             ``bus_voltage``; each (n,), position and velocity in the file's unit.
         si: meters or radians in one of the file's unit.

@@ -7,7 +7,7 @@ draws from it.
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 FLATTEST, FULLEST = 9.0, 14.0  # [V] at rest: outside of this a robot does not start a test
 WORST = 0.1  # [Ω] of a battery that still turns a motor

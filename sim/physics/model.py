@@ -8,9 +8,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from sim.data.errors import BadRequest
-from sim.data.log import TYPES
-from sim.data.units import Unit
+from sim.core.errors import BadRequest
+from sim.core.log import TYPES
+from sim.core.units import Unit
 from sim.physics.effects import effect as find
 
 

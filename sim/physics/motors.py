@@ -9,7 +9,7 @@ Source: WPILib 2026.2.2, ``DCMotor``.
 import math
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 NOMINAL = 12.0  # [V] the voltage the data sheets are for
 

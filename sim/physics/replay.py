@@ -1,6 +1,6 @@
 """Simulate a model under a log's recorded voltage, from each run's start."""
 
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import ORDER, State, Track, move
 from sim.physics.model import Model

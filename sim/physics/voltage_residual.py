@@ -15,8 +15,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array, Log, Run
-from sim.data.units import unit
+from sim.core.log import Array, Log, Run
+from sim.core.units import unit
 
 ACROSS = 0.04  # [s] that a difference of velocities spans, at least two samples
 ENDLESS = 8.0 * np.pi  # [rad] four turns: more than any arm or turret, soon done by a wheel

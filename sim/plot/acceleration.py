@@ -7,9 +7,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from sim.data.errors import BadRequest
-from sim.data.log import FOUR_TESTS, Array, Log
-from sim.data.units import Unit, unit
+from sim.core.errors import BadRequest
+from sim.core.log import FOUR_TESTS, Array, Log
+from sim.core.units import Unit, unit
 from sim.fit.sysid_rows import Rows, prepare_rows
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels

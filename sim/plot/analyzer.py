@@ -9,8 +9,8 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.data.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
-from sim.data.units import Unit, unit
+from sim.core.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
+from sim.core.units import Unit, unit
 from sim.fit.sysid_rows import Rows, prepare_rows
 from sim.plot.decimate import decimate_cloud, decimate_curve
 from sim.plot.picture import COLORS, INK, LINES, REFERENCE, Picture, legend, panels

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array
+from sim.core.errors import BadRequest
+from sim.core.log import Array
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, to_text
 

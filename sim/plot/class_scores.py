@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.plot.picture import COLORS, INK, Picture, panels
 from sim.plot.table import Table
 

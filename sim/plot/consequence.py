@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.feedback.following import FollowedProfile
 from sim.plot.decimate import decimate_curve
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels

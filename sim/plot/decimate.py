@@ -7,7 +7,7 @@ and seconds, and show nothing more.
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array
+from sim.core.log import Array
 
 FINEST = 512  # cells across a panel: about its pixels
 COARSER = 0.8  # from one grid to the next, so that little more goes than has to

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array
+from sim.core.errors import BadRequest
+from sim.core.log import Array
 from sim.fit.sysid_rows import Rows
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels

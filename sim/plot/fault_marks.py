@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Rectangle
 
-from sim.data.errors import BadRequest
-from sim.data.log import DIRECTIONS, Array, Log, Run
+from sim.core.errors import BadRequest
+from sim.core.log import DIRECTIONS, Array, Log, Run
 from sim.inspect.fault import Damage, Stretch
 from sim.plot.picture import COLORS, INK, LINES, PAPER
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from sim.data.errors import BadRequest
-from sim.data.units import Unit
+from sim.core.errors import BadRequest
+from sim.core.units import Unit
 from sim.fit.feedback_trial import FeedbackTrial
 from sim.fit.replay import RunReplay
 from sim.plot.measured_vs_simulated import EVERY, describe_run, draw_all_runs, error_table

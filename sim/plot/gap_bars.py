@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, to_text
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 from sim.plot.picture import Picture
 
 

@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from sim.data.log import Array
-from sim.data.units import Unit
+from sim.core.log import Array
+from sim.core.units import Unit
 from sim.fit.replay import RunReplay
 from sim.plot.decimate import decimate_curve
 from sim.plot.picture import COLORS, INK, PAPER, Picture

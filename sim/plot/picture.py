@@ -14,7 +14,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.plot.table import Table
 from sim.support.atomic_file import atomic_path
 

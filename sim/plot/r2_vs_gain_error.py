@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.plot.picture import COLORS, INK, MARKERS, PAPER, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.plot.picture import COLORS, INK, MARKERS, PAPER, REFERENCE, Picture, panels
 from sim.plot.table import Table, to_text
 

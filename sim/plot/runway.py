@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
 from sim.plot.table import Table
 from sim.teaching.runway import FloorTest

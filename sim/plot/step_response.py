@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from sim.data.errors import BadRequest
-from sim.data.units import Unit
+from sim.core.errors import BadRequest
+from sim.core.units import Unit
 from sim.fit.feedback_trial import FeedbackTrial, format_gain_pair
 from sim.plot.decimate import decimate_curve
 from sim.plot.measured_vs_simulated import plain_axes, shared_legend

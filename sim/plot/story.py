@@ -1,6 +1,6 @@
 """A reconcile story in pictures and a table."""
 
-from sim.data.units import unit
+from sim.core.units import unit
 from sim.plot.story_bars import candidate_bars, gap_by_round
 from sim.plot.story_gap import residual_maps
 from sim.plot.story_runs import plot_overlays

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.data.errors import BadRequest
-from sim.data.units import unit
+from sim.core.errors import BadRequest
+from sim.core.units import unit
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
 from sim.plot.table import Table, to_text
 from sim.reconcile.story import Story, Tried

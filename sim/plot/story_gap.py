@@ -10,9 +10,9 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array
-from sim.data.units import Unit, unit
+from sim.core.errors import BadRequest
+from sim.core.log import Array
+from sim.core.units import Unit, unit
 from sim.gap import BinnedResiduals, GapMap
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS, format_noises
 from sim.plot.picture import INK, PAPER, Picture

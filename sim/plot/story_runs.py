@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array, Run
-from sim.data.units import Unit, unit
+from sim.core.errors import BadRequest
+from sim.core.log import Array, Run
+from sim.core.units import Unit, unit
 from sim.plot.decimate import decimate_curve
 from sim.plot.measured_vs_simulated import BAND, plain_axes, shared_legend
 from sim.plot.picture import COLORS, INK, PAPER, Picture

@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from sim.data.errors import BadRequest
-from sim.data.log import DIRECTIONS, KINDS, Array, Log, Run
+from sim.core.errors import BadRequest
+from sim.core.log import DIRECTIONS, KINDS, Array, Log, Run
 from sim.inspect.log_features import LogFeatures
 from sim.plot.decimate import decimate_cloud, decimate_curve
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels

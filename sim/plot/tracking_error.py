@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array
+from sim.core.errors import BadRequest
+from sim.core.log import Array
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, to_text
 

@@ -16,9 +16,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array, Log, Run
-from sim.data.units import unit
+from sim.core.errors import BadRequest
+from sim.core.log import Array, Log, Run
+from sim.core.units import unit
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, to_text
 

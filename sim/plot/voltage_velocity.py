@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
-from sim.data.errors import BadRequest
-from sim.data.log import DIRECTIONS, Array, Log, Run
-from sim.data.units import Unit, unit
+from sim.core.errors import BadRequest
+from sim.core.log import DIRECTIONS, Array, Log, Run
+from sim.core.units import Unit, unit
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, panels
 from sim.plot.table import Table

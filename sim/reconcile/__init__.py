@@ -14,9 +14,9 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from sim.data.errors import NotIdentifiable
-from sim.data.log import Log
-from sim.data.units import unit
+from sim.core.errors import NotIdentifiable
+from sim.core.log import Log
+from sim.core.units import unit
 from sim.estimation.initial_guess import clamp_to_physical, first_guess
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure

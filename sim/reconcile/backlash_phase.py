@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 
 PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # [1] of half the play

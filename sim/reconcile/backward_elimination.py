@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import compute_voltage_residual

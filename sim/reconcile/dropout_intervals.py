@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array, Run
+from sim.core.log import Array, Run
 
 USUAL = 0.22  # [s] of voltages whose median is what a sample ought to read
 FALLEN = 0.75  # [share of that median] below which it has dropped

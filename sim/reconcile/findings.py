@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from sim.data.units import Unit
+from sim.core.units import Unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import append_prior_rows
 from sim.physics.effect import ONSET

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import ENOUGH
 from sim.physics.effects import EFFECTS

@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Log
-from sim.data.units import unit
+from sim.core.log import Log
+from sim.core.units import unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.errors import BadRequest, NotIdentifiable
-from sim.data.log import Log, Run
-from sim.data.units import unit
+from sim.core.errors import BadRequest, NotIdentifiable
+from sim.core.log import Log, Run
+from sim.core.units import unit
 from sim.estimation.initial_guess import first_guess
 from sim.estimation.model_structure import ModelStructure
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual

@@ -14,7 +14,7 @@ from itertools import pairwise, product
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import JointJacobian
 from sim.estimation.run_nuisance import RunNuisance

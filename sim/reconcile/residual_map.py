@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array, Log, Run
+from sim.core.log import Array, Log, Run
 from sim.estimation.measurements import RunMeasurements, estimate_noise, measure_runs
 from sim.gap import GapMap, Residuals, gap_map
 

@@ -7,7 +7,7 @@ from typing import Any
 from numpy import bool_
 from numpy.typing import NDArray
 
-from sim.data.log import Array, Log
+from sim.core.log import Array, Log
 from sim.gap.place import Place
 from sim.physics.model import Model
 

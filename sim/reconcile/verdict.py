@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from sim.data.units import Unit
+from sim.core.units import Unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
 from sim.reconcile.cross_validation import missed_motion

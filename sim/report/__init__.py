@@ -13,10 +13,10 @@ from functools import cached_property
 
 from markupsafe import Markup
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
-from sim.data.log import Log
-from sim.data.units import Unit, unit
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.core.log import Log
+from sim.core.units import Unit, unit
 from sim.feedback import Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import FeedbackTrial

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.table import Table
 
-from sim.data.units import unit
+from sim.core.units import unit
 from sim.feedback import Preset
 from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
 from sim.fit.result import Fit, gain_unit

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
 from sim.support.printable import printable
 

@@ -12,8 +12,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
-from sim.data.units import Unit, unit
+from sim.core.errors import BadRequest
+from sim.core.units import Unit, unit
 from sim.feedback import PRESETS
 from sim.fit import Fit
 

@@ -4,8 +4,8 @@ import math
 import re
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
-from sim.data.units import unit
+from sim.core.errors import BadRequest
+from sim.core.units import unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import SUGGESTED, FeedbackTrial, delay_of, try_feedback_gains

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from sim.data.errors import BadRequest
-from sim.data.units import unit
+from sim.core.errors import BadRequest
+from sim.core.units import unit
 from sim.plot.picture import Picture
 from sim.plot.story import (
     candidate_bars,

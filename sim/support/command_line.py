@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import click
 
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 from sim.support.printable import printable
 
 DONE, NOT_RIGHT, COULD_NOT = 0, 1, 2

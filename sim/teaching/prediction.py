@@ -2,7 +2,7 @@
 
 from html import escape
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 
 class Prediction:

@@ -16,8 +16,8 @@ import numpy as np
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.bench.simulate import power_path_arrays
-from sim.data.errors import BadRequest
-from sim.data.log import Array
+from sim.core.errors import BadRequest
+from sim.core.log import Array
 from sim.physics.engine import State, move
 
 PERIOD = 0.02  # [s] of the robot program's loop

@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING, Any
 
 from grader.course import find_course
 from grader.exercise import find_exercise
-from sim.data.units import unit
+from sim.core.units import unit
 from sim.io import read
 
 if TYPE_CHECKING:
-    from sim.data.log import Log
+    from sim.core.log import Log
     from sim.physics.model import Model
 
 SUSPECTS = (

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.inspect.detect_faults import inspect
 from sim.inspect.faults import FAULTS
 from sim.io import read

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from sim.data.log import Log, Run
-from sim.data.units import unit
+from sim.core.log import Log, Run
+from sim.core.units import unit
 from sim.io import read
 
 STANDS = 0.02  # [share of the way] by which a position may move, and still stand

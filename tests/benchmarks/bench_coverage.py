@@ -20,7 +20,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import NotIdentifiable
+from sim.core.errors import NotIdentifiable
 from sim.fit import Fit, fit
 
 ROUTINE = Routine(ramp=0.5, step=3.5)

@@ -13,8 +13,8 @@ import numpy as np
 from timing import HEADER, line, peak, seconds
 
 from sim.bench.simulate import move_gains_only
-from sim.data.log import FOUR_TESTS, Log, Run
-from sim.data.vocabulary import METHODS
+from sim.core.log import FOUR_TESTS, Log, Run
+from sim.core.vocabulary import METHODS
 from sim.fit import fit
 from sim.fit.metrics import score_simulated_velocity
 from sim.fit.regression import regress

@@ -16,8 +16,8 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import NotIdentifiable
-from sim.data.log import Log
+from sim.core.errors import NotIdentifiable
+from sim.core.log import Log
 from sim.fit import fit
 
 ROUTINE = Routine(ramp=0.5, step=3.5)

@@ -20,8 +20,8 @@ from pathlib import Path
 import numpy as np
 
 import sim
-from sim.data.errors import Refusal
-from sim.data.log import Log, Run
+from sim.core.errors import Refusal
+from sim.core.log import Log, Run
 from sim.fit import fit
 from sim.fit.regression import regress
 from sim.fit.sysid_rows import prepare_rows

@@ -27,7 +27,7 @@ from grader.serve.student_folders import (
     prepare_separation,
     student_folder,
 )
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 PAUSE = 2.0  # [s] between two looks, as the page of the queue says
 

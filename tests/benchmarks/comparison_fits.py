@@ -10,8 +10,8 @@ from comparison_plan import Row
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.errors import NotIdentifiable
-from sim.data.log import FOUR_TESTS, Log
+from sim.core.errors import NotIdentifiable
+from sim.core.log import FOUR_TESTS, Log
 from sim.fit import fit
 
 RECIPE, OURS = "sysid", "output-error"

@@ -13,7 +13,7 @@ import numpy as np
 from sim.bench.mechanism import Sensor
 from sim.bench.sensor_model import read_sensor
 from sim.bench.simulate import move_gains_only
-from sim.data.log import FOUR_TESTS, Log, Run
+from sim.core.log import FOUR_TESTS, Log, Run
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}  # [V, V·s/m, V·s²/m] a drivetrain: kA/kV is 150 ms
 LENGTH = 10.0  # [s] of a test

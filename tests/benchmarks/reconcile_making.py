@@ -21,8 +21,8 @@ from reconcile_recording import (
 )
 from reconcile_sizes import hide
 
-from sim.data.log import Log
-from sim.data.units import unit
+from sim.core.log import Log
+from sim.core.units import unit
 from sim.inspect.contaminate import contaminate
 from sim.io import write
 

@@ -25,8 +25,8 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.bench.sensor_model import read_sensor
 from sim.bench.simulate import PAUSE, _begin, _end, _loops
-from sim.data.log import Array, Run
-from sim.data.units import unit
+from sim.core.log import Array, Run
+from sim.core.units import unit
 from sim.physics.effect import ASKS
 from sim.physics.effects import effect as find
 from sim.physics.engine.model_arrays import COARSEST

@@ -16,7 +16,7 @@ from reconcile_strangers import SHAKES
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import COAST_AFTER, LEVEL_LASTS, LEVELS, TRIANGLE_RISES, Routine
 from sim.bench.simulate import simulate
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.physics.effect import Scale
 from sim.physics.effects import effect as find
 from sim.physics.effects.inertia_change import LATER

@@ -12,7 +12,7 @@ from grader.check import Status
 from grader.course import find_course
 from grader.exercise import Exercise, Grade
 from mutation.mutant import Mutant
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 
 ROOT = find_course(Path(__file__).resolve().parent)
 BASES = Path(__file__).parent / "bases"

@@ -13,7 +13,7 @@ from pkgutil import iter_modules
 
 from grader.classroom.results import Results
 from grader.classroom.roster import Members
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 
 @dataclass(frozen=True)

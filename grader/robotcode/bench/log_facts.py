@@ -26,9 +26,9 @@ from grader.robotcode.bench.run_facts import (
 from grader.robotcode.bench.run_routine_child import LONGEST
 from grader.robotcode.bench.sandboxed_run import LARGEST
 from grader.robotcode.bench.season import explain_other_season
-from sim.data.errors import Refusal
-from sim.data.log import Array, Log, Run
-from sim.data.units import unit
+from sim.core.errors import Refusal
+from sim.core.log import Array, Log, Run
+from sim.core.units import unit
 from sim.io import read
 from sim.io.formats.wpilog.contents import contents_of
 from sim.io.formats.wpilog.records import load_records

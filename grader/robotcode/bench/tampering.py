@@ -17,7 +17,7 @@ from pathlib import Path
 
 from grader.robotcode.bench.sandbox_files import program_files
 from grader.robotcode.bench.sandboxed_run import PACKAGES
-from sim.data.errors import UnreadableFile
+from sim.core.errors import UnreadableFile
 
 
 def _words(text: str) -> frozenset[str]:

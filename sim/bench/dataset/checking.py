@@ -7,7 +7,7 @@ from sim.bench.dataset.folder import digest, list_unknown_logs
 from sim.bench.dataset.key import by_file, read_key
 from sim.bench.dataset.plan import LogJob
 from sim.bench.dataset.secret import Secret
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 
 def verify_dataset(

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from sim.bench.dataset.key import Entry
 from sim.bench.dataset.plan import LogJob
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 MOMENT = 946_684_800  # [s] 2000-01-01: when a file was made would tell how long it took, and why
 LISTED = 3  # [files] that a refusal names

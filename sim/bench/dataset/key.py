@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from sim.bench.dataset.secret import Secret
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
 
 ENDING = ".key.json"

@@ -7,8 +7,8 @@ from sim.bench.dataset.table import NumberRange, TomlTable, suggest_word
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import FASTEST, SLOWEST
-from sim.data.errors import Refusal
-from sim.data.vocabulary import FOUR_TESTS, KINDS, TESTS
+from sim.core.errors import Refusal
+from sim.core.vocabulary import FOUR_TESTS, KINDS, TESTS
 from sim.inspect.fault import MOST, Fault
 from sim.inspect.faults import FAULTS
 from sim.physics.effects import EFFECTS

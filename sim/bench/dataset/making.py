@@ -14,9 +14,9 @@ from sim.bench.dataset.plan import DAMAGE, MECHANISM, RECORD, LogJob, PlannedStr
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
-from sim.data.errors import Refusal
-from sim.data.log import Log, Run
-from sim.data.units import gains_per, unit
+from sim.core.errors import Refusal
+from sim.core.log import Log, Run
+from sim.core.units import gains_per, unit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.fault import Spoilt, Stretch
 from sim.io import write

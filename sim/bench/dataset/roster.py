@@ -6,7 +6,7 @@ from pathlib import Path
 from sim.bench.dataset.roster_file import read_roster
 from sim.bench.dataset.student import same, student_name
 from sim.bench.dataset.table import TomlTable
-from sim.data.errors import BadRequest, Refusal
+from sim.core.errors import BadRequest, Refusal
 
 COLUMN = "student"  # [header of a CSV file] unless the spec names another
 EXAMPLE = "roster.csv"

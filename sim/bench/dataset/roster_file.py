@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 NO_STUDENT = "points possible"  # what Canvas writes in the second row of its gradebook
 

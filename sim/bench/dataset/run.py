@@ -11,7 +11,7 @@ from sim.bench.dataset.key import Entry, Journal, read_key, write_key
 from sim.bench.dataset.making import Failed, Made, make_log
 from sim.bench.dataset.plan import LogJob
 from sim.bench.dataset.secret import Secret
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 Maker = Callable[[Sequence[LogJob]], Iterator[Made | Failed]]
 

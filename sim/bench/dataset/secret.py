@@ -16,7 +16,7 @@ from pathlib import Path
 
 from sim.bench.dataset.spec import ENDING, Spec
 from sim.bench.dataset.student import same
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 VARIABLE = "SYSID_SECRET"  # of the environment; holds the secret itself
 FEWEST = 16  # [characters] a shorter secret could be found by trying

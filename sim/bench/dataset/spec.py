@@ -10,7 +10,7 @@ from pathlib import Path
 from sim.bench.dataset.logs import LOGS, MOST_LOGS, Logs, LogSettings, read_logs, read_settings
 from sim.bench.dataset.roster import students_of
 from sim.bench.dataset.table import TomlTable
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 FORMATS = ("wpilog", "csv")
 ENDING = ".secret"  # of the name of a file with a secret

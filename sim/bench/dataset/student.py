@@ -4,7 +4,7 @@ import hashlib
 import re
 import unicodedata
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 LONGEST = 64  # [characters] a student's name; it also names a folder
 LEGIBLE = 32  # [characters] of it that are kept in a folder's name where some have to change

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, NoReturn, TypeVar
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

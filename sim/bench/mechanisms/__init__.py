@@ -4,7 +4,7 @@ import sys
 from typing import cast
 
 from sim.bench.mechanism import Mechanism
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.catalogue import members
 
 MECHANISMS: dict[str, Mechanism] = {

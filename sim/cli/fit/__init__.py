@@ -12,12 +12,12 @@ import click
 from sim.cli.fit.against import against_physics, parts_of, taken_apart
 from sim.cli.fit.sides import sides_of
 from sim.cli.options import FILE, as_json, read_together, reading_options
-from sim.data.vocabulary import METHODS
+from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
-    from sim.data.log import Log
+    from sim.core.log import Log
     from sim.fit import Fit
     from sim.fit.feedback_trial import FeedbackTrial, OwnGains
 

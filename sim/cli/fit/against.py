@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.fit.sides import compare
-from sim.data.vocabulary import METHODS
+from sim.core.vocabulary import METHODS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from sim.data.doubt import Doubt
-    from sim.data.log import Log
+    from sim.core.doubt import Doubt
+    from sim.core.log import Log
     from sim.fit import Fit
     from sim.fit.physics import Parts
 

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from sim.data.errors import Refusal
+from sim.core.errors import Refusal
 
 if TYPE_CHECKING:
-    from sim.data.doubt import Doubt
-    from sim.data.log import Log
+    from sim.core.doubt import Doubt
+    from sim.core.log import Log
     from sim.fit import Fit
 
 SIDES = ("left", "right")

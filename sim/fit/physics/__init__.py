@@ -8,8 +8,8 @@ kG/kA = g                           of an elevator; less with rotors, never more
 import math
 from dataclasses import replace
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
 from sim.fit.physics.compare import compare_directions, compare_sides
 from sim.fit.physics.parts import Parts, fit_in_si
 from sim.fit.physics.self_consistency import friction_doubts, gravity_doubts, timescale_doubts

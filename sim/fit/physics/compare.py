@@ -3,10 +3,10 @@
 import math
 from dataclasses import replace
 
-from sim.data.doubt import Doubt
-from sim.data.errors import NotIdentifiable
-from sim.data.log import DIRECTIONS, Log
-from sim.data.units import unit
+from sim.core.doubt import Doubt
+from sim.core.errors import NotIdentifiable
+from sim.core.log import DIRECTIONS, Log
+from sim.core.units import unit
 from sim.fit.output_error import fit_output_error
 from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.result import Fit, gain_unit

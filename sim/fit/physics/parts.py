@@ -3,8 +3,8 @@
 import math
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
-from sim.data.units import unit
+from sim.core.errors import BadRequest
+from sim.core.units import unit
 from sim.fit.result import Fit
 from sim.physics.motors import Motor, theoretical_kv
 

@@ -2,8 +2,8 @@
 
 import math
 
-from sim.data.doubt import Doubt
-from sim.data.units import unit
+from sim.core.doubt import Doubt
+from sim.core.units import unit
 from sim.fit.physics.parts import BELOW, HEAVY, SURELY
 from sim.fit.result import Fit
 from sim.physics.motors import NOMINAL

@@ -6,8 +6,8 @@ opposite ways: that tells the two apart.
 
 import math
 
-from sim.data.doubt import Doubt
-from sim.data.units import unit
+from sim.core.doubt import Doubt
+from sim.core.units import unit
 from sim.fit.physics.parts import BELOW, HEAVY, SURELY, Parts, check_radius_unit
 from sim.fit.result import Fit, gain_unit
 from sim.physics.motors import MOTORS

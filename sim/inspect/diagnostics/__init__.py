@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from sim.data.doubt import Doubt
+from sim.core.doubt import Doubt
 from sim.inspect.diagnostics.directions import check_directions
 from sim.inspect.diagnostics.motion import (
     check_r2_hides_misfit,

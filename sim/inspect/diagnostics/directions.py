@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.log import DIRECTIONS, Array, Run
-from sim.data.units import unit
+from sim.core.doubt import Doubt
+from sim.core.log import DIRECTIONS, Array, Run
+from sim.core.units import unit
 from sim.inspect.log_features import MOVING, LogFeatures
 
 FEWEST = 10  # [samples in motion] less says little

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.errors import Refusal
-from sim.data.log import Array, Run
+from sim.core.doubt import Doubt
+from sim.core.errors import Refusal
+from sim.core.log import Array, Run
 from sim.fit import Fit, fit
 from sim.inspect.baseline_model import BaselineModel
 from sim.inspect.log_features import MOVING, LogFeatures

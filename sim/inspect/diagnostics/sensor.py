@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.log import Array, Run
-from sim.data.units import unit
+from sim.core.doubt import Doubt
+from sim.core.log import Array, Run
+from sim.core.units import unit
 from sim.fit.sysid_rows import noise_floor
 from sim.inspect.log_features import MOVING, LogFeatures
 

@@ -2,7 +2,7 @@
 
 import sys
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.inspect.fault import Fault, fault_of
 from sim.support.catalogue import members
 

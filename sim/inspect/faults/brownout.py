@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.inspect.anomalies import Anomaly
 from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
 from sim.inspect.log_features import LogFeatures

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.data.log import Array, Log, Run
+from sim.core.log import Array, Log, Run
 from sim.inspect.baseline_model import BaselineModel
 from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
 from sim.inspect.log_features import DRIVEN, LogFeatures

@@ -16,7 +16,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from sim.data.log import Array, Log
+from sim.core.log import Array, Log
 from sim.inspect.anomalies import Anomaly
 from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
 from sim.inspect.log_features import LogFeatures

@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.log import Array, Log, Run
+from sim.core.log import Array, Log, Run
 from sim.inspect.anomalies import find_first_motion
 from sim.inspect.fault import (
     Damage,

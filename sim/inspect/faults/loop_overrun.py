@@ -15,7 +15,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, select_samples
 from sim.inspect.log_features import LogFeatures
 

@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.log import FOUR_TESTS, Log
+from sim.core.log import FOUR_TESTS, Log
 from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.inspect.log_features import LogFeatures
 

@@ -17,7 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.log import Array, Log, Run
+from sim.core.log import Array, Log, Run
 from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.inspect.log_features import Counts, Flags, LogFeatures, find_held_samples
 

@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.data.log import Log, Run
+from sim.core.log import Log, Run
 from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.inspect.log_features import MOVING, Counts, LogFeatures, find_held_samples
 

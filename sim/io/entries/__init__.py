@@ -10,9 +10,9 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
-from sim.data.errors import BadRequest, MissingSignal, Refusal
-from sim.data.log import Log
-from sim.data.units import UNITS
+from sim.core.errors import BadRequest, MissingSignal, Refusal
+from sim.core.log import Log
+from sim.core.units import UNITS
 from sim.io.entries.discovery import driven_interval, find_devices, test_in_name
 from sim.io.entries.entry import Entry
 from sim.io.entries.motors import motors_of

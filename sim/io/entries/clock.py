@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.io.entries.entry import Numbers
 
 FEWER = 2.0  # a signal with so many times fewer samples than another was not logged every loop

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.log import TESTS
-from sim.data.vocabulary import DIRECTIONS, KINDS
+from sim.core.log import TESTS
+from sim.core.vocabulary import DIRECTIONS, KINDS
 from sim.io.entries.entry import NEEDED, NUMBERS, Entry, ValuesEntry
 from sim.io.entries.names import words_of
 from sim.io.entries.state import RunInterval

@@ -9,8 +9,8 @@ the mechanism's state entry tells where to split.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest, MissingSignal
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest, MissingSignal
 from sim.io.entries.discovery import driven_devices, find_devices
 from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry
 from sim.io.entries.names import asked_for, explain_unfit_entry, quote_names, split_name, words_of

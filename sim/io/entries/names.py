@@ -9,7 +9,7 @@ from collections.abc import Collection, Sequence
 from difflib import get_close_matches
 from typing import NamedTuple
 
-from sim.data.errors import MissingSignal
+from sim.core.errors import MissingSignal
 from sim.io.entries.entry import Entry
 
 SHOWN = 4  # [names] in a message

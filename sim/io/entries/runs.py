@@ -7,10 +7,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
-from sim.data.log import Array, Run
-from sim.data.units import UNITS
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.core.log import Array, Run
+from sim.core.units import UNITS
 from sim.io.entries.clock import (
     Series,
     changes_only,

@@ -7,9 +7,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest, MissingSignal
-from sim.data.log import TESTS
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest, MissingSignal
+from sim.core.log import TESTS
 from sim.io.entries.entry import STRING, Entry
 from sim.io.entries.names import asked_for, quote_names, split_name
 from sim.io.format import ReadOptions
@@ -41,7 +41,7 @@ class RunInterval:
     """The time of one run: begin <= t < end.
 
     Args:
-        test: one of ``sim.data.log.TESTS``.
+        test: one of ``sim.core.log.TESTS``.
         begin, end: [µs].
     """
 

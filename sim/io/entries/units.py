@@ -12,9 +12,9 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
-from sim.data.units import UNITS
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.core.units import UNITS
 from sim.io.entries.entry import NEEDED, Entry
 from sim.io.entries.names import words_of
 from sim.io.format import ReadOptions
@@ -66,7 +66,7 @@ class EntryScale:
     """How the numbers of a motor's entries become the unit of its log.
 
     Args:
-        units: that unit, a name in ``sim.data.units.UNITS``.
+        units: that unit, a name in ``sim.core.units.UNITS``.
         factors: signal -> what its numbers are multiplied by.
         doubts: what had to be assumed.
     """

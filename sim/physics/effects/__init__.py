@@ -3,7 +3,7 @@
 import sys
 from typing import cast
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.physics.effect import Effect
 from sim.support.catalogue import members
 

@@ -13,7 +13,7 @@ from types import ModuleType
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.physics.effects import EFFECTS
 from sim.physics.engine.compose import compose, is_compiled
 from sim.physics.engine.kernel import Kernel

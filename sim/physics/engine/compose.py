@@ -13,7 +13,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from types import ModuleType
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.physics.effect import Effect
 from sim.physics.engine import one_body, power_path, stepping, two_bodies, two_body_modes
 from sim.physics.engine.kernel import Kernel, kernel_file, load_kernel

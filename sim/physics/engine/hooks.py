@@ -7,7 +7,7 @@ effects, ``memory`` one number for each effect.
 
 import math
 
-from sim.data.log import Array
+from sim.core.log import Array
 
 Numbers = tuple[float, ...]
 """What stays the same through a run.

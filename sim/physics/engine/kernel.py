@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.physics.engine.machine_code import Code, code_of, link_code, machine_id
 from sim.support.work import cache
 

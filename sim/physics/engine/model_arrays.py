@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.physics.effects import EFFECTS
 from sim.physics.engine.compose import HOOKS, parameter_slices
 from sim.physics.model import Model, Part

@@ -11,7 +11,7 @@ Plain functions of numbers: ``compose.py`` compiles them together with the effec
 
 import math
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.physics.engine.hooks import (
     Numbers,
     coulomb_friction,

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from sim.data.log import Array
+from sim.core.log import Array
 
 
 @dataclass(frozen=True, eq=False)

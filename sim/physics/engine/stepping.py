@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.physics.engine.hooks import (
     Numbers,
     added_inertia,

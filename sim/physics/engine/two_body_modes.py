@@ -15,7 +15,7 @@ that and so on: where something happens in a step, its parts are tried.
 
 import math
 
-from sim.data.log import Array
+from sim.core.log import Array
 
 KNOWN, STIFF, DAMP, SMALL = range(4)  # places in ``ways``: for which kA [V·s²/unit], what joins
 # them, and a small step [s]; then come the two sets

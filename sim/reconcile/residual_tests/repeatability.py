@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 
 CELLS = 24  # of the way, or of all speeds

@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import smooth_innovations
 

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST
 from sim.estimation.run_records import RunRecord

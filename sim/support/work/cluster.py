@@ -15,7 +15,7 @@ from importlib.metadata import version
 from types import ModuleType
 from typing import Any, TypeVar
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.work.process_pool import AHEAD, collect_results
 
 Job = TypeVar("Job")

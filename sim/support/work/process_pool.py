@@ -11,7 +11,7 @@ from itertools import islice
 from multiprocessing.connection import wait as wait_for_end
 from typing import TYPE_CHECKING, TypeVar
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 from sim.support.work.interrupt import interrupts_blocked_for_children
 
 if TYPE_CHECKING:

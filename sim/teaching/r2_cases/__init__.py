@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.fit import Fit, fit
 from sim.teaching.r2_cases import drivetrains, harm
 

@@ -9,7 +9,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.data.log import Log
+from sim.core.log import Log
 from sim.physics.battery import Battery
 from sim.physics.model import Part
 from sim.physics.motors import motor

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from sim.bench.routine import LOOPS_BEFORE_DRIVE
-from sim.data.log import Array, Log, Run
+from sim.core.log import Array, Log, Run
 from sim.inspect.fault import Strike, replace_run, rescale_motion, select_samples
 from sim.inspect.faults import fault
 from sim.teaching.r2_cases.drivetrains import Setup

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.errors import BadRequest, BadSample, UnreadableFile
-from sim.data.log import Array, Log, Run
-from sim.data.units import unit
+from sim.core.errors import BadRequest, BadSample, UnreadableFile
+from sim.core.log import Array, Log, Run
+from sim.core.units import unit
 from sim.io.entries import log_of_entries
 from sim.io.format import HEAD, ReadOptions, lone_motor, sound_run
 from sim.io.formats.csv.entries import is_export, read_entries

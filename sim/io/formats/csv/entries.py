@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sim.data.errors import BadSample, UnreadableFile
+from sim.core.errors import BadSample, UnreadableFile
 from sim.io.entries.entry import STRING, Entry, ValuesEntry
 from sim.io.formats.csv.table import csv_rows
 

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest, BadSample, MissingSignal, UnreadableFile
-from sim.data.log import LARGEST, Array
-from sim.data.vocabulary import DIRECTIONS, KINDS, TESTS
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest, BadSample, MissingSignal, UnreadableFile
+from sim.core.log import LARGEST, Array
+from sim.core.vocabulary import DIRECTIONS, KINDS, TESTS
 
 NEEDED = ("test", "time_s", "voltage", "position", "velocity")
 EXTRA = ("current", "bus_voltage")  # written where a run has them; empty cells where it has not

@@ -10,10 +10,10 @@ format is only read: its tools are gone.
 import re
 from pathlib import Path
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest
-from sim.data.log import Array, Log
-from sim.data.units import unit
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.core.log import Array, Log
+from sim.core.units import unit
 from sim.io.format import ReadOptions, lone_motor, sound_run
 from sim.io.formats.sysid_json.drivetrain import two_sides
 from sim.io.formats.sysid_json.rows import Form, check_columns, form_of, load_json, tables_of

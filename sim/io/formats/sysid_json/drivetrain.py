@@ -15,8 +15,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest, MissingSignal
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest, MissingSignal
 from sim.io.formats.sysid_json.side import Side, align_signs, doubt_of, test_sign
 
 STILL = 0.02  # [share of the other side's largest velocity] an encoder that counts nothing

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadSample, UnreadableFile
-from sim.data.log import LARGEST, Array
+from sim.core.doubt import Doubt
+from sim.core.errors import BadSample, UnreadableFile
+from sim.core.log import LARGEST, Array
 from sim.io.formats.sysid_json.said import StatedUnits
 
 RUNS = {

@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sim.data.doubt import Doubt
-from sim.data.errors import UnreadableFile
-from sim.data.log import LARGEST
-from sim.data.units import UNITS
+from sim.core.doubt import Doubt
+from sim.core.errors import UnreadableFile
+from sim.core.log import LARGEST
+from sim.core.units import UNITS
 from sim.io.format import ReadOptions
 
 _TYPES = {

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.log import Array
+from sim.core.doubt import Doubt
+from sim.core.log import Array
 
 MOVING = 0.2  # [share of the largest] below it, friction and noise decide the sign
 CLEAR = 0.6  # [mean of the signs] where 4 of 5 samples agree, the run has that sign

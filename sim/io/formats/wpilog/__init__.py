@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from sim.data.doubt import Doubt
-from sim.data.errors import MissingSignal, UnreadableFile
-from sim.data.log import Log
+from sim.core.doubt import Doubt
+from sim.core.errors import MissingSignal, UnreadableFile
+from sim.core.log import Log
 from sim.io.entries import log_of_entries
 from sim.io.entries.state import FOREVER, RunInterval
 from sim.io.format import ReadOptions

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.data.log import Array
+from sim.core.log import Array
 from sim.io.entries.entry import Entry, Numbers
 from sim.io.formats.wpilog.records import File, view_numbers
 

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from sim.data.errors import BadRequest
-from sim.data.log import Array, Log, Run
-from sim.data.units import UNITS
+from sim.core.errors import BadRequest
+from sim.core.log import Array, Log, Run
+from sim.core.units import UNITS
 from sim.io.entries.entry import NEEDED, OPTIONAL
 from sim.io.entries.state import IDLE, WORD
 from sim.io.formats.wpilog.control import Start, start_payload

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sim.data.errors import BadRequest
+from sim.core.errors import BadRequest
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,10 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sim.data.doubt import Doubt
-from sim.data.errors import BadRequest, BadSample
-from sim.data.units import unit
-from sim.data.vocabulary import DIRECTIONS, FOUR_TESTS, KINDS, TESTS, TYPES
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest, BadSample
+from sim.core.units import unit
+from sim.core.vocabulary import DIRECTIONS, FOUR_TESTS, KINDS, TESTS, TYPES
 
 __all__ = [  # the words come along, for those who work on logs
     "DIRECTIONS",
@@ -119,7 +119,7 @@ class Log:
 
     Args:
         runs: in the order they were recorded.
-        units: the unit of position its owner thinks in, a name in ``sim.data.units.UNITS``.
+        units: the unit of position its owner thinks in, a name in ``sim.core.units.UNITS``.
         mechanism: its name, where the source says it.
         type: ``simple``, ``elevator`` or ``arm`` where the source says it, else empty.
         source: the file it was read from, for messages; empty if none.
