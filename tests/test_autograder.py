@@ -5,6 +5,7 @@ import importlib.util
 import io
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -340,3 +341,13 @@ def test_the_workflow_takes_nothing_from_github_into_its_shell_lines(workflow):
     for step in parsed["jobs"]["grade"]["steps"]:
         assert "${{" not in step.get("run", "")
     assert parsed["permissions"] == {"contents": "read", "checks": "write"}
+
+
+@pytest.mark.parametrize("name", ["setup.sh", "run_autograder"])
+def test_what_its_shell_lines_import_is_there(name, root):
+    text = (root / "grader" / "autograder" / name).read_text(encoding="utf-8")
+    wanted = re.findall(r"from ([\w.]+) import (\w+)", text)
+
+    assert wanted
+    for module, attribute in wanted:
+        assert hasattr(importlib.import_module(module), attribute), (name, attribute)

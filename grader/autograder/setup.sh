@@ -24,4 +24,4 @@ pip="$root/environment/bin/pip"
 "$pip" install --no-cache-dir -r "$root/source/requirements-robot.txt" ||
   echo "RobotPy could not be installed: Python robot code is read, and not run."
 cd "$root/source/course"
-"$root/environment/bin/python" -c 'from sim.physics.engine import ready; ready()' # compiles the simulation
+"$root/environment/bin/python" -c 'from sim.physics.engine import load_engine; load_engine()' # compiles the simulation
