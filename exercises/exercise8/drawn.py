@@ -29,7 +29,7 @@ MEDIAN = 3  # [samples] is enough for spikes of one
 ABOVE = 3.5  # [times the noise at rest] is a threshold that none of it passes
 EARLY = 0.05  # [s] before the impact a careful person cuts
 EARLIER = (0.0, 0.2)  # [s] and so much earlier others do; all of these must find the gains
-ROUGHLY = (0.7, 1.0, 1.2)  # [times the threshold] that others choose
+ROUGHLY = (0.55, 1.0, 1.2)  # [times the threshold] that others choose, down to what just passes
 NOTHING = Preparation({}, 0.0, 1)
 LACKING: tuple[tuple[str, dict[str, Any]], ...] = (  # what must cost a gain to leave out, or overdo
     ("kA", {"keep": {}}),
