@@ -4,6 +4,7 @@ Every log is a bench mechanism's, written under the names that another tool uses
 devices have other names than in any log that the reader was written for.
 """
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -14,9 +15,11 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
+from sim.cli import sysid
 from sim.core.errors import MissingSignal, Refusal
 from sim.core.units import UNITS
 from sim.fit import fit
+from sim.support import command_line
 
 ROUTINE = Routine(ramp=0.5, step=4.0)
 ADVANTAGESCOPE = '{"exporter":"AdvantageScope"}'
@@ -296,3 +299,30 @@ def test_an_export_that_cannot_be_read_says_where(tmp_path, text, said):
 
     with pytest.raises(Refusal, match=said):
         sim.read(path)
+
+
+def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
+    log = recorded()
+    path = write(tmp_path / "a.wpilog", log, PHOENIX, factors=rotations(log), state="My-State",
+                 more=(("Phoenix6/TalonFX-21/DeviceTemp", lambda run: run.time),))  # fmt: skip
+
+    assert command_line.run(sysid, name="sysid", arguments=["entries", str(path), "--json"]) == 0
+
+    rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)}
+    signals = {name: row["signal"] for name, row in rows.items()}
+    assert signals == {
+        PHOENIX[0][0]: "voltage", PHOENIX[1][0]: "position", PHOENIX[2][0]: "velocity",
+        "My-State": "state", "Phoenix6/TalonFX-21/DeviceTemp": "",
+    }  # fmt: skip
+    assert rows[PHOENIX[2][0]]["unit"] == "rotations per second"
+    assert command_line.run(sysid, name="sysid", arguments=["entries", str(path)]) == 0
+    assert capsys.readouterr().out.startswith("5 entries:\nstate ")
+
+
+def test_a_log_without_entries_says_so(tmp_path, capsys):
+    sim.write(recorded(), tmp_path / "a.csv")
+
+    assert (
+        command_line.run(sysid, name="sysid", arguments=["entries", str(tmp_path / "a.csv")]) == 2
+    )
+    assert "its columns are signals" in capsys.readouterr().err

@@ -1,6 +1,7 @@
 """What import-linter and ruff cannot see: imports by name at run time, and functions too long."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -79,3 +80,35 @@ def test_no_function_is_longer_than_a_page(folder):
     }
 
     assert long == set()
+
+
+PAGES = ("CONTRIBUTING.md", "sim/ARCHITECTURE.md", *(
+    path.relative_to(ROOT).as_posix() for path in sorted((ROOT / "sim" / "decisions").glob("*.md"))
+))  # fmt: skip
+
+
+def there(page, name):
+    """Whether a file that a page names is there: beside it, or anywhere by the end of its path."""
+    beside = (ROOT / page).parent / name
+    return beside.exists() or any(
+        path.as_posix().endswith(f"/{name}") for top in TOPS for path in (ROOT / top).rglob("*.py")
+    )
+
+
+TOPS = (*OURS, "tests", ".ci", "exercises", "solutions")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_files_that_a_page_names_are_there(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    named = set(re.findall(r"`([\w./]+\.py)`", text)) - {"lessons/NN_name.py"}
+
+    assert {name for name in named if not there(page, name)} == set()
+
+
+def test_names_of_the_architecture_page_are_in_the_code():
+    text = (ROOT / "sim" / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    code = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "sim").rglob("*.py"))
+    named = {name for one in re.findall(r"`([A-Za-z_.]+)`", text) for name in one.split(".")}
+
+    assert {name for name in named - {"py"} if not re.search(rf"\b{name}\b", code)} == set()

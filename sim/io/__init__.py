@@ -8,7 +8,7 @@ gets imported.
 import os
 import stat
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from difflib import get_close_matches
 from importlib import import_module
@@ -22,11 +22,19 @@ from sim.core.log import Log
 from sim.core.units import unit
 from sim.core.vocabulary import TYPES
 from sim.io import formats
+from sim.io.entries.entry import Entry
 from sim.io.format import HEAD, Format, ReadOptions
 from sim.support.atomic_file import atomic_path
 
 FORMATS = tuple(sorted(found.name for found in iter_modules(formats.__path__)))
 LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the one that was meant
+
+
+class _WithEntries(Format, Protocol):
+    """A format whose logs have entries with names."""
+
+    def entries(self, path: Path) -> list[Entry]:
+        """All entries of a file."""
 
 
 class _Writer(Format, Protocol):
@@ -119,8 +127,37 @@ def read(
         entries=dict(entries or {}),
     )
     given = os.fspath(path)
-    try:
+    with _named(given):
         log = _reader(Path(given), _head(given)).read(Path(given), asked)
+    return _typed(replace(log, source=given), type)
+
+
+def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
+    """The entries of a log, for a person who looks for a signal.
+
+    Args:
+        path: the file.
+
+    Raises:
+        UnreadableFile: missing, empty, too large, damaged, or of no format that is read here.
+        BadRequest: a log of its format has no entries with names of their own.
+    """
+    given = os.fspath(path)
+    with _named(given):
+        module = _reader(Path(given), _head(given))
+        if not hasattr(module, "entries"):
+            raise BadRequest(
+                "a log of this format has fixed signals and no entries",
+                advice="Read it with `sysid fit` or `sysid inspect`.",
+            )
+        return list(cast("_WithEntries", module).entries(Path(given)))
+
+
+@contextmanager
+def _named(given: str) -> Iterator[None]:
+    """Every refusal names the file as it was given."""
+    try:
+        yield
     except Refusal as refusal:
         if refusal.where.startswith((given, str(Path(given)))):
             raise
@@ -130,7 +167,6 @@ def read(
         raise UnreadableFile(
             f"cannot be read ({error.strerror or error})", where=given, advice="Copy it again."
         ) from None
-    return _typed(replace(log, source=given), type)
 
 
 def write(log: Log, path: str | os.PathLike[str]) -> None:

@@ -6,6 +6,7 @@ A module offers
     def knows(head: bytes) -> bool             whether a file that starts like this is its own
     def read(path: Path, asked: Reading) -> Log
     def write(log: Log, path: Path) -> None    optional: some formats are only read
+    def entries(path: Path) -> list[Entry]     optional: where a log has entries with names
 
 and is found by its place in the folder. Formats do not import one another.
 """

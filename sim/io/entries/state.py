@@ -63,7 +63,7 @@ def state_entries(
         entry = asked_for(
             asked.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
         )
-        if not _tells(entry):
+        if not names_tests(entry):
             raise _no_test([entry], where=where)
         name = split_name(entry.name, WORD)
         return (StateEntry(name.rest if name else "", name.path if name else "", entry),)
@@ -72,12 +72,12 @@ def state_entries(
         for entry in entries
         if entry.type == STRING and (name := split_name(entry.name, WORD))
     ]
-    telling = [state for state in named if _tells(state.entry)]
+    telling = [state for state in named if names_tests(state.entry)]
     if not telling and not named:
         telling = [
             StateEntry(_mechanism_in(entry.name), "", entry)
             for entry in entries
-            if entry.type == STRING and _tells(entry)
+            if entry.type == STRING and names_tests(entry)
         ]
     if not telling:
         raise (
@@ -119,7 +119,7 @@ def run_intervals(
     return found, (doubt,)
 
 
-def _tells(entry: Entry) -> bool:
+def names_tests(entry: Entry) -> bool:
     """Whether an entry names a test at all."""
     return any(text.strip().lower() in TESTS for text in entry.texts())
 

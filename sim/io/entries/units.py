@@ -97,8 +97,8 @@ def stated_unit(text: str, signal: str) -> StatedUnit | None:
     return read[signal](text) if signal in read else None
 
 
-def _unit_text(entry: Entry, signal: str) -> str:
-    """The unit that an entry's metadata states, or else the end of its name; empty if neither."""
+def unit_text(entry: Entry, signal: str) -> str:
+    """The unit that metadata states, or else the end of a name; empty if neither."""
     text = said_unit(entry.metadata)
     if text:
         return text
@@ -133,7 +133,7 @@ def scale_of(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str) ->
     Raises:
         BadRequest: its position is an angle and its velocity a length, or the other way round.
     """
-    texts = {signal: _unit_text(signals[signal], signal) for signal in NEEDED}
+    texts = {signal: unit_text(signals[signal], signal) for signal in NEEDED}
     said = {signal: stated_unit(text, signal) for signal, text in texts.items()}
     stated = [found.units for found in (said["position"], said["velocity"]) if found]
     if asked.units is None and len({UNITS[units].angular for units in stated}) > 1:

@@ -17,6 +17,7 @@ from sim.core.errors import BadRequest, BadSample, UnreadableFile
 from sim.core.log import Array, Log, Run
 from sim.core.units import unit
 from sim.io.entries import log_of_entries
+from sim.io.entries.entry import Entry
 from sim.io.format import HEAD, ReadOptions, lone_motor, sound_run
 from sim.io.formats.csv.entries import is_export, read_entries
 from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, first_names, open_table
@@ -32,6 +33,27 @@ def knows(head: bytes) -> bool:
     return is_export(names) or len(set(names) & set(KNOWN)) >= ENOUGH
 
 
+def entries(path: Path) -> list[Entry]:
+    """All entries of a log viewer's export.
+
+    Raises:
+        UnreadableFile: not UTF-8, a row of another length, or no rows.
+        BadRequest: it is the course's own table of signals.
+    """
+    if not _exported(path):
+        raise BadRequest(
+            f"its columns are signals: {', '.join(NEEDED)}",
+            advice="Read it with `sysid fit` or `sysid inspect`.",
+        )
+    return read_entries(path)
+
+
+def _exported(path: Path) -> bool:
+    """Whether a log viewer exported it."""
+    with path.open(encoding="utf-8-sig", errors="replace") as stream:
+        return is_export(first_names(stream.read(HEAD)))
+
+
 def read(path: Path, asked: ReadOptions) -> Log:
     """Read a CSV log.
 
@@ -44,9 +66,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
         MissingSignal: a column is missing.
         BadSample: a cell is not a finite number; the message names line and column.
     """
-    with path.open(encoding="utf-8-sig", errors="replace") as stream:
-        exported = is_export(first_names(stream.read(HEAD)))
-    if exported:
+    if _exported(path):
         log, _ = log_of_entries(read_entries(path), asked=asked, where=str(path))
         return log
     table = open_table(path, entries=asked.entries)

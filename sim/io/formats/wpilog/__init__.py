@@ -16,10 +16,11 @@ from sim.io.entries import log_of_entries
 from sim.io.entries.state import FOREVER, RunInterval
 from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import FileDamage, contents_of
+from sim.io.formats.wpilog.entry import FileEntry
 from sim.io.formats.wpilog.records import MAGIC, load_records
 from sim.io.formats.wpilog.writing import write
 
-__all__ = ["SUFFIXES", "knows", "read", "write"]
+__all__ = ["SUFFIXES", "entries", "knows", "read", "write"]
 
 SUFFIXES = (".wpilog",)
 
@@ -27,6 +28,15 @@ SUFFIXES = (".wpilog",)
 def knows(head: bytes) -> bool:
     """Whether a file that starts like this is a WPILOG file."""
     return head.startswith(MAGIC)
+
+
+def entries(path: Path) -> list[FileEntry]:
+    """All entries of a file.
+
+    Raises:
+        UnreadableFile: it is foreign or empty.
+    """
+    return list(contents_of(load_records(path)).entries)
 
 
 def read(path: Path, asked: ReadOptions) -> Log:

@@ -1,0 +1,51 @@
+"""``sysid entries``."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from sim.cli.options import FILE, as_json
+
+if TYPE_CHECKING:
+    from sim.io.entries.entry import Entry
+
+
+@click.command()
+@click.argument("file", type=FILE)
+@as_json
+def entries(file: Path, *, as_json: bool) -> None:
+    """List the entries of a robot's log, and the motor signals they seem to be.
+
+    For example: sysid entries robot.wpilog
+
+    Give the names of the right ones to `sysid fit` with --voltage, --position and --velocity.
+    """
+    from sim.io import list_entries  # noqa: PLC0415 - --help must not wait for it
+
+    rows = sorted(map(_row, list_entries(file)), key=lambda row: (not row["signal"], row["name"]))
+    if as_json:
+        click.echo(json.dumps(rows, allow_nan=False))
+        return
+    width = max((len(str(row["name"])) for row in rows), default=0)
+    click.echo(f"{len(rows)} entries:")
+    for row in rows:
+        said = f"{row['signal'] or '-':12} {row['name']!s:{width}}  {row['type']}, {row['values']}"
+        click.echo(f"{said} {row['unit']}".rstrip())
+
+
+def _row(entry: "Entry") -> dict[str, object]:
+    """An entry as plain data; ``signal`` is empty where it is none of a motor's."""
+    from sim.io.entries.discovery import signal_of  # noqa: PLC0415 - --help must not wait for it
+    from sim.io.entries.entry import NUMBERS, STRING  # noqa: PLC0415 - the same
+    from sim.io.entries.state import names_tests  # noqa: PLC0415 - the same
+    from sim.io.entries.units import unit_text  # noqa: PLC0415 - the same
+
+    device, signal = (signal_of(entry) if entry.type in NUMBERS else None) or ("", "")
+    if entry.type == STRING and names_tests(entry):
+        signal = "state"
+    return {
+        "name": entry.name, "type": entry.type, "values": len(entry), "signal": signal,
+        "motor": device, "unit": unit_text(entry, signal),
+    }  # fmt: skip
