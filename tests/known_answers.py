@@ -10,6 +10,7 @@ import numpy as np
 from sim.core.log import Log, Run
 from sim.core.units import unit
 
+ANSWERS = Path(__file__).parent / "sysid_answers"
 NAMES = (
     "simple-clean-20ms",
     "simple-noisy-20ms",
@@ -31,12 +32,11 @@ class KnownAnswer:
     answer: dict[str, object]
 
 
-def known_answer(shared: Path, name: str) -> KnownAnswer:
+def known_answer(name: str) -> KnownAnswer:
     """Load one of ``NAMES``, parsed by hand so that no reader of ours can spoil it."""
-    folder = shared / "data" / "sysid-answers"
-    answer = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
+    answer = json.loads((ANSWERS / f"{name}.json").read_text(encoding="utf-8"))
     units = answer["units"].lower()
-    table = folder / f"{name.partition('.')[0]}.csv"
+    table = ANSWERS / f"{name.partition('.')[0]}.csv"
     with table.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     runs = []

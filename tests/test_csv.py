@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from csv_text import HEADER, PLAIN, read_text
+from known_answers import ANSWERS
 
 import sim
 from sim.core.errors import BadRequest
@@ -247,7 +248,7 @@ def test_what_rows_cannot_hold_is_not_written(
 
 @pytest.mark.shared
 def test_the_reference_logs_read_whole(shared: Path) -> None:
-    paths = sorted((shared / "data" / "sysid-answers").glob("*.csv"))
+    paths = sorted(ANSWERS.glob("*.csv"))
     paths += sorted((shared / "data" / "hidden-effects").glob("00*/*.csv"))
     assert len(paths) > 30
 

@@ -45,10 +45,9 @@ def change(log, test, **signals):
     )
 
 
-@pytest.mark.shared
 @pytest.mark.parametrize("name", NAMES)
-def test_every_gain_is_sysids_own_to_ten_digits(shared, name):
-    known = known_answer(shared, name)
+def test_every_gain_is_sysids_own_to_ten_digits(name):
+    known = known_answer(name)
 
     found = fit(known.log, type=known.type, median=known.median).in_log_units()
 
@@ -57,10 +56,9 @@ def test_every_gain_is_sysids_own_to_ten_digits(shared, name):
     assert dict(found.samples_used) == known.answer["samples_used"]
 
 
-@pytest.mark.shared
 @pytest.mark.parametrize("name", NAMES)
-def test_every_metric_is_sysids_own(shared, name):
-    known = known_answer(shared, name)
+def test_every_metric_is_sysids_own(name):
+    known = known_answer(name)
 
     found = fit(known.log, type=known.type, median=known.median).in_log_units()
 
@@ -72,10 +70,9 @@ def test_every_metric_is_sysids_own(shared, name):
     assert found.velocity_delay * 1e3 == pytest.approx(known.answer["velocity_delay_ms"], abs=1e-9)
 
 
-@pytest.mark.shared
 @pytest.mark.parametrize("name", NAMES)
-def test_the_suggested_kp_is_sysids_own(shared, name):
-    known = known_answer(shared, name)
+def test_the_suggested_kp_is_sysids_own(name):
+    known = known_answer(name)
 
     found = fit(known.log, type=known.type, median=known.median).in_log_units()
 
@@ -150,8 +147,8 @@ def test_an_arm_in_meters_is_refused_where_sysid_says_nan(drive):
 
 
 @pytest.mark.parametrize("units", ["radians", "degrees", "rotations"])
-def test_an_arm_is_fitted_alike_in_any_unit_of_angle(units, shared):
-    known = known_answer(shared, "arm-rad-20ms")
+def test_an_arm_is_fitted_alike_in_any_unit_of_angle(units):
+    known = known_answer("arm-rad-20ms")
 
     found = fit(replace(known.log, units=units), type="arm")
 
@@ -242,9 +239,8 @@ def test_a_run_of_a_few_samples_is_refused(drive, samples):
         fit(change(drive, "dynamic-reverse", **short))
 
 
-@pytest.mark.shared
-def test_a_log_that_says_its_type_needs_no_option(shared):
-    log = known_answer(shared, "elevator-noisy-20ms").log
+def test_a_log_that_says_its_type_needs_no_option():
+    log = known_answer("elevator-noisy-20ms").log
 
     assert "kG" in fit(replace(log, type="elevator")).gains
     assert "kG" not in fit(log).gains

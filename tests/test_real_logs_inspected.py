@@ -6,6 +6,7 @@ What there is to see is written in the reference data's own README; the times ar
 import json
 
 import pytest
+from known_answers import ANSWERS
 
 from sim.inspect.detect_faults import inspect
 from sim.io import read
@@ -63,8 +64,8 @@ def test_the_wrist_is_held_for_five_seconds(shared):
 
 
 @pytest.mark.parametrize("name", COMPLETE)
-def test_what_sysid_answers_well_is_clean(shared, name):
-    assert inspect(read(shared / "data" / "sysid-answers" / f"{name}.csv")).clean
+def test_what_sysid_answers_well_is_clean(name):
+    assert inspect(read(ANSWERS / f"{name}.csv")).clean
 
 
 def cases(shared):
