@@ -270,7 +270,7 @@ def test_the_class_is_served_as_the_guide_says(course, packages):
     try:
         assert running.stdout is not None
         line = next(row for row in running.stdout if "http://" in row)
-        with urlopen(line.split()[-1], timeout=10) as page:  # noqa: S310 - our own server's
+        with urlopen(line.split()[-1], timeout=60) as page:  # noqa: S310 - our own server's
             assert page.status == 200
         assert (course.parent / "homes" / "codes.csv").is_file()
     finally:

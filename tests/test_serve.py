@@ -236,7 +236,7 @@ def test_jupyter_starts_in_a_home_named_by_a_relative_path(root, tmp_path, monke
     try:
         room = rooms.open("Zoë B", course)
         url = f"http://127.0.0.1:{room.port}/api/contents/exercises?token={room.token}"
-        with urlopen(url, timeout=20) as answer:
+        with urlopen(url, timeout=PATIENCE / 1000) as answer:
             assert b"exercise1" in answer.read()
         assert not [word for word in psutil.Process(room.process.pid).cmdline()
                     if room.token in word]  # fmt: skip

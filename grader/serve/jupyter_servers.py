@@ -1,6 +1,7 @@
 """A Jupyter server for each student, in a process of its own, over a home of its own."""
 
 import contextlib
+import http.client
 import os
 import secrets
 import shutil
@@ -22,6 +23,8 @@ from sim.support.work.cache import CACHE
 PATIENCE = 60.0  # [s] until a server has to answer; a small laptop takes ten
 IDLE = 3600  # [s] without a word until a server ends: memory for those who are there
 PAUSE = 0.1  # [s] between two looks
+ONE_ANSWER = 5.0  # [s] for one answer, before it is asked again
+EVERY_ADDRESS = "0.0.0.0"  # noqa: S104 - compared with, not listened on here
 KEPT = {"PATH", "LANG", "LANGUAGE", "TZ", "LD_LIBRARY_PATH", "VIRTUAL_ENV"}  # of the operator's
 
 
@@ -129,7 +132,7 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Jup
     deadline = time.monotonic() + PATIENCE
     listening = runtime / f"jpserver-{process.pid}.json"  # written once the port is its own
     while time.monotonic() < deadline and process.poll() is None:
-        if listening.exists():
+        if listening.exists() and _answers(host, port):
             return JupyterServer(student, port, token, process, runtime)
         time.sleep(PAUSE)
     process.kill()
@@ -139,6 +142,22 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Jup
         where=str(course.parent / "server.log"),
         advice="Read what it says there; is there memory left?",
     )
+
+
+def _answers(host: str, port: int) -> bool:
+    """Whether the server answers a request: its port is open some seconds before it does."""
+    connection = http.client.HTTPConnection(
+        "127.0.0.1" if host == EVERY_ADDRESS else host, port, timeout=ONE_ANSWER
+    )
+    try:
+        connection.request("GET", "/api")  # needs no token
+        connection.getresponse().read()
+    except (OSError, http.client.HTTPException):
+        return False
+    else:
+        return True
+    finally:
+        connection.close()
 
 
 def _runtime_folder(account: int | None) -> Path:
