@@ -15,7 +15,7 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
 
@@ -82,6 +82,7 @@ class PredictionErrorProblem:
         most_q: [unit²/s³] the largest process noise.
         varying_friction: whether each run has a friction of its own.
         slack: [unit] by which free play that no model here describes may shift a start.
+        priors: parameter of an effect -> standard deviation of its normal prior about zero.
     """
 
     records: tuple[RunRecord, ...]
@@ -89,6 +90,7 @@ class PredictionErrorProblem:
     most_q: float = math.inf
     varying_friction: bool = True
     slack: float = 0.0
+    priors: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -184,6 +186,10 @@ class PredictionErrorProblem:
         """The runs as their first samples show them."""
         return RunNuisance.seen(len(self.records))
 
+    def priors_of(self, structure: ModelStructure) -> dict[str, float]:
+        """The priors of those parameters that a search of this structure moves."""
+        return {name: sd for name, sd in self.priors.items() if name in structure.searched}
+
     # -- simulate --------------------------------------------------------------------------------
 
     def track(self, model: Model, nuisance: RunNuisance, trust: Array = NO_TRUST) -> Track:
@@ -245,6 +251,7 @@ class PredictionErrorProblem:
             cov = self.covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
             cost = self._cost(cov) + own + friction_prior(values, nuisance)
+            cost += sum((values[name] / sd) ** 2 for name, sd in self.priors_of(structure).items())
         if not math.isfinite(cost):
             return nowhere
         return Estimate(structure, values, nuisance, q, trust, innovations, cov, cost)
@@ -331,7 +338,8 @@ class PredictionErrorProblem:
         """Two values of a parameter whose simulations give the derivative by it."""
         structure, value = point.structure, point.values[name]
         coarse = name.partition(".")[2] in STEPWISE
-        step = (COARSE_STEP if coarse else STEP) * structure.size(name, value)
+        size = max(structure.size(name, value), self.priors.get(name, 0.0))
+        step = (COARSE_STEP if coarse else STEP) * size
         above, below = value + step, value - step
         may_rise = structure.within(name, above) == above
         may_fall = structure.within(name, below) == below
