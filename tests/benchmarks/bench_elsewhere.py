@@ -71,7 +71,7 @@ def main(seeds: int, first: int) -> None:
                 rows = np.array(
                     [one[2][gain] for one in found if one[1] == kind and gain in one[2]]
                 )
-                near, error, stated, recipe = np.nanmedian(np.abs(rows), axis=0)
+                _, error, stated, recipe = np.nanmedian(np.abs(rows), axis=0)
                 held = np.mean(np.abs(rows[:, 0]) < 2.0)
                 print(f"{kind:8} {gain:4} {held:12.3f} {error:24.4%} {stated:9.4%} {recipe:12.2%}")
         lags = list(pool.map(fitted, named_lag_logs(seeds, first), chunksize=8))
