@@ -49,7 +49,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.fit.information_matrix import information_matrix
+from sim.fit.information_matrix import compute_information
 from sim.fit.sysid_rows import prepare_rows
 from sim.physics.engine import State, move
 from sim.plot import Picture, Table, curves, ellipses, hold_angles, hold_window, live, time_series
@@ -572,7 +572,9 @@ down = all_rows["quasistatic-reverse"]
 def up_and(down_rows: int) -> Picture:
     """How well kS and kG are known from the way up and some rows of the way down."""
     used = {**forward, "quasistatic-reverse": down.where(slice(down_rows))}
-    told = information_matrix(used, type="elevator", noise=noise_of(elevator)).about(*SIDES)
+    told = compute_information(used, type="elevator", noise=noise_of(elevator)).information_on_pair(
+        *SIDES
+    )
     return ellipses(
         {f"the way up; rows of the way down: {down_rows}": told},
         names=("kS [V]", "kG [V]"),
@@ -610,7 +612,7 @@ for name, mechanism, tests in (
     every = quiet_rows(mechanism, tests)
     for which, ways in (("all four tests", ("forward", "reverse")), ("up only", ("forward",))):
         used = {test: part for test, part in every.items() if test.endswith(ways)}
-        errors = information_matrix(used, type=mechanism.type, noise=noise_of(mechanism)).errors
+        errors = compute_information(used, type=mechanism.type, noise=noise_of(mechanism)).errors
         cells = (errors[gain] if np.isfinite(errors[gain]) else "anything" for gain in SIDES)
         rows.append((f"{name}, {which}", *cells))
 Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard error of each")

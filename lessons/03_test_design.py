@@ -46,7 +46,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.fit.information_matrix import information_matrix
+from sim.fit.information_matrix import compute_information
 from sim.fit.sysid_rows import prepare_rows
 from sim.physics.model import Part
 from sim.physics.motors import motor
@@ -296,7 +296,7 @@ UNIT = {"kS": "kS [V]", "kV": "kV [V·s/m]", "kA": "kA [V·s²/m]"}
 def map_of(tests: list[str], pair: tuple[str, str]) -> Picture:
     """Where the rows of some runs lie, and how well two gains follow from them."""
     rows = {test: all_rows[test] for test in tests}
-    told = information_matrix(rows, type="simple", noise=NOISE).about(*pair)
+    told = compute_information(rows, type="simple", noise=NOISE).information_on_pair(*pair)
     return information_map(
         rows,
         told,
@@ -346,7 +346,7 @@ map_picture("all four", "kS and kA")
 # %%
 rows = []
 for name, tests in SETS.items():
-    errors = information_matrix(
+    errors = compute_information(
         {test: all_rows[test] for test in tests}, type="simple", noise=NOISE
     ).errors
     shares = (100 * errors[gain] / truth[gain] for gain in ("kS", "kV", "kA"))

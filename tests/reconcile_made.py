@@ -35,7 +35,7 @@ PERIOD = 0.01  # [s], of what `recorded` records
 NOWHERE = Estimate(
     ModelStructure("simple"),
     {},
-    RunNuisance.seen(0),
+    RunNuisance.at_first_samples(0),
     0.0,
     np.zeros((2, 2)),
     np.empty((0, 2)),
@@ -87,9 +87,11 @@ def rubbing(gains, shares, *parts, noise, step, seed):
 
 def based(log, gains):
     """The problem of a log, and the point of gains without effects."""
-    problem = PredictionErrorProblem.of(run_records(log))
-    begun = RunNuisance.seen(len(problem.records))
-    return problem, problem.at(ModelStructure("simple"), gains, begun, problem.noise.velocity**2)
+    problem = PredictionErrorProblem.from_records(run_records(log))
+    begun = RunNuisance.at_first_samples(len(problem.records))
+    return problem, problem.evaluate(
+        ModelStructure("simple"), gains, begun, problem.noise.velocity**2
+    )
 
 
 def bench(name, effect="", *, size=1.0, simple=False):

@@ -13,7 +13,7 @@ from sim.fit.feedback_trial import (
     OWN,
     SUGGESTED,
     OwnGains,
-    delay_of,
+    feedback_delay,
     trial_doubts,
     try_feedback_gains,
 )
@@ -109,9 +109,9 @@ def test_the_learners_own_gains_are_tried_and_told_but_not_doubted():
 def test_the_logs_delay_is_the_default_presets_and_no_others():
     late = found(velocity_delay=0.14, position_delay=0.02)
 
-    assert delay_of(late, PRESETS["default"], loop="velocity") == 0.14
-    assert delay_of(late, PRESETS["default"], loop="position") == 0.02
-    assert delay_of(late, PRESETS["venom"], loop="velocity") == 5e-3
+    assert feedback_delay(late, PRESETS["default"], loop="velocity") == 0.14
+    assert feedback_delay(late, PRESETS["default"], loop="position") == 0.02
+    assert feedback_delay(late, PRESETS["venom"], loop="velocity") == 5e-3
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from sim.core.log import DIRECTIONS
 from sim.estimation.measurements import SensorNoise
 from sim.gap import Residuals, gap_map
 
-NOISE = SensorNoise(position=1e-4, velocity=0.01, grain=(1e-9, 1e-9))
+NOISE = SensorNoise(position=1e-4, velocity=0.01, resolution=(1e-9, 1e-9))
 SIZES = np.array([NOISE.position, NOISE.velocity])
 PERIOD, KS, KV = 0.02, 0.2, 2.0
 FOUR = [f"{kind}-{way}" for kind in ("quasistatic", "dynamic") for way in DIRECTIONS]

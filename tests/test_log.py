@@ -9,7 +9,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample
 from sim.core.log import Log, Run
 from sim.core.units import UNITS, unit
-from sim.io.format import sound_run
+from sim.io.format import make_run
 
 
 def run(**changes):
@@ -101,7 +101,7 @@ def test_raw_columns_become_si_and_repeated_times_are_said():
         "velocity": np.array([0.0, 1.0, 9.0, 2.0]),
     }
 
-    made, doubts = sound_run("coast-forward", signals, si=2.0, where="x.csv")
+    made, doubts = make_run("coast-forward", signals, si=2.0, where="x.csv")
 
     assert made.velocity.tolist() == [0.0, 2.0, 4.0]
     assert made.position.tolist() == [0.0, 1.0, 2.0]
@@ -113,7 +113,7 @@ def test_raw_columns_are_refused_with_file_run_and_time():
     signals = dict.fromkeys(("time", "voltage", "position"), np.arange(3.0))
 
     with pytest.raises(BadSample) as refused:
-        sound_run(
+        make_run(
             "coast-forward",
             signals | {"velocity": np.array([0, 1, math.nan])},
             si=1.0,

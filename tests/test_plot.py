@@ -17,7 +17,7 @@ from matplotlib.image import imread
 import sim
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
-from sim.inspect.fault import Stretch
+from sim.inspect.fault import LogInterval
 from sim.plot import (
     Line,
     acceleration_velocity,
@@ -48,7 +48,7 @@ PICTURES = {
     "voltage over velocity": lambda: voltage_velocity(DRIVE),
     "with lines": lambda: voltage_velocity(DRIVE, lines={"a": Line(0.2, 2.5), "b": Line(0.1, 2.4)}),
     "time series with damage": lambda: time_series(
-        DRIVE, damages=[Stretch(0, DRIVE.runs[0].test, 2.0, 2.5)]
+        DRIVE, damages=[LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5)]
     ),
     "timesteps": lambda: timesteps(DRIVE),
     "velocity over time": lambda: velocity_time(SHOOTER, median=3, beside=SHOOTER),

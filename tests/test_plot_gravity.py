@@ -9,7 +9,7 @@ from html_tags import Tags
 import sim
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
-from sim.fit.information_matrix import information_matrix
+from sim.fit.information_matrix import compute_information
 from sim.fit.sysid_rows import prepare_rows
 from sim.plot import ellipses, hold_angles, hold_window, information_map
 
@@ -30,7 +30,7 @@ def some(way):
 
 
 def about(part):
-    return information_matrix(part, type="elevator", noise=0.05).about("kS", "kG")
+    return compute_information(part, type="elevator", noise=0.05).information_on_pair("kS", "kG")
 
 
 PICTURES = {
@@ -96,7 +96,7 @@ def test_up_only_is_a_strip_on_which_one_gain_falls_as_the_other_rises():
 
 
 def test_the_errors_of_a_whole_log_are_those_of_the_rows():
-    errors = information_matrix(rows(), type="elevator", noise=0.05).errors
+    errors = compute_information(rows(), type="elevator", noise=0.05).errors
     said = [float(cell) for cell in PICTURES["map"]().table.rows[0][1:]]
     assert said == pytest.approx([errors["kS"], errors["kG"]], rel=0.01)
 

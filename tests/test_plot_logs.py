@@ -11,7 +11,7 @@ from matplotlib.patches import Rectangle
 
 from sim.core.errors import BadRequest
 from sim.core.log import KINDS, Log, Run
-from sim.inspect.fault import Damage, Stretch
+from sim.inspect.fault import Damage, LogInterval
 from sim.plot import Line, time_series, timesteps, velocity_time, voltage_velocity
 from sim.plot.picture import COLORS
 
@@ -29,7 +29,7 @@ def _boxes(picture):
 def _damage(fault, run, start, end):
     """A fault so many seconds after its run began."""
     first = FOUR.runs[run].time[0]
-    where = Stretch(run, FOUR.runs[run].test, first + start, first + end)
+    where = LogInterval(run, FOUR.runs[run].test, first + start, first + end)
     return Damage(fault, where, 0.9, "seen", "Run it again.")
 
 
@@ -87,10 +87,13 @@ def test_damage_of_one_sample_can_still_be_seen():
 @pytest.mark.parametrize(
     ("where", "words"),
     [
-        (Stretch(None, "", 0.0, 0.0), "damage, the whole log."),
-        (Stretch(None, "dynamic-reverse", 0.0, 0.0), "dynamic-reverse, which is not in the log."),
-        (Stretch(1, "quasistatic-reverse", 0.0, 99.0), "all of quasistatic-reverse."),
-        (Stretch(4, "coast-forward", 35.0, 36.0), "run 4, which is not drawn, 1.00 to 2.00 s"),
+        (LogInterval(None, "", 0.0, 0.0), "damage, the whole log."),
+        (
+            LogInterval(None, "dynamic-reverse", 0.0, 0.0),
+            "dynamic-reverse, which is not in the log.",
+        ),
+        (LogInterval(1, "quasistatic-reverse", 0.0, 99.0), "all of quasistatic-reverse."),
+        (LogInterval(4, "coast-forward", 35.0, 36.0), "run 4, which is not drawn, 1.00 to 2.00 s"),
     ],
     ids=["the log", "no run", "a whole run", "a test of another kind"],
 )
@@ -112,9 +115,9 @@ def test_much_damage_is_summed_up():
 @pytest.mark.parametrize(
     ("where", "said"),
     [
-        (Stretch(4, "coast-forward", 0.0, 1.0), "run 4 of a log whose runs are 0 to 3"),
+        (LogInterval(4, "coast-forward", 0.0, 1.0), "run 4 of a log whose runs are 0 to 3"),
         (
-            Stretch(0, "quasistatic-forward", 11.5, 11.8),
+            LogInterval(0, "quasistatic-forward", 11.5, 11.8),
             "11.50 to 11.80 s, but quasistatic-forward",
         ),
     ],

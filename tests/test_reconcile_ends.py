@@ -26,13 +26,13 @@ def session(*parts, step, frictions=(1.0, 1.0, 1.0, 1.0)):
 def at(problem, values, *effects, process_noise=1.0):
     structure = ModelStructure("simple", effects)
     size = process_noise * problem.noise.velocity**2
-    return problem.at(structure, values, RunNuisance.seen(len(problem.records)), size)
+    return problem.at(structure, values, RunNuisance.at_first_samples(len(problem.records)), size)
 
 
 def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
     wave = {"cosine": 0.19, "sine": 0.0, "turns": 3.0}  # ten of them to an error of 0.2 rad
     log = session(Part("cogging", wave), step=4.0, frictions=(1.05, 0.95, 0.96, 1.04))
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     values = {**GAINS, **{f"cogging.{name}": value for name, value in wave.items()}}
     truth, without = at(problem, values, "cogging"), at(problem, GAINS)
 
@@ -49,7 +49,7 @@ def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
 
 @pytest.mark.parametrize("off", [4.0, 0.3])
 def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
-    problem = PredictionErrorProblem.of(run_records(session(step=4.0)))
+    problem = PredictionErrorProblem.from_records(run_records(session(step=4.0)))
     far = {"kS": 0.0, "kV": off * GAINS["kV"], "kA": 20.0 * GAINS["kA"]}
     begun = at(problem, far, process_noise=4.0**6)
 
@@ -61,7 +61,7 @@ def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
 
 
 def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
-    problem = PredictionErrorProblem.of(run_records(session(step=4.0)))
+    problem = PredictionErrorProblem.from_records(run_records(session(step=4.0)))
     begun = at(problem, {"kS": 0.3, "kV": 0.8, "kA": 0.1})
     costs = [begun.cost]
 
@@ -79,7 +79,7 @@ def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
 
 def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     log = session(Part("constant-load", {"load": 0.3}), step=4.0)
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     parts = make_folds([one.session for one in problem.records])
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     spring = {**GAINS, "spring.rate": 1e-4, "spring.preload": 0.3}
@@ -96,7 +96,7 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
 
 def test_an_effect_that_needs_its_parameters_keeps_them():
     log = session(Part("spring", {"rate": 0.1, "preload": 0.0}), step=4.0)
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     parts = make_folds([one.session for one in problem.records])
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}

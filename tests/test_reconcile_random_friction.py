@@ -8,7 +8,7 @@ from reconcile_made import rubbing
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import append_prior_rows, joint_jacobian
+from sim.estimation.optimize import append_prior_rows, make_joint_jacobian
 from sim.estimation.random_friction import friction_sd, laplace_correction
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
@@ -25,12 +25,12 @@ SHARES = (1.06, 0.95, 0.98, 1.04)  # [1] of the friction that each run has
 
 def session(shares, *parts, step=4.0, seed=0):
     log = rubbing(GAINS, shares, *parts, noise=NOISE, step=step, seed=seed)
-    return PredictionErrorProblem.of(run_records(log))
+    return PredictionErrorProblem.from_records(run_records(log))
 
 
 def begun(problem, *effects, **values):
     structure = ModelStructure("simple", effects)
-    nuisance = RunNuisance.seen(len(problem.records))
+    nuisance = RunNuisance.at_first_samples(len(problem.records))
     return problem.at(structure, {**GAINS, **values}, nuisance, problem.noise.velocity**2)
 
 
@@ -117,7 +117,7 @@ def test_a_standard_error_knows_of_frictions_that_differ():
 def test_what_a_point_adjusts_to_is_what_the_priors_allow():
     problem = session(SHARES)
     point = begun(problem)
-    kept = joint_jacobian(problem, point)
+    kept = make_joint_jacobian(problem, point)
     white = problem.white(point, point.innovations)
 
     table, rest = append_prior_rows(problem, point)
@@ -125,8 +125,10 @@ def test_what_a_point_adjusts_to_is_what_the_priors_allow():
     left = rest - table @ by
     prior = rest[white.size :]
 
-    assert kept.square(white) + float(prior @ prior) == pytest.approx(float(left @ left), rel=1e-6)
-    along, size = kept.along(white, white)
+    assert kept.residual_square(white) + float(prior @ prior) == pytest.approx(
+        float(left @ left), rel=1e-6
+    )
+    along, size = kept.residual_products(white, white)
     assert 0.0 < size <= float(white @ white)
     assert along == pytest.approx(size - kept.basis.T @ white @ kept.prior, rel=1e-6)
 

@@ -56,11 +56,13 @@ def slips(scale, *, test="quasistatic-forward", lost=(), reads=(), lasts=1.0):
             run = rescale_motion(run, paces)
             runs.append(Run(name, clock + run.time, run.voltage, run.position, run.velocity))
             clock = float(runs[-1].time[-1]) + 2.0
-    problem = PredictionErrorProblem.of(
+    problem = PredictionErrorProblem.from_records(
         run_records(Log(tuple(runs), units="meters", type="simple"))
     )
-    nuisance = RunNuisance.seen(len(problem.records))
-    return list(detect_slips(problem, problem.at(BASE, gains(scale), nuisance, NOISE[1] ** 2)))
+    nuisance = RunNuisance.at_first_samples(len(problem.records))
+    return list(
+        detect_slips(problem, problem.evaluate(BASE, gains(scale), nuisance, NOISE[1] ** 2))
+    )
 
 
 @pytest.mark.parametrize("scale", [LIGHT, HEAVY])

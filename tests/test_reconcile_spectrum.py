@@ -89,13 +89,13 @@ def test_runs_that_are_too_short_have_none():
         Run(r.test, r.time[:last], r.voltage[:last], r.position[:last], r.velocity[:last])
         for r in log.runs
     ]
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     brief = PredictionErrorProblem(
         tuple(run_records(replace(log, runs=tuple(short)))), problem.noise
     )
-    seen = RunNuisance.seen(len(brief.records))
+    seen = RunNuisance.at_first_samples(len(brief.records))
 
-    point = brief.at(ModelStructure("simple"), GAINS, seen, problem.noise.velocity**2)
+    point = brief.evaluate(ModelStructure("simple"), GAINS, seen, problem.noise.velocity**2)
 
     assert find_spectral_peak(brief, point) == SpectralPeak()
 

@@ -31,10 +31,10 @@ def built(effect="", **values):
 def looked(mechanism):
     """The lively runs of a log, the best model of one body, and what the log shows."""
     log = session(mechanism, "log")
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     values = {name: mechanism.gains[name] for name in BASE.names}
-    begun = problem.at(
-        BASE, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
+    begun = problem.evaluate(
+        BASE, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
     )
     point = levenberg_marquardt(problem, begun, steps=STEPS)
     evidence = compute_voltage_residual(log, dict(BASE.model(point.values).gains), type="simple")

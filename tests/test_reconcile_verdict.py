@@ -42,13 +42,17 @@ def problem():
         recorded(test, model, step=6.0, state=State.at(0.0), noise=(1e-5, 1e-3), rng=rng)
         for test in ("dynamic-forward", "dynamic-reverse")
     ]
-    return PredictionErrorProblem.of(run_records(Log(tuple(runs), units="meters", type="simple")))
+    return PredictionErrorProblem.from_records(
+        run_records(Log(tuple(runs), units="meters", type="simple"))
+    )
 
 
 def rounds(problem, *gaps, values=GAINS, structure=None):
     """The base and what was added to it, with gaps in noises of the velocity."""
     structure = structure or ModelStructure("simple")
-    point = problem.at(structure, values, RunNuisance.seen(2), problem.noise.velocity**2)
+    point = problem.at(
+        structure, values, RunNuisance.at_first_samples(2), problem.noise.velocity**2
+    )
     sizes = [Gap(gap * problem.noise.velocity, 1e-5) for gap in gaps]
     before = [sizes[0], *sizes[:-1]]
     return [
@@ -121,7 +125,9 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
 def added(problem, *steps, values):
     """The base and each effect with the gap it left, and the gap without it in the end [noises]."""
     structure = ModelStructure("simple", tuple(name for name, *_ in steps))
-    point = problem.at(structure, values, RunNuisance.seen(2), problem.noise.velocity**2)
+    point = problem.at(
+        structure, values, RunNuisance.at_first_samples(2), problem.noise.velocity**2
+    )
     gaps = [Gap(size * problem.noise.velocity, 1e-5) for size in (2.0, *(one[1] for one in steps))]
     done = [SelectionRound(score_estimate(problem, point), gaps[0], gaps[0])]
     for (name, _, bare), gap, before in zip(steps, gaps[1:], gaps, strict=False):

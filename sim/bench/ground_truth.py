@@ -9,7 +9,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.core.errors import BadRequest
 from sim.core.units import gains_per, unit
-from sim.inspect.fault import Stretch
+from sim.inspect.fault import LogInterval
 
 
 def write_ground_truth(
@@ -17,7 +17,7 @@ def write_ground_truth(
     routine: Routine,
     *,
     path: Path,
-    faults: Iterable[tuple[str, float, Stretch]] = (),
+    faults: Iterable[tuple[str, float, LogInterval]] = (),
 ) -> None:
     """Write the true gains, per unit of the mechanism's own logs, and what is hidden, as JSON.
 

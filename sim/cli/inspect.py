@@ -42,7 +42,7 @@ def inspect(
         click.echo(json.dumps(found.to_json(), allow_nan=False))
     else:
         _show(found, title=", ".join(str(file) for file in files), runs=len(log.runs))
-    return DONE if found.clean else NOT_RIGHT
+    return DONE if found.is_clean else NOT_RIGHT
 
 
 def _show(found: "Inspection", *, title: str, runs: int) -> None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from sim.bench.mechanism import Mechanism
     from sim.core.log import Log
-    from sim.inspect.fault import Stretch
+    from sim.inspect.fault import LogInterval
 
 
 @click.command()
@@ -148,7 +148,7 @@ def _hiding(mechanism: "Mechanism", asked: Iterable[str]) -> "Mechanism":
 
 def _damaged(
     log: "Log", asked: Iterable[str], rng: "np.random.Generator"
-) -> "tuple[Log, list[tuple[str, float, Stretch]]]":
+) -> "tuple[Log, list[tuple[str, float, LogInterval]]]":
     """The log with the faults that are asked for, and where each is."""
     from sim.inspect.contaminate import contaminate, parse_fault_request  # noqa: PLC0415 - only with --fault
 

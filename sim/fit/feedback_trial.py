@@ -84,17 +84,18 @@ def try_feedback_gains(
     if own is not None and tried:
         tried.append((OWN, own.loop, own.gains))
     done = (
-        _tried(found, preset, whose=whose, loop=loop, gains=gains) for whose, loop, gains in tried
+        _try_loop(found, preset, whose=whose, loop=loop, gains=gains)
+        for whose, loop, gains in tried
     )
     return tuple(trial for trial in done if trial is not None)
 
 
-def _tried(
+def _try_loop(
     found: Fit, preset: Preset, *, whose: str, loop: str, gains: Feedback
 ) -> FeedbackTrial | None:
     held = {**found.gains, "kS": max(found.gains["kS"], 0.0)}  # friction below zero would push
     plant = Plant(found.type, held, angle=unit(found.units).si)
-    target, delay = plant.step(loop), delay_of(found, preset, loop=loop)
+    target, delay = plant.step(loop), feedback_delay(found, preset, loop=loop)
     if not target > 0.0:
         return None
     response = step_response(
@@ -103,7 +104,7 @@ def _tried(
     return FeedbackTrial(whose, loop, gains, preset, delay, response, judge_step_response(response))
 
 
-def delay_of(found: Fit, preset: Preset, *, loop: str) -> float:
+def feedback_delay(found: Fit, preset: Preset, *, loop: str) -> float:
     """[s] the delay that gains are computed for: the log's with the default, else the preset's."""
     if preset is not PRESETS["default"]:
         return preset.delay
@@ -124,7 +125,7 @@ def trial_doubts(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tuple[Doubt, .
 
 def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
     late = f" with {1000 * trial.delay:.3g} ms of delay" if trial.delay > LEAST_DELAY else ""
-    other = next((one for one in _others(found, trial) if one.good), None)
+    other = next((one for one in _suggest_others(found, trial) if one.good), None)
     cure = (
         f"Start from {format_gain_pair(other.gains)} instead: it {other.verdict.words}."
         if other
@@ -138,7 +139,7 @@ def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
     )
 
 
-def _others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
+def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
     """What the same recipe suggests for other allowed errors; what is too weak, for smaller."""
     kv, ka, preset, delay = found.gains["kV"], found.gains["kA"], trial.preset, trial.delay
     allowed = allowed_velocity_error(ks=found.gains["kS"], kv=kv)
@@ -154,7 +155,7 @@ def _others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
                 kv=kv, ka=ka, preset=preset, position_error=times * POSITION_ERROR,
                 velocity_error=least, delay=delay,
             )  # fmt: skip
-        other = _tried(found, preset, whose=trial.whose, loop=trial.loop, gains=gains)
+        other = _try_loop(found, preset, whose=trial.whose, loop=trial.loop, gains=gains)
         if other is not None:
             yield other
 

@@ -51,9 +51,9 @@ def doubt_misfit(followed: OpenLoopReplay, *, hint: str = "") -> tuple[Doubt, ..
         followed: how it follows.
         hint: which type would do better, if one does.
     """
-    if not followed.strays:
+    if not followed.has_misfit:
         return ()
-    times, share = followed.rmse / followed.noise, followed.rmse / followed.top
+    times, share = followed.rmse / followed.noise, followed.rmse / followed.top_speed
     return (
         Doubt(
             "model-strays",

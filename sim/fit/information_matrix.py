@@ -49,7 +49,7 @@ class InformationMatrix:
             for name, gone, square, one in zip(self.names, lost, squares, scale, strict=True)
         }
 
-    def about(self, first: str, second: str) -> Array:
+    def information_on_pair(self, first: str, second: str) -> Array:
         """(2, 2) what the rows tell of two gains, the others being unknown, too.
 
         Raises:
@@ -67,7 +67,7 @@ class InformationMatrix:
         return np.asarray(mine - mixed @ others @ mixed.T)
 
 
-def information_matrix(rows: Mapping[str, Rows], *, type: str, noise: float) -> InformationMatrix:  # noqa: A002 - the field's word
+def compute_information(rows: Mapping[str, Rows], *, type: str, noise: float) -> InformationMatrix:  # noqa: A002 - the field's word
     """Information of rows about kS, kV, kA, and about kG where there is gravity.
 
     Args:

@@ -81,7 +81,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     position_noise, velocity_noise = _position_noise(seen, tracks), estimate_noise(seen).velocity
     return tuple(
         RunReplay(
-            _last(run, part.time.size),
+            _last_samples(run, part.time.size),
             track.position,
             track.seen,
             part.moving,
@@ -105,10 +105,10 @@ def _model(found: Fit) -> tuple[float, Model]:
             f"kA = {found.gains['kA']:.3g}",
             advice="Settle first why the fit finds a gain below zero.",
         )
-    return way, Model(found.type, gains, tuple(_lags(found)))
+    return way, Model(found.type, gains, tuple(_sensor_lags(found)))
 
 
-def _lags(found: Fit) -> list[Part]:
+def _sensor_lags(found: Fit) -> list[Part]:
     """The lag and the averaging of the velocity that the fit found; the recipe's are no model's."""
     if found.method != "output-error":
         return []
@@ -134,7 +134,7 @@ def _position_noise(seen: Sequence[RunMeasurements], tracks: Sequence[Track]) ->
     return ROBUST * float(np.median(every)) / math.sqrt(THIRD) if every.size else 0.0
 
 
-def _last(run: Run, count: int) -> Run:
+def _last_samples(run: Run, count: int) -> Run:
     """The last samples of a run."""
     cut = slice(len(run) - count, None)
     return Run(run.test, run.time[cut], run.voltage[cut], run.position[cut], run.velocity[cut])

@@ -17,7 +17,7 @@ from dataclasses import replace
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
 from sim.core.units import unit
-from sim.estimation.initial_guess import clamp_to_physical, first_guess
+from sim.estimation.initial_guess import clamp_to_physical, guess_gains
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
@@ -110,7 +110,7 @@ def _problem(log: Log, validation: Log | None, aside: DamageDecision) -> Predict
     if validation is not None:
         since = session_length(log)
         every += run_records(validation, session=1, since=since, aside=aside.of(VALIDATION))
-    return PredictionErrorProblem.of(every)
+    return PredictionErrorProblem.from_records(every)
 
 
 def _without_slips(
@@ -122,9 +122,9 @@ def _without_slips(
         return problem, base, ()
     runs = list(problem.records)
     for number, one in found:
-        runs[number] = runs[number].without(ExcludedInterval(number, one.start, one.end))
+        runs[number] = runs[number].exclude_interval(ExcludedInterval(number, one.start, one.end))
     mended = replace(problem, records=tuple(runs))
-    begin = mended.at(base.structure, base.values, base.nuisance, base.process_noise)
+    begin = mended.evaluate(base.structure, base.values, base.nuisance, base.process_noise)
     return mended, minimize(mended, scan_process_noise(mended, begin)), (found[0][1],)
 
 
@@ -150,7 +150,7 @@ def _fit_base_model(
     base = _base(problem, log, type=type)
     if not math.isfinite(base.cost) or _lost(problem, base) < LOST:
         return problem, base
-    bound = replace(problem, most_q=(WANDERS * problem.top) ** 2)
+    bound = replace(problem, max_process_noise=(WANDERS * problem.top_speed) ** 2)
     other = _base(bound, log, type=type)
     if math.isfinite(other.cost) and _lost(bound, other) < MAJOR * _lost(problem, base):
         return bound, other
@@ -165,11 +165,14 @@ def _lost(problem: PredictionErrorProblem, base: Estimate) -> float:
 
 def _base(problem: PredictionErrorProblem, log: Log, *, type: str) -> Estimate:  # noqa: A002 - as above
     """Fit the base model, without effects."""
-    guess = clamp_to_physical(first_guess(log, type=type))
+    guess = clamp_to_physical(guess_gains(log, type=type))
     structure = ModelStructure(type)
     values = {name: guess[name] for name in structure.names}
-    begin = problem.at(
-        structure, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
+    begin = problem.evaluate(
+        structure,
+        values,
+        RunNuisance.at_first_samples(len(problem.records)),
+        problem.noise.velocity**2,
     )
     return minimize_fully(
         problem,

@@ -141,7 +141,7 @@ def refit_without(problem: PredictionErrorProblem, candidate: Candidate, effect:
     point = candidate.point
     structure = point.structure - effect
     values = {name: point.values[name] for name in structure.names}
-    begin = problem.at(structure, values, point.nuisance, point.process_noise)
+    begin = problem.evaluate(structure, values, point.nuisance, point.process_noise)
     return score_estimate(problem, minimize(problem, begin))
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
-from sim.estimation.optimize import joint_jacobian, levenberg_marquardt
+from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.estimation.random_friction import laplace_correction
 from sim.physics.effect import Effect
 from sim.physics.effects import EFFECTS
@@ -62,7 +62,7 @@ class Candidate:
 
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
     """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
-    values = point.structure.free * math.log(max(problem.count, 2))
+    values = point.structure.free_count * math.log(max(problem.sample_count, 2))
     own = laplace_correction(point.values, problem.friction_jacobian(point))
     return Candidate(effect, point, point.cost + own + backlash_phase_prior(point) + values)
 
@@ -124,9 +124,11 @@ def descend_candidate(
     if not _shakes(start):
         return levenberg_marquardt(problem, start, steps=A_LITTLE)
     gone = levenberg_marquardt(problem, start, steps=FURTHER)
-    if gone.cost < point.cost or not start.nuisance.is_meshed:
+    if gone.cost < point.cost or not start.nuisance.has_backlash_phase:
         return gone
-    untold = problem.at(start.structure, start.values, start.nuisance.unmeshed, start.process_noise)
+    untold = problem.evaluate(
+        start.structure, start.values, start.nuisance.without_backlash_phase, start.process_noise
+    )
     return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=total_cost)
 
 
@@ -140,7 +142,7 @@ def _calmer(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None
     calm = CALM * problem.noise.velocity**2
     if point.process_noise <= AGITATED * calm:
         return None
-    calmer = problem.at(point.structure, point.values, point.nuisance, calm)
+    calmer = problem.evaluate(point.structure, point.values, point.nuisance, calm)
     calmer = levenberg_marquardt(problem, calmer, steps=A_LITTLE)
     return calmer if math.isfinite(calmer.cost) else None
 
@@ -173,10 +175,11 @@ def simplify_effect(
     values = old.simplified(mine, evidence)
     structure = point.structure - old.name + name
     more = {
-        f"{name}.{one}": structure.within(f"{name}.{one}", value) for one, value in values.items()
+        f"{name}.{one}": structure.clamp_value(f"{name}.{one}", value)
+        for one, value in values.items()
     }
     kept = {one: point.values[one] for one in (point.structure - old.name).names}
-    return problem.at(structure, {**kept, **more}, point.nuisance, point.process_noise)
+    return problem.evaluate(structure, {**kept, **more}, point.nuisance, point.process_noise)
 
 
 def _each_once(points: Iterable[Estimate]) -> list[Estimate]:
@@ -196,7 +199,7 @@ def _begun(
     Of what shakes, each valley that its lively runs show: how promising one is, is no sign of where
     it leads. ``heavy`` tries two bodies of more inertia, too.
     """
-    kept = joint_jacobian(problem, point)
+    kept = make_joint_jacobian(problem, point)
     found = []
     lively = None
     for effect in effects:

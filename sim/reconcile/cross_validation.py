@@ -72,19 +72,22 @@ def validation_gap(problem: PredictionErrorProblem, point: Estimate, parts: Sequ
         if not (_tells(problem, part.fitted) and _tells(problem, part.predicted)):
             continue
         fitted = _some(problem, part.fitted)
-        begin = fitted.at(
-            point.structure, point.values, point.nuisance.of(part.fitted), point.process_noise
+        begin = fitted.evaluate(
+            point.structure,
+            point.values,
+            point.nuisance.select_runs(part.fitted),
+            point.process_noise,
         )
         found = levenberg_marquardt(fitted, begin, steps=REFIT)
-        nuisance = point.nuisance.of(part.predicted).alike
+        nuisance = point.nuisance.select_runs(part.predicted).with_common_friction
         errors.append(open_loop_errors(_some(problem, part.predicted), found, nuisance, eased=True))
     return rms_gap(np.concatenate(errors))
 
 
 def _tells(problem: PredictionErrorProblem, chosen: Sequence[int]) -> bool:
     """Whether anything of these runs is compared."""
-    edges = problem.edges.tolist()
-    return any(problem.telling[edges[n] : edges[n + 1]].any() for n in chosen)
+    edges = problem.run_edges.tolist()
+    return any(problem.informative[edges[n] : edges[n + 1]].any() for n in chosen)
 
 
 def open_loop_errors(
@@ -99,9 +102,9 @@ def open_loop_errors(
         eased: each run may have a friction of its own, as ``friction.py`` has it: what one run's
             accident does to the gap says nothing about an effect.
     """
-    track = problem.track(point.structure.model(point.values), nuisance)
+    track = problem.simulate(point.structure.model(point.values), nuisance)
     errors = problem.measured - track.read
-    moves = problem.moving | ((track.velocity != 0.0) & problem.telling)
+    moves = problem.moving | ((track.velocity != 0.0) & problem.informative)
     if not eased:
         return np.asarray(errors[moves])
     errors = _with_run_friction(problem, point, nuisance, track, moves)
@@ -126,7 +129,7 @@ def _with_run_friction(
     model, runs = point.structure.model(point.values), len(problem.records)
 
     def missed(rubs: Array) -> Array:
-        other = problem.track(model, nuisance.rubbing(rubs)) if rubs.any() else track
+        other = problem.simulate(model, nuisance.add_friction(rubs)) if rubs.any() else track
         return _missed(problem, other)
 
     every = np.stack([missed(np.full(runs, share * most)) for share in EASED])  # (shares, n, 2)
@@ -137,7 +140,7 @@ def _with_run_friction(
     between = missed((np.array(EASED)[best] + (EASED[1] - EASED[0]) * aside) * most)
     every = np.concatenate([every, between[None]])
     best = np.argmin(_costs(problem, every, moves), axis=0)
-    return np.asarray(every[np.repeat(best, np.diff(problem.edges)), np.arange(len(moves))])
+    return np.asarray(every[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(moves))])
 
 
 def parabola_minima(less: Array, here: Array, more: Array) -> Array:
@@ -152,7 +155,7 @@ def _costs(problem: PredictionErrorProblem, every: Array, moves: NDArray[np.bool
     with np.errstate(over="ignore", invalid="ignore"):  # of what ran away
         squares = np.where(moves[:, None] & ~np.isnan(every), np.square(every), 0.0)
         sizes = np.mean(squares[EASED.index(0.0)], axis=0) + 1e-300
-        costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.edges[:-1], axis=1)
+        costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.run_edges[:-1], axis=1)
     return np.asarray(np.nan_to_num(costs, nan=np.inf))
 
 

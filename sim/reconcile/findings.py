@@ -162,7 +162,7 @@ def list_remarks(
         why = "no more than on other robots, or too little to narrow the gap"
         said.append(f"In the last model there is also a little {what}: {why}.")
     said += [BELIED.format(name) for name in unsure]
-    if structure.plays and not _turned(problem):
+    if structure.has_backlash and not _turned(problem):
         said.append(TURNLESS)
     return tuple(said)
 
@@ -171,7 +171,7 @@ def _turned(problem: PredictionErrorProblem) -> bool:
     """Whether it moved both ways within a run."""
     ways = [
         np.sign(problem.measured[first:last, 1][problem.moving[first:last]])
-        for first, last in pairwise(problem.edges.tolist())
+        for first, last in pairwise(problem.run_edges.tolist())
     ]
     return any((one > 0.0).any() and (one < 0.0).any() for one in ways)
 
@@ -223,5 +223,5 @@ def standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[st
     told, ways = np.linalg.eigh(table.T @ table)
     inverse = (ways / np.maximum(told, 1e-11)) @ ways.T
     errors = np.sqrt(np.maximum(np.diag(inverse), 0.0)) / size
-    names = point.structure.searched
+    names = point.structure.searched_names
     return {name: float(error) for name, error in zip(names, errors, strict=False) if error > 0.0}

@@ -73,7 +73,7 @@ class HeldOutLog:
         again = _again(logs)
         return cls(
             log,
-            PredictionErrorProblem.of(
+            PredictionErrorProblem.from_records(
                 run_records(log, since=_since(logs, name), aside=aside.of(name))
             ),
             again.get(name, HOW[name]),
@@ -107,7 +107,7 @@ class HeldOutLog:
     @property
     def compared(self) -> tuple[NDArray[np.bool_], ...]:
         """A run -> (n,) its samples that count: where it moves, and nothing was set aside."""
-        return tuple(one.measurements.telling for one in self.problem.records)
+        return tuple(one.measurements.informative for one in self.problem.records)
 
     def places(self, base: Chapter) -> tuple[Place, ...]:
         """Where the base model's velocity is off, the surest first."""
@@ -127,14 +127,14 @@ class HeldOutLog:
             rms_gap(open_loop_errors(self.problem, point, nuisance)).velocity
             / unit(self.log.units).si
         )
-        track = self.problem.track(model, nuisance).read
-        runs = tuple(track[first:last] for first, last in pairwise(self.problem.edges.tolist()))
+        track = self.problem.simulate(model, nuisance).read
+        runs = tuple(track[first:last] for first, last in pairwise(self.problem.run_edges.tolist()))
         return Chapter(one.candidate.effect, model, one.tried, gap, runs)
 
     def _outset(self, point: Estimate) -> RunNuisance:
         """How its runs begin: where they were first seen, and where in free play they say."""
-        seen = RunNuisance.seen(len(self.problem.records))
-        here = self.problem.at(point.structure, point.values, seen, point.process_noise)
+        seen = RunNuisance.at_first_samples(len(self.problem.records))
+        here = self.problem.evaluate(point.structure, point.values, seen, point.process_noise)
         for _ in range(LOOKS):
             here = estimate_backlash_phase(self.problem, here)
         return here.nuisance
@@ -149,7 +149,7 @@ def _since(logs: Mapping[str, Log | None], name: str) -> float:
 def _plays(chapter: Chapter) -> bool:
     """Whether motor and load of its model have free play."""
     names = tuple(part.effect for part in chapter.model.parts)
-    return ModelStructure(chapter.model.type, names).plays
+    return ModelStructure(chapter.model.type, names).has_backlash
 
 
 def _again(logs: Mapping[str, Log | None]) -> dict[str, str]:

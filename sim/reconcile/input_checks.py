@@ -7,7 +7,7 @@ import numpy as np
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import Log, Run
 from sim.core.units import unit
-from sim.estimation.initial_guess import first_guess
+from sim.estimation.initial_guess import guess_gains
 from sim.estimation.model_structure import ModelStructure
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
 
@@ -45,7 +45,7 @@ def check_logs(
             advice="Say --units radians, rotations or degrees, or --type elevator.",
         )
     _check_voltage(log)
-    guess = first_guess(log, type=type)
+    guess = guess_gains(log, type=type)
     _check_way(log, guess, type=type)
     others = [other for other in (validation, held_out) if other is not None]
     for other in others:

@@ -61,10 +61,10 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     found = [_settled(problem, point)]
     calm = CALM * problem.noise.velocity**2
     if found[0].process_noise > AGITATED * calm:
-        calmer = problem.at(point.structure, found[0].values, found[0].nuisance, calm)
+        calmer = problem.evaluate(point.structure, found[0].values, found[0].nuisance, calm)
         found.append(_settled(problem, levenberg_marquardt(problem, calmer, steps=STEPS)))
     best = min(found, key=total_cost)
-    return _tight(problem, best) if point.structure.plays else best
+    return _tight(problem, best) if point.structure.has_backlash else best
 
 
 def _tight(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -115,24 +115,26 @@ def predicted_improvement(
     """
 
     def begun(one: Mapping[str, float]) -> tuple[float, Estimate]:
-        other = problem.at(structure, {**point.values, **one}, point.nuisance, point.process_noise)
-        if not point.structure.plays:  # else its runs are told by now
+        other = problem.evaluate(
+            structure, {**point.values, **one}, point.nuisance, point.process_noise
+        )
+        if not point.structure.has_backlash:  # else its runs are told by now
             other = estimate_backlash_phase(problem, other, aside=not as_given)
         if not math.isfinite(other.cost):
             return -math.inf, other
-        return square - kept.square(problem.white(point, other.innovations)) - backlash_phase_prior(
-            other
-        ), other
+        return square - kept.residual_square(
+            problem.whiten(point, other.innovations)
+        ) - backlash_phase_prior(other), other
 
-    now = problem.white(point, point.innovations)
-    square = kept.square(now)
+    now = problem.whiten(point, point.innovations)
+    square = kept.residual_square(now)
     found = []
     for one in more:
         gained, other = begun(one)
         if not math.isfinite(gained):
             continue
-        change = problem.white(point, other.innovations) - now
-        along, size = kept.along(change, now)
+        change = problem.whiten(point, other.innovations) - now
+        along, size = kept.residual_products(change, now)
         part = -along / size if size > 0.0 else 0.0
         found.append((gained, other))
         if as_given or not _another_size(structure, part):
@@ -180,7 +182,7 @@ def _sized(structure: ModelStructure, one: Mapping[str, float], part: float) -> 
     """A start at a part of its size."""
     sizes = _sizes(structure)
     return {
-        name: structure.within(name, value * part) if name in sizes else value
+        name: structure.clamp_value(name, value * part) if name in sizes else value
         for name, value in one.items()
     }
 
@@ -188,7 +190,7 @@ def _sized(structure: ModelStructure, one: Mapping[str, float], part: float) -> 
 def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The same values with the likeliest process noise of its whole range."""
     tried = [
-        problem.at(
+        problem.evaluate(
             point.structure, point.values, point.nuisance, point.process_noise * FACTOR**power
         )
         for power in SCANNED

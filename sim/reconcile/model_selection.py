@@ -97,8 +97,8 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
         if top - one.tried.score <= SIMPLER
         or (one.candidate.effect == simpler and one.tried.score > AS_GOOD * top)
     ]
-    fewest = min(one.candidate.point.structure.free for one in near)
-    near = [one for one in near if one.candidate.point.structure.free == fewest]
+    fewest = min(one.candidate.point.structure.free_count for one in near)
+    near = [one for one in near if one.candidate.point.structure.free_count == fewest]
     likeliest = max(near, key=lambda one: one.tried.score)
     nearest = min(near, key=lambda one: one.tried.gap)
     return nearest if nearest.tried.gap < NARROWER * likeliest.tried.gap else likeliest
@@ -178,5 +178,5 @@ def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
 
 def score_improvement(now: Candidate, other: Candidate) -> float:
     """[of -2 log L] by which one model is likelier than another."""
-    fewer = now.point.structure.free - other.point.structure.free
+    fewer = now.point.structure.free_count - other.point.structure.free_count
     return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)

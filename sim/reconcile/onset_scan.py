@@ -100,7 +100,7 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
             changed = {f"{name}.{one}": value for one, value in {**kind, UNTIL: until}.items()}
             values = {**point.values, **changed}
             if values != point.values:
-                yield problem.at(point.structure, values, point.nuisance, point.process_noise)
+                yield problem.evaluate(point.structure, values, point.nuisance, point.process_noise)
 
 
 def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -113,10 +113,13 @@ def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
             continue
         onset, step, structure = f"{name}.{ONSET}", problem.period, point.structure
         for _ in range(HALVINGS):
-            around = (structure.within(onset, point.values[onset] + by) for by in (-step, step))
+            around = (
+                structure.clamp_value(onset, point.values[onset] + by) for by in (-step, step)
+            )
             moved = ({**point.values, onset: moment} for moment in around)
             tried = [
-                problem.at(structure, one, point.nuisance, point.process_noise) for one in moved
+                problem.evaluate(structure, one, point.nuisance, point.process_noise)
+                for one in moved
             ]
             point = min(point, *tried, key=lambda one: one.cost)
             step *= 0.5
@@ -178,8 +181,8 @@ class _Scan:
             for record in problem.records
         ]
         self._some: dict[tuple[int, ...], tuple[PredictionErrorProblem, RunNuisance]] = {}
-        rest = problem.white(point, point.innovations)
-        self.rest = rest - kept.basis @ kept.taken(rest)
+        rest = problem.whiten(point, point.innovations)
+        self.rest = rest - kept.basis @ kept.project(rest)
 
     def coarse(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
         """Each run's likeliest moment, for the rest of the run and for good.
@@ -234,7 +237,7 @@ class _Scan:
         A knock echoes in the innovations until measurements have corrected it, everywhere alike.
         """
         rest = self.rest[slice(*self._edges[run : run + 2])].reshape(-1, 2)
-        speed = self.problem.measured[slice(*self.problem.edges[run : run + 2]), 1]
+        speed = self.problem.measured[slice(*self.problem.run_edges[run : run + 2]), 1]
         echo = self._echo[: len(rest)]
         size = np.cumsum(np.sum(np.square(echo), axis=1))
         heard = sum(np.correlate(rest[:, n], echo[:, n], "full")[len(echo) - 1 :] for n in (0, 1))
@@ -258,7 +261,7 @@ class _Scan:
         for _ in range(min(max(math.ceil(ECHO / (rate * dt)), 4), LONGEST)):
             heard.append(off)
             off = step @ off
-        return self.problem.white(self.point, np.array(heard)).reshape(-1, 2)
+        return self.problem.whiten(self.point, np.array(heard)).reshape(-1, 2)
 
     def _sized(self, size: float) -> dict[str, float]:
         return {one.name: size for one in self.effect.parameters if one.searched}
@@ -275,25 +278,25 @@ class _Scan:
             ahead = some.predict_errors(model, nuisance, self.point.kalman_gain, clocks)
             return [
                 self._summed(run, (ahead[slice(*rows)] - self._plain[run]) / size)
-                for run, rows in zip(runs, pairwise(some.edges.tolist()), strict=True)
+                for run, rows in zip(runs, pairwise(some.run_edges.tolist()), strict=True)
             ]
 
     def _summed(self, run: int, change: Array) -> _Sums:
-        one, rows = self.problem.white(self.point, change), slice(*self._edges[run : run + 2])
+        one, rows = self.problem.whiten(self.point, change), slice(*self._edges[run : run + 2])
         return _Sums(float(one @ self.rest[rows]), float(one @ one), self.kept[rows].T @ one)
 
     def _alone(self, runs: tuple[int, ...]) -> tuple[PredictionErrorProblem, RunNuisance]:
         """These runs, none finding warm what another heated, and how they begin."""
         if runs not in self._some:
-            records = (replace(self.problem.records[run], memory=run) for run in runs)
+            records = (replace(self.problem.records[run], memory_group=run) for run in runs)
             some = PredictionErrorProblem(tuple(records), self.problem.noise)
-            self._some[runs] = some, self.point.nuisance.of(runs)
+            self._some[runs] = some, self.point.nuisance.select_runs(runs)
         return self._some[runs]
 
     @property
     def _edges(self) -> list[int]:
         """(runs + 1,) where each run begins among white innovations."""
-        edges: list[int] = (2 * self.problem.edges).tolist()
+        edges: list[int] = (2 * self.problem.run_edges).tolist()
         return edges
 
     @cached_property
@@ -302,4 +305,4 @@ class _Scan:
         alone, nuisance = self._alone(tuple(range(len(self.problem.records))))
         model = self.point.structure.model(self.point.values)
         ahead = alone.predict_errors(model, nuisance, self.point.kalman_gain)
-        return [ahead[slice(*rows)] for rows in pairwise(self.problem.edges.tolist())]
+        return [ahead[slice(*rows)] for rows in pairwise(self.problem.run_edges.tolist())]

@@ -98,10 +98,10 @@ def detect_slips(
 
 def _errors(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[int, _Errors]]:
     """Which run -> what is left of it."""
-    speeds = problem.track(point.structure.model(point.values), point.nuisance).seen
+    speeds = problem.simulate(point.structure.model(point.values), point.nuisance).seen
     near = max(round(BESIDE / problem.period), 3)
-    for number, (first, last) in enumerate(pairwise(problem.edges.tolist())):
-        record, told = problem.records[number], problem.telling[first:last].copy()
+    for number, (first, last) in enumerate(pairwise(problem.run_edges.tolist())):
+        record, told = problem.records[number], problem.informative[first:last].copy()
         left = np.nan_to_num(problem.measured[first:last, 1] - speeds[first:last])
         moves = np.flatnonzero(record.measurements.moving)
         if left.size < SHORT * near or not told.any() or not moves.size:

@@ -11,7 +11,7 @@ from math import isclose, isfinite
 
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import joint_jacobian, levenberg_marquardt
+from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.physics.effects import EFFECTS
 from sim.reconcile.local_minimum import Begun, predicted_improvement, total_cost
 from sim.reconcile.thresholds import SURE
@@ -42,12 +42,12 @@ class TwoBodyStarts:
         self.problem = PredictionErrorProblem(
             tuple(problem.records[n] for n in chosen), problem.noise
         )
-        self.point = self.problem.at(
-            point.structure, point.values, point.nuisance.of(chosen), point.process_noise
+        self.point = self.problem.evaluate(
+            point.structure, point.values, point.nuisance.select_runs(chosen), point.process_noise
         )
         if isfinite(self.point.cost):  # else all of them were set aside, or fly off
             self.there = True
-            self.kept = joint_jacobian(self.problem, self.point)
+            self.kept = make_joint_jacobian(self.problem, self.point)
 
     def valleys(
         self, structure: ModelStructure, more: list[dict[str, float]], *, heavy: bool

@@ -8,7 +8,7 @@ from sim.core.errors import BadRequest
 from sim.core.units import unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
-from sim.fit.feedback_trial import SUGGESTED, FeedbackTrial, delay_of, try_feedback_gains
+from sim.fit.feedback_trial import SUGGESTED, FeedbackTrial, feedback_delay, try_feedback_gains
 from sim.plot.table import to_text
 from sim.report.fit_terminal import format_error
 from sim.report.robot_code_snippet import LANGUAGES, SEASONS, robot_code_snippet, round_to_error
@@ -120,7 +120,7 @@ def controller_rows(found: Fit) -> list[ControllerRow]:
             if trial.whose == SUGGESTED
         }
         if {"velocity", "position"} <= set(tried):
-            delays = {1000.0 * delay_of(found, preset, loop=loop) for loop in tried}
+            delays = {1000.0 * feedback_delay(found, preset, loop=loop) for loop in tried}
             rows.append(
                 ControllerRow(
                     preset.name,

@@ -23,7 +23,7 @@ import sim
 from sim.core.errors import Refusal
 from sim.core.log import Log, Run
 from sim.fit import fit
-from sim.fit.regression import regress
+from sim.fit.regression import regress_acceleration
 from sim.fit.sysid_rows import prepare_rows
 from sim.physics.model import Model, Part
 from sim.physics.replay import replay
@@ -79,8 +79,8 @@ def by_recipe(log: Log, run: Run, type_: str) -> Model | None:
     """SysId's recipe without the rows of one run."""
     try:
         rows = prepare_rows(log).rows
-        kept = {t: part.where(slice(0, 0)) if t == run.test else part for t, part in rows.items()}
-        return Model(type_, regress(kept, type=type_).gains)
+        kept = {t: part.select(slice(0, 0)) if t == run.test else part for t, part in rows.items()}
+        return Model(type_, regress_acceleration(kept, type=type_).gains)
     except Refusal:
         return None
 

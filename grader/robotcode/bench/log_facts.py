@@ -30,7 +30,7 @@ from sim.core.errors import Refusal
 from sim.core.log import Array, Log, Run
 from sim.core.units import unit
 from sim.io import read
-from sim.io.formats.wpilog.contents import contents_of
+from sim.io.formats.wpilog.contents import read_contents
 from sim.io.formats.wpilog.records import load_records
 
 STATE = "sysid-test-state-"
@@ -213,7 +213,7 @@ def _with_log(path: Path, trace: BenchTrace, facts: dict[str, Any]) -> RunFacts:
 
 def _names(path: Path) -> list[str] | None:
     """The motors of the log that have all three signals; None if it does not name the tests."""
-    entries = contents_of(load_records(path)).entries
+    entries = read_contents(load_records(path)).entries
     state = next((one.name for one in entries if one.name.startswith(STATE)), None)
     if state is None:
         return None

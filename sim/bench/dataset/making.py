@@ -18,7 +18,7 @@ from sim.core.errors import Refusal
 from sim.core.log import Log, Run
 from sim.core.units import gains_per, unit
 from sim.inspect.contaminate import contaminate
-from sim.inspect.fault import Spoilt, Stretch
+from sim.inspect.fault import DamagedLog, LogInterval
 from sim.io import write
 
 ALONE = threading.Lock()  # a worker of a cluster has many threads, and the engine is loaded once
@@ -118,7 +118,7 @@ def _rounded(run: Run) -> dict[str, Any]:
     }
 
 
-def _spoil(log: Log, job: LogJob) -> tuple[Log, list[tuple[Stretch, ...]]]:
+def _spoil(log: Log, job: LogJob) -> tuple[Log, list[tuple[LogInterval, ...]]]:
     """The log with all its faults, and where each of them is."""
     where = []
     for number, strike in enumerate(job.strikes):
@@ -128,7 +128,7 @@ def _spoil(log: Log, job: LogJob) -> tuple[Log, list[tuple[Stretch, ...]]]:
     return log, where
 
 
-def _struck(log: Log, strike: PlannedStrike, job: LogJob, number: int) -> Spoilt:
+def _struck(log: Log, strike: PlannedStrike, job: LogJob, number: int) -> DamagedLog:
     """The log with one more fault; where chance chose a moment that cannot be, it chooses again."""
     attempt = 0
     while True:
@@ -160,7 +160,7 @@ def _contents(log: Log, job: LogJob) -> dict[str, bytes]:
 
 
 def _truth(
-    built: Mechanism, job: LogJob, *, log: Log, where: list[tuple[Stretch, ...]]
+    built: Mechanism, job: LogJob, *, log: Log, where: list[tuple[LogInterval, ...]]
 ) -> dict[str, object]:
     """What is true of a log, as it stands in the key."""
     per = unit(built.units)
@@ -200,7 +200,7 @@ def _flat(settings: dict[str, Any]) -> dict[str, Any]:
     return {**routine, **settings, "tests": list(settings["tests"])}
 
 
-def _stretch(found: Stretch, log: Log) -> dict[str, object]:
+def _stretch(found: LogInterval, log: Log) -> dict[str, object]:
     """A damaged part, in the log as it ended up: a later fault may remove a run, or rename it."""
     number = None if found.run is None else _run_at((found.start + found.end) / 2.0, log)
     return {

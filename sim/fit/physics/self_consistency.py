@@ -22,7 +22,7 @@ def friction_doubts(found: Fit) -> list[Doubt]:
     surely = ks - SURELY * found.errors["kS"]
     share = f"kS = {ks:.2f} V, {ks / NOMINAL:.0%} of 12 V,"
     if surely > CRUISE * NOMINAL:
-        at = f" ({_shown(found, CRUISE * NOMINAL / kv)})" if kv > 0.0 else ""
+        at = f" ({_format_speed(found, CRUISE * NOMINAL / kv)})" if kv > 0.0 else ""
         return [
             Doubt(
                 "friction-stop",
@@ -44,7 +44,7 @@ def friction_doubts(found: Fit) -> list[Doubt]:
     ]
 
 
-def _shown(found: Fit, speed: float) -> str:
+def _format_speed(found: Fit, speed: float) -> str:
     """A speed in the unit of the log's owner."""
     per = unit(found.log_units)
     return f"{speed / per.si:.3g} {per.symbol}/s"

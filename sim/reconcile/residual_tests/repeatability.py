@@ -69,12 +69,12 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
         point: what is believed.
     """
     missed = smooth_innovations(problem, point)
-    track = problem.track(point.structure.model(point.values), point.nuisance, point.kalman_gain)
+    track = problem.simulate(point.structure.model(point.values), point.nuisance, point.kalman_gain)
     speed, position = track.seen, problem.measured[:, 0]
     position = np.where(np.isnan(position), track.position, position)
-    told = ~problem.ignored.all(axis=1)
-    told &= np.abs(speed) > SLOW * problem.top
-    run = np.repeat(np.arange(len(problem.records)), np.diff(problem.edges))
+    told = ~problem.ignored_readings.all(axis=1)
+    told &= np.abs(speed) > SLOW * problem.top_speed
+    run = np.repeat(np.arange(len(problem.records)), np.diff(problem.run_edges))
     found = []
     for what, value in ((POSITION, position), (SPEED, speed)):
         ways = {
@@ -90,8 +90,8 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
 def smooth_innovations(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(n,) disturbance per sample, estimated from whitened innovations."""
     period = problem.period
-    push = problem.white(point, np.array([[0.5 * period**2, period]]))
-    white = problem.white(point, point.innovations).reshape(-1, 2)
+    push = problem.whiten(point, np.array([[0.5 * period**2, period]]))
+    white = problem.whiten(point, point.innovations).reshape(-1, 2)
     return np.asarray(white @ (push / np.linalg.norm(push)))
 
 

@@ -63,9 +63,12 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
 
 def _runs(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[Array, Array]]:
     """Of each run that is long enough: times, and pushes less their mean."""
-    every, told = smooth_innovations(problem, point), np.asarray(~problem.ignored.all(axis=1))
+    every, told = (
+        smooth_innovations(problem, point),
+        np.asarray(~problem.ignored_readings.all(axis=1)),
+    )
     for record, (first, last) in zip(
-        problem.records, pairwise(problem.edges.tolist()), strict=True
+        problem.records, pairwise(problem.run_edges.tolist()), strict=True
     ):
         mine = told[first:last]
         push = every[first:last][mine]

@@ -95,7 +95,7 @@ def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
     more = problem.predict_errors(delayed.model(values), point.nuisance, point.kalman_gain)
     white = point.innovations @ point.whitening.T
     change = np.nan_to_num(more - point.innovations) @ point.whitening.T
-    for first, last in pairwise(problem.edges.tolist()):
+    for first, last in pairwise(problem.run_edges.tolist()):
         column, rest = change[first:last].ravel(), white[first:last].ravel()
         along = float(column @ column)
         share = -float(column @ rest) / along if along > 0.0 else 0.0
@@ -120,8 +120,10 @@ def _windows(
     problem: PredictionErrorProblem, white: Array, count: int
 ) -> Iterator[tuple[int, Array]]:
     """Sums of so many innovations, of each run; windows with untold samples are left out."""
-    for record, (first, last) in enumerate(zip(problem.edges[:-1], problem.edges[1:], strict=True)):
-        mine, told = white[first:last], problem.telling[first:last]
+    for record, (first, last) in enumerate(
+        zip(problem.run_edges[:-1], problem.run_edges[1:], strict=True)
+    ):
+        mine, told = white[first:last], problem.informative[first:last]
         if mine.size <= count:
             continue
         total = np.concatenate(([0.0], np.cumsum(mine)))
