@@ -51,7 +51,7 @@ from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.fit.information_matrix import compute_information
 from sim.fit.sysid_rows import prepare_rows
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.plot import Picture, Table, curves, ellipses, hold_angles, hold_window, live, time_series
 from sim.teaching.prediction import Prediction
 
@@ -63,8 +63,8 @@ print(elevator.summary)
 def let_go(volts: float, *, height: float = 0.6, lasts: float = 0.4) -> float:
     """The speed [m/s] of the elevator after a while under a constant voltage; up is positive."""
     time = np.arange(0.0, lasts, 0.02)
-    track = move(
-        elevator.model, time=time, voltage=np.full(time.size, volts), state=State.at(height)
+    track = simulate_run(
+        elevator.model, time=time, voltage=np.full(time.size, volts), state=State.cold_at(height)
     )
     return float(track.velocity[-1])
 
@@ -320,7 +320,7 @@ def edges_at(degrees: float) -> tuple[float, float]:
 
     def stays(volts: float) -> bool:
         held = np.full(time.size, volts)
-        track = move(arm.model, time=time, voltage=held, state=State.at(angle))
+        track = simulate_run(arm.model, time=time, voltage=held, state=State.cold_at(angle))
         return abs(float(track.velocity[-1])) < STILL
 
     tried = np.arange(-1.0, 2.5, 0.01)
@@ -637,7 +637,7 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard erro
 
 # %%
 falls = (truth["kG"] - truth["kS"]) / truth["kV"]
-down_run = log.of("quasistatic-reverse")[0]
+down_run = log.runs_of_test("quasistatic-reverse")[0]
 print(f"At 0 V it goes down at {falls:.2f} m/s.")
 print(f"The slow ramp down had {down_run.time[-1] - down_run.time[0]:.1f} s before the end.")
 print(f"The slow ramp up had {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.")

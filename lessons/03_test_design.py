@@ -49,7 +49,7 @@ from sim.fit import fit
 from sim.fit.information_matrix import compute_information
 from sim.fit.sysid_rows import prepare_rows
 from sim.physics.model import Part
-from sim.physics.motors import motor
+from sim.physics.motors import find_motor
 from sim.plot import (
     Line,
     Picture,
@@ -168,7 +168,7 @@ guess_drift
 def read_off(mechanism: Mechanism, ramp: float) -> tuple[sim.Log, Line]:
     """A log with this ramp, and the straight line through its moving samples, per meter or turn."""
     slow = simulate(mechanism, sim.Routine(ramp=ramp, step=2.0), rng=np.random.default_rng(1))
-    run = slow.of("quasistatic-forward")[0]
+    run = slow.runs_of_test("quasistatic-forward")[0]
     per = 1.0 if mechanism.units == "meters" else 2.0 * np.pi
     moving = np.abs(run.velocity) > 0.05 * np.abs(run.velocity).max()
     slope, intercept = np.polyfit(run.velocity[moving] / per, run.voltage[moving], 1)
@@ -539,7 +539,7 @@ Table(
 # %%
 rows = []
 for name, count, motor_name in (("4 Kraken X60", 4, "krakenX60"), ("4 NEO", 4, "neo")):
-    built = replace(drivetrain, motor=motor(motor_name), motor_count=count)
+    built = replace(drivetrain, motor=find_motor(motor_name), motor_count=count)
     gains = built.gains
     slip = gains["kS"] + gains["kA"] * 1.1 * 9.81
     scatter = built.sensor.velocity_noise / (np.sqrt(2) * 0.02)

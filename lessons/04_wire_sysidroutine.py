@@ -445,7 +445,7 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is not zero:
 
 # %%
-ramp = right.of("quasistatic-forward")[0]
+ramp = right.runs_of_test("quasistatic-forward")[0]
 print(f"rows in {routine.timeout:.0f} s: {len(ramp)}")
 print(f"first voltage: {ramp.voltage[0]:.3f} V, two loops of 20 ms into a {routine.ramp} V/s ramp")
 

@@ -132,7 +132,7 @@ voltage_velocity(sound)
 acceleration_velocity(sound)
 
 # %%
-rise = sound.of("dynamic-forward")[0]
+rise = sound.runs_of_test("dynamic-forward")[0]
 slope = np.gradient(rise.velocity, rise.time)
 early, later = (int(np.searchsorted(rise.time, rise.time[0] + wait)) for wait in (0.02, 0.02 + TAU))
 print(f"You said: {guess_rise}.")
@@ -227,7 +227,7 @@ gallery = {
 
 def position_slope(log: sim.Log) -> Picture:
     """The first half second of a step: the logged velocity, and what the position says."""
-    run = log.of(STEP)[0]
+    run = log.runs_of_test(STEP)[0]
     since = run.time - run.time[0]
     part = since < 0.5
     lines = {
@@ -382,7 +382,7 @@ messy = contaminate(
     sound, "hard-stop", severity=2, test=RAMP, at=4.5, rng=np.random.default_rng(2)
 ).log
 messy = contaminate(messy, "noisy-standstill", test=RAMP, rng=np.random.default_rng(2)).log
-ramp = messy.of(RAMP)[0]
+ramp = messy.runs_of_test(RAMP)[0]
 wild = ramp.velocity.copy()
 wild[[90, 150, 200]] += np.array([1.2, -1.0, 1.5])
 messy = replace(messy, runs=(replace(ramp, velocity=wild), *messy.runs[1:]))
@@ -467,7 +467,7 @@ Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tr
 rows = []
 for end in (6.0, 4.0, 2.0, 1.0):
     part = kept(sound, end=end, threshold=0.05)
-    top = float(part.of(RAMP)[0].velocity.max())
+    top = float(part.runs_of_test(RAMP)[0].velocity.max())
     errors = fit(part, method="sysid").errors
     rows.append((f"{end:g} s of each ramp", top, errors["kV"], errors["kS"]))
 Table(
@@ -513,7 +513,9 @@ SCORES = {
     SIM: {case.name: case.fit.simulated_velocity_r2 for case in all_cases},
     ACC: {case.name: case.fit.acceleration_r2 for case in all_cases},
 }
-OFF = {gain: {case.name: case.off(gain) for case in all_cases} for gain in ("kS", "kV", "kA")}
+OFF = {
+    gain: {case.name: case.gain_error(gain) for case in all_cases} for gain in ("kS", "kV", "kA")
+}
 KEYS = {
     "as made": lambda _: 0.0,
     SIM: lambda name: -SCORES[SIM][name],
@@ -562,7 +564,7 @@ display(
         tuple(
             (
                 case.name,
-                *(percent(case.off(gain)) for gain in OFF),
+                *(percent(case.gain_error(gain)) for gain in OFF),
                 case.fit.acceleration_r2,
                 case.fit.simulated_velocity_r2,
             )
@@ -573,9 +575,11 @@ display(
 )
 
 # %%
-passing = [case for case in wrong if case.good]
-damage = [case for case in wrong if abs(case.off("kV")) < 0.2]  # without mere changes of units
-typical = {gain: float(np.median([abs(case.off(gain)) for case in damage])) for gain in OFF}
+passing = [case for case in wrong if case.has_good_r2]
+damage = [
+    case for case in wrong if abs(case.gain_error("kV")) < 0.2
+]  # without mere changes of units
+typical = {gain: float(np.median([abs(case.gain_error(gain)) for case in damage])) for gain in OFF}
 best = max(wrong, key=lambda case: case.fit.acceleration_r2)
 print(f"You said: {guess_count}; {guess_robust}.")
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
@@ -650,7 +654,7 @@ print(f"Caught by their signs alone: {by_signs}.  By nothing: {'; '.join(escaped
 # %%
 leaning = by_name["friction differs"].log
 for way in ("forward", "reverse"):
-    run = leaning.of(f"quasistatic-{way}")[0]
+    run = leaning.runs_of_test(f"quasistatic-{way}")[0]
     moving = np.abs(run.velocity) > 0.1
     _, volts = np.polyfit(np.abs(run.velocity[moving]), np.abs(run.voltage[moving]), 1)
     print(f"{way}: the ramp's line leaves standstill at {volts:.2f} V")

@@ -48,8 +48,8 @@ from sim.bench.duty_cycle import simulate_duty_cycle
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
-from sim.core.units import unit
-from sim.feedback import allowed_velocity_error, velocity_loop
+from sim.core.units import find_unit
+from sim.feedback import allowed_velocity_error, design_velocity_loop
 from sim.fit import fit
 from sim.fit.sysid_rows import median_filter, prepare_rows
 from sim.plot import (
@@ -124,7 +124,7 @@ def ramp_picture(ramp: float) -> Picture:
     """The line that a ramp of so many volts per second gives, beside the true one."""
     slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
     lines = {
-        "straight line": line_through(slow.of("quasistatic-forward")[0]),
+        "straight line": line_through(slow.runs_of_test("quasistatic-forward")[0]),
         "truth": Line(truth["kS"], truth["kV"]),
     }
     return voltage_velocity(slow, lines=lines)
@@ -152,7 +152,7 @@ timescale = truth["kA"] / truth["kV"]
 rows = []
 for ramp in RAMPS:
     slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
-    read_off = line_through(slow.of("quasistatic-forward")[0]).intercept
+    read_off = line_through(slow.runs_of_test("quasistatic-forward")[0]).intercept
     rule = truth["kS"] + timescale * ramp
     rows.append((ramp, read_off, rule, rule + 0.010 * ramp))
 
@@ -198,7 +198,7 @@ Table(
 # divided by the change of time.
 
 # %%
-slow, step = log.of("quasistatic-forward")[0], log.of("dynamic-forward")[0]
+slow, step = log.runs_of_test("quasistatic-forward")[0], log.runs_of_test("dynamic-forward")[0]
 slow_a, step_a = np.gradient(slow.velocity, slow.time), np.gradient(step.velocity, step.time)
 
 solutions = []
@@ -642,8 +642,8 @@ unknowns = 3
 adjusted = 1 - (1 - acceleration_r2) * (a.size - 1) / (a.size - unknowns - 1)
 
 forward = ("quasistatic-forward", "dynamic-forward")
-seen = np.concatenate([log.of(test)[0].velocity for test in forward])
-said = np.concatenate([model.of(test)[0].velocity for test in forward])
+seen = np.concatenate([log.runs_of_test(test)[0].velocity for test in forward])
+said = np.concatenate([model.runs_of_test(test)[0].velocity for test in forward])
 rmse = np.sqrt(np.mean((seen - said) ** 2))
 textbook = 1 - np.sum((seen - said) ** 2) / np.sum((seen - seen.mean()) ** 2)
 sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
@@ -823,7 +823,7 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
     """The suggested kP over the allowed error, for the source lesson's gains."""
 
     def suggested(error: float) -> float:
-        loop = velocity_loop(
+        loop = design_velocity_loop(
             kv=lesson_kv, ka=lesson_ka, velocity_error=error, volts=r, delay=delay / 1000
         )
         return loop.kp
@@ -866,7 +866,9 @@ for name, q, delay in (
     ("what the source lesson's kP stands for", 3.43, 0.0),
     ("1.5 m/s, 112 ms late: SysId's number for a NEO's encoder", 1.5, 0.112),
 ):
-    kp = velocity_loop(kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay).kp
+    kp = design_velocity_loop(
+        kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay
+    ).kp
     rows.append((name, q, kp))
 Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 
@@ -908,7 +910,7 @@ time_series(own, dynamic_seconds=1.0)
 
 # %%
 best = fit(own, method="sysid").in_log_units()
-per = unit(own.units)
+per = find_unit(own.units)
 scale = {"kS": 1.0, "kV": per.si, "kA": per.si}
 top_speed = max(float(np.abs(run.velocity).max()) for run in own.runs)
 hand = my_fit(own, threshold=0.02 * top_speed)

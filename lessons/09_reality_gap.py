@@ -64,9 +64,9 @@ from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.physics.effects import EFFECTS, effect
+from sim.physics.effects import EFFECTS, find_effect
 from sim.physics.model import Model, Part
-from sim.physics.replay import replay
+from sim.physics.replay import replay_log
 from sim.physics.voltage_residual import compute_voltage_residual
 from sim.plot import (
     Picture,
@@ -85,7 +85,7 @@ from sim.teaching.prediction import Prediction
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
 # What is hidden is written backward, so that nobody reads it by accident.
-robot = drivetrain.hiding("retlif-yticolev"[::-1], 1.5).hiding("kcebirts"[::-1], 1.0)
+robot = drivetrain.hide("retlif-yticolev"[::-1], 1.5).hide("kcebirts"[::-1], 1.0)
 
 FOUR = ("quasistatic", "dynamic")
 rng = np.random.default_rng(2)
@@ -116,7 +116,7 @@ print(fill(f"{len(EFFECTS)} effects are in the bench's catalogue: {', '.join(EFF
 # ## 2 Measure the gap
 #
 # **Simulate:** give the model the log's voltages and let it run, from the first sample of a test to
-# its last. It gets no look at the robot on the way. `replay` does that.
+# its last. It gets no look at the robot on the way. `replay_log` does that.
 #
 # **Fit:** change kS, kV and kA until the simulated velocity misses the measured one least. Lesson 7
 # fitted accelerations row by row; this fit follows the whole run.
@@ -125,7 +125,7 @@ print(fill(f"{len(EFFECTS)} effects are in the bench's catalogue: {', '.join(EFF
 # %%
 def simulated(model: Model, one: sim.Log) -> list[np.ndarray]:
     """The velocity that a model's sensor would show, for each run of a log."""
-    return [track.seen for track in replay(model, one)]
+    return [track.seen for track in replay_log(model, one)]
 
 
 def off(model: Model, one: sim.Log) -> np.ndarray:
@@ -140,16 +140,16 @@ def fitted(names: Sequence[str], begin: Model, one: sim.Log) -> Model:
     seen = compute_voltage_residual(
         one, begin.gains, type="simple"
     )  # what the log shows: for a good start
-    starts = [known.get(name) or next(iter(effect(name).starts(seen))) for name in names]
+    starts = [known.get(name) or next(iter(find_effect(name).start_values(seen))) for name in names]
     first = np.array([*begin.gains.values(), *(v for start in starts for v in start.values())])
-    bounds = [(p.least, p.most) for name in names for p in effect(name).parameters]
+    bounds = [(p.least, p.most) for name in names for p in find_effect(name).parameters]
     least, most = np.array([(0.0, np.inf), (1e-6, np.inf), (1e-6, np.inf), *bounds]).T
     size = np.maximum(np.abs(first), 1e-6)
 
     def model(values: np.ndarray) -> Model:
         left = iter(np.clip(values * size, least, most).tolist())
         gains = {gain: next(left) for gain in begin.gains}
-        parts = (Part(name, {p: next(left) for p in effect(name).names}) for name in names)
+        parts = (Part(name, {p: next(left) for p in find_effect(name).names}) for name in names)
         return Model("simple", gains, tuple(parts))
 
     found = least_squares(
@@ -278,7 +278,7 @@ rng = np.random.default_rng(3)
 
 def with_one(backward: str, size: float) -> sim.Log:
     """A log of a drivetrain that hides one effect; its name is written backward."""
-    return simulate(drivetrain.hiding(backward[::-1], size), all_tests, rng=rng, electrical=True)
+    return simulate(drivetrain.hide(backward[::-1], size), all_tests, rng=rng, electrical=True)
 
 
 sagging = simulate_duty_cycle(drivetrain, replace(all_tests, step=5.0), battery=tired, rng=rng)
@@ -465,7 +465,7 @@ def position_off(model: Model) -> float:
     """How far the simulated position is from the measured one, typically [cm]."""
     off_by = [
         (run.position - run.position[0]) - (track.position - track.position[0])
-        for run, track in zip(log.runs, replay(model, log), strict=True)
+        for run, track in zip(log.runs, replay_log(model, log), strict=True)
     ]
     return 100 * float(np.sqrt(np.mean(np.concatenate(off_by) ** 2)))
 

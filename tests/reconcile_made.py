@@ -15,7 +15,7 @@ from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
 from sim.physics.battery import Battery
 from sim.physics.effects import EFFECTS
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model, Part
 from sim.reconcile import reconcile
 
@@ -62,7 +62,7 @@ def recorded(kind, model, *, step, state, noise, rng, began=0.0, still=0):
     time = np.arange(0.0, 1.5 if quick else 6.0, PERIOD)
     volts = way * (np.full(time.size, step) if quick else 0.5 * time)
     volts[:still] = 0.0
-    track = move(model, time=time, voltage=volts, state=state)
+    track = simulate_run(model, time=time, voltage=volts, state=state)
     noisy = (
         one + size * rng.standard_normal(time.size)
         for one, size in zip((track.position, track.velocity), noise, strict=True)
@@ -79,7 +79,7 @@ def rubbing(gains, shares, *parts, noise, step, seed):
     runs, clock = [], 0.0
     for test, share in zip(TESTS, shares, strict=True):
         model = Model("simple", {**gains, "kS": share * gains["kS"]}, parts)
-        begun = {"state": State.at(0.0), "began": clock}
+        begun = {"state": State.cold_at(0.0), "began": clock}
         runs.append(recorded(test, model, step=step, noise=noise, rng=rng, **begun))
         clock = float(runs[-1].time[-1]) + 2.0
     return Log(tuple(runs), units="meters", type="simple")

@@ -122,7 +122,7 @@ def unfinished(path):
     folder = make(path)
     truth = key(folder)
     journal = Journal(folder.with_name("data.key.json"), secret=secret_of(path))
-    journal.begin(truth["logs"])
+    journal.start(truth["logs"])
     journal.close()
     folder.with_name("data.key.json").unlink()
     return folder, truth, journal

@@ -15,7 +15,7 @@ from grader.cli import run
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import class_secret
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit import fit
 from sim.io import read
 
@@ -148,7 +148,7 @@ def test_a_window_may_be_written_in_many_ways(raw, expected):
 
 def test_a_threshold_is_read_in_the_unit_of_the_log():
     given = dict.fromkeys((one.replace("-", "_") for one in PREPARATION.TESTS), "all")
-    degrees = unit("degrees")
+    degrees = find_unit("degrees")
 
     for written in (20, "20 deg/s", "0.34907 rad/s"):
         given |= {"threshold": written, "median": 1}

@@ -26,7 +26,7 @@ from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.inspect.fault import Fault, load_fault
 from sim.inspect.faults import FAULTS, find_fault
-from sim.support.catalogue import members
+from sim.support.catalogue import list_members
 
 SEEDS = 100  # damaged logs for each fault
 CLEAN = 300  # sound logs
@@ -230,7 +230,7 @@ def test_a_bad_file_in_the_folder_is_refused_with_a_sentence_that_says_why(
     monkeypatch.delitem(sys.modules, "sim.inspect.faults.gremlins", raising=False)
 
     with pytest.raises(BadRequest) as refused:
-        [load_fault(module, name=name) for name, module in members(sim.inspect.faults).items()]
+        [load_fault(module, name=name) for name, module in list_members(sim.inspect.faults).items()]
 
     sys.modules.pop("sim.inspect.faults.gremlins", None)
     assert said in str(refused.value)

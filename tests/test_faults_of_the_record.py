@@ -288,7 +288,9 @@ def test_damage_grows_with_severity(name):
         + sum(len(run) for run in log.runs if run not in kept)
         for severity in (0.3, 1.0, 3.0)
         for spoilt in (contaminate(log, name, severity=severity, rng=np.random.default_rng(6)).log,)
-        for kept in ([run for run in log.runs if len(spoilt.runs) == 4 or spoilt.of(run.test)],)
+        for kept in (
+            [run for run in log.runs if len(spoilt.runs) == 4 or spoilt.runs_of_test(run.test)],
+        )
     ]
 
     assert hurt[0] <= hurt[1] < hurt[2]

@@ -8,13 +8,13 @@ import pytest
 from sim.core.errors import BadRequest
 from sim.feedback import Plant
 from sim.feedback.following import follow_profile
-from sim.feedback.profile import STEP, Leg, brisk_profile, join_legs, there_and_back
+from sim.feedback.profile import STEP, Leg, join_legs, make_brisk_profile, make_return_profile
 from sim.plot.consequence import Trace, consequence, profile_traces
 
 DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.2}
 LIFT = {"kS": 0.25, "kV": 4.5, "kA": 0.2, "kG": 2.0}
 ARM = {"kS": 0.25, "kV": 1.2, "kA": 0.08, "kG": 1.5, "offset_rad": 0.3}
-UP = there_and_back(0.5, rising=0.25, steady=0.75, still=1.0, start=0.5)
+UP = make_return_profile(0.5, rising=0.25, steady=0.75, still=1.0, start=0.5)
 PLANTS = {"simple": DRIVE, "elevator": LIFT, "arm": ARM}
 
 
@@ -40,13 +40,15 @@ def test_a_profile_is_whole():
     assert UP.position[-1] == pytest.approx(0.5, abs=1e-9)
     assert max(UP.position) == pytest.approx(1.0)  # 0.5 m/s for 0.75 s and twice half of 0.25 s
     assert np.allclose(np.diff(UP.position), STEP * np.array(UP.velocity[:-1]), atol=1e-4)
-    assert (UP.velocity[UP.cruise], UP.velocity[UP.rest]) == (pytest.approx(0.5), 0.0)
+    assert (UP.velocity[UP.cruise_end], UP.velocity[UP.rest_end]) == (pytest.approx(0.5), 0.0)
     assert join_legs([Leg(0.5, 2.0), Leg(0.5)]).velocity[-1] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("factor", [0.5, 1.0, 1.7])
 def test_the_steady_speed_is_in_proportion_to_kv(factor):
-    one = followed("simple", wanted=brisk_profile(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"])
+    one = followed(
+        "simple", wanted=make_brisk_profile(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"]
+    )
     place = one.wanted.cruise
 
     free = follow_profile(

@@ -13,7 +13,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.physics.model import Model
-from sim.physics.replay import replay
+from sim.physics.replay import replay_log
 from sim.plot import gap_bars, plot_voltage_residual, residual_views
 from sim.plot.picture import PAPER
 from sim.plot.voltage_residual import missing_volts
@@ -32,11 +32,11 @@ HIDES = {  # what is hidden -> the side from which it is seen best
 
 
 def simulated(log):
-    return [track.seen for track in replay(TRUTH, log)]
+    return [track.seen for track in replay_log(TRUTH, log)]
 
 
 def hiding(effect, *, noise=True):
-    robot = DRIVETRAIN.hiding(effect) if effect else DRIVETRAIN
+    robot = DRIVETRAIN.hide(effect) if effect else DRIVETRAIN
     if not noise:
         robot = replace(robot, sensor=replace(robot.sensor, velocity_noise=0.0))
     return simulate(robot, ROUTINE, rng=np.random.default_rng(1), electrical=True)
@@ -69,7 +69,7 @@ def test_nothing_is_seen_where_nothing_is_missing():
 
 def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
     log = hiding("asymmetric-friction", noise=False)
-    (lean,) = DRIVETRAIN.hiding("asymmetric-friction").hidden[0].parameters.values()
+    (lean,) = DRIVETRAIN.hide("asymmetric-friction").hidden[0].parameters.values()
     ramp = log.of("quasistatic-forward")[0]
     lacks = missing_volts(log, simulated(log), TRUTH.gains)[log.runs.index(ramp)]
     fast = np.flatnonzero(ramp.velocity > 0.3)[:-1]

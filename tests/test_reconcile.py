@@ -7,7 +7,7 @@ import pytest
 from reconcile_made import bench, logs, session, solved, told
 
 from sim.cli.reconcile import inspect_damage
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.inspect.contaminate import contaminate
 from sim.physics.effects import EFFECTS
 from sim.reconcile.damage import DamagedInterval
@@ -55,7 +55,7 @@ def test_its_numbers_are_those_that_were_hidden(name):
     mechanism, effect, simple = HIDDEN[name]
     story = case(name)
     (part,) = bench(mechanism, effect, simple=simple).hidden
-    si = unit(story.shown.units).si
+    si = find_unit(story.shown.units).si
 
     for one in EFFECTS[effect].parameters:
         found = story.findings[0].parameters[one.name]

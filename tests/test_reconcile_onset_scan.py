@@ -98,7 +98,7 @@ def test_a_drop_between_two_samples_is_where_the_search_begins(third):
     log = sessions["log"]
     evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
 
-    first, second, *_ = EFFECTS["inertia-change"].starts(evidence)
+    first, second, *_ = EFFECTS["inertia-change"].start_values(evidence)
 
     assert first["onset"] == second["onset"] == pytest.approx(third + 0.513, abs=PERIOD)
     assert first["extra"] == pytest.approx(extra, rel=0.35)
@@ -110,7 +110,7 @@ def test_a_run_without_a_drop_gives_no_such_start():
     log = session(bench("drivetrain"), "log")
     evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
 
-    first = next(iter(EFFECTS["inertia-change"].starts(evidence)))
+    first = next(iter(EFFECTS["inertia-change"].start_values(evidence)))
 
     assert first["shared"] == 0.0
 
@@ -127,7 +127,7 @@ def log_with(parts):
     rng = np.random.default_rng(1)
     runs, clock = [], 0.0
     for test in TESTS:
-        begun = {"state": replace(State.at(0.0), clock=clock), "began": clock}
+        begun = {"state": replace(State.cold_at(0.0), clock=clock), "began": clock}
         model = Model("simple", GAINS, parts)
         runs.append(recorded(test, model, step=5.0, noise=NOISE, rng=rng, **begun))
         clock = float(runs[-1].time[-1]) + 2.0

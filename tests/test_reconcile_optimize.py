@@ -203,7 +203,7 @@ def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
     problem = PredictionErrorProblem.from_records(run_records(session(bench("drivetrain"), "log")))
     out = np.tile(problem.measured, 4)
     out[-1] = np.nan
-    monkeypatch.setattr(PredictionErrorProblem, "simulate", lambda *_, **__: Track.of(out))
+    monkeypatch.setattr(PredictionErrorProblem, "simulate", lambda *_, **__: Track.from_array(out))
     point = replace(NOWHERE, values={"kS": 0.1, "kV": 1.0, "kA": 0.1})
 
     assert (
@@ -234,7 +234,8 @@ def test_what_does_not_come_back_is_not_begun_as_a_wave(wide):
     way = float(np.ptp(evidence.position))
 
     waves = [
-        start["turns"] * way / (2.0 * math.pi) for start in EFFECTS["cogging"].starts(evidence)
+        start["turns"] * way / (2.0 * math.pi)
+        for start in EFFECTS["cogging"].start_values(evidence)
     ]
 
     assert waves

@@ -54,7 +54,7 @@ def model(effect, score, *, gap, others=()):
 
 QUICK = recorded(
     "dynamic-forward", Model("simple", {"kS": 0.2, "kV": 0.05, "kA": 0.005}),
-    step=6.0, state=State.at(0.0), noise=(1.0, 1.0), rng=np.random.default_rng(5),
+    step=6.0, state=State.cold_at(0.0), noise=(1.0, 1.0), rng=np.random.default_rng(5),
 )  # fmt: skip
 ONE_NOISE = PredictionErrorProblem(
     run_records(Log((QUICK,), units="meters", type="simple")), SensorNoise(1.0, 1.0, (0.0, 0.0))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
@@ -34,7 +34,7 @@ def session(*parts, seed, tests=TESTS):
     for test in (*tests, *tests):
         friction = GAINS["kS"] * (1.0 + 0.05 * rng.standard_normal())
         model = Model("simple", {**GAINS, "kS": friction}, parts)
-        begun = {"state": State.at(0.0), "began": clock}
+        begun = {"state": State.cold_at(0.0), "began": clock}
         run = recorded(test, model, step=4.0, noise=NOISE, rng=rng, **begun)
         runs.append(replace(run, voltage=run.voltage + SHAKES * rng.standard_normal(len(run))))
         clock = float(run.time[-1]) + 2.0
@@ -118,7 +118,7 @@ def test_it_is_told_where_and_by_how_much(alike, units, said):
     done = [SelectionRound(score_estimate(problem, point), gap, gap)]
 
     verdict, remainder, remains = verdict_of(
-        [], done, problem, left=ResidualSummary(repeated=alike), per=unit(units)
+        [], done, problem, left=ResidualSummary(repeated=alike), per=find_unit(units)
     )
 
     assert (verdict, remainder) == ("unexplained", True)

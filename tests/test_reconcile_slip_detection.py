@@ -9,7 +9,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
 from sim.inspect.fault import rescale_motion
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
 from sim.reconcile.slip_detection import SLOW, detect_slips
 
@@ -34,7 +34,9 @@ def recorded(test, scale, rng, *, lost=(), lasts=1.0):
     real = volts.copy()
     for start, end, share in lost:
         real[(time >= start) & (time < end)] *= 1.0 - share
-    track = move(Model("simple", gains(scale)), time=time, voltage=real, state=State.at(0.0))
+    track = simulate_run(
+        Model("simple", gains(scale)), time=time, voltage=real, state=State.cold_at(0.0)
+    )
     seen = (
         one + size * rng.standard_normal(time.size)
         for one, size in zip((track.position, track.velocity), NOISE, strict=True)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
 from sim.core.log import Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
@@ -38,7 +38,7 @@ def session(*parts, seed, swings=0.0, size=SWING):
     runs, clock = [], 0.0
     for test in (*TESTS, *TESTS):
         model = Model("simple", GAINS, parts)
-        run = recorded(test, model, step=4.0, noise=NOISE, rng=rng, state=State.at(0.0))
+        run = recorded(test, model, step=4.0, noise=NOISE, rng=rng, state=State.cold_at(0.0))
         run = replace(run, time=clock + run.time)
         hidden = SHAKES * rng.standard_normal(len(run))
         hidden += size * np.sin(2.0 * np.pi * swings * run.time)
@@ -105,7 +105,7 @@ def remains_of(left):
     problem, point = based(session(seed=6), GAINS)
     gap = Gap(problem.noise.velocity, problem.noise.position)
     done = [SelectionRound(score_estimate(problem, point), gap, gap)]
-    return verdict_of([], done, problem, left=left, per=unit("meters"))
+    return verdict_of([], done, problem, left=left, per=find_unit("meters"))
 
 
 def test_it_is_told_how_often():

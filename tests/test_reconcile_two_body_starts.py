@@ -44,7 +44,7 @@ def looked(mechanism):
 def starts(effect, evidence):
     return [
         {f"{effect}.{name}": value for name, value in start.items()}
-        for start in EFFECTS[effect].starts(evidence)
+        for start in EFFECTS[effect].start_values(evidence)
     ]
 
 

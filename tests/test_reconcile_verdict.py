@@ -9,7 +9,7 @@ from reconcile_made import recorded
 from story_made import DRAG, SLIP
 
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
@@ -29,7 +29,7 @@ from sim.reconcile.story import Tried
 from sim.reconcile.verdict import verdict_of
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
-METERS = unit("meters")
+METERS = find_unit("meters")
 LASTS = 1e6  # [s]
 
 
@@ -39,7 +39,7 @@ def problem():
     rng = np.random.default_rng(3)
     model = Model("simple", GAINS)
     runs = [
-        recorded(test, model, step=6.0, state=State.at(0.0), noise=(1e-5, 1e-3), rng=rng)
+        recorded(test, model, step=6.0, state=State.cold_at(0.0), noise=(1e-5, 1e-3), rng=rng)
         for test in ("dynamic-forward", "dynamic-reverse")
     ]
     return PredictionErrorProblem.from_records(

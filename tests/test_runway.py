@@ -77,7 +77,7 @@ def test_a_tired_battery_browns_out_in_a_step_and_not_in_a_ramp():
     )
 
     assert step.browned_out
-    assert step.rests < 0.5 * gone(STEP, wall=12.0, tape=7.0).rests
+    assert step.final_position < 0.5 * gone(STEP, wall=12.0, tape=7.0).rests
     assert not ramp.browned_out
 
 

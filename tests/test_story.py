@@ -46,7 +46,7 @@ from sim.plot.story import (
 from sim.reconcile.story_text import format_estimate, headline, list_inspections, list_next_tests
 from sim.report.story import story_page, write_story
 from sim.report.story_terminal import progress_bar, show_story
-from sim.support.command_line import run
+from sim.support.command_line import run_command
 
 BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
 EXPLAINED = STORIES["explained"]
@@ -412,7 +412,7 @@ def reconcile(capsys, monkeypatch):
 
         monkeypatch.setattr("sim.reconcile.reconcile", solve)
         capsys.readouterr()
-        code = run(sysid, name="sysid", arguments=["reconcile", *map(str, arguments)])
+        code = run_command(sysid, name="sysid", arguments=["reconcile", *map(str, arguments)])
         said = capsys.readouterr()
         return code, said.out, said.err, asked
 
@@ -473,7 +473,7 @@ def test_every_log_is_read_and_inspected(reconcile, drive, tmp_path):
 
 def test_damage_reaches_the_solver_in_its_own_words(reconcile, drive, tmp_path):
     spoilt = tmp_path / "spoilt.csv"
-    code = run(
+    code = run_command(
         sysid, name="sysid",
         arguments=["contaminate", str(drive), "--fault", "unit-error:3", "-o", str(spoilt)],
     )  # fmt: skip

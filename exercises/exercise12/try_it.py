@@ -15,8 +15,8 @@ from grader.course import find_course, load_progress
 from grader.exercise import find_exercise
 from sim import read
 from sim.core.errors import Refusal
-from sim.core.units import gains_per, unit
-from sim.physics.replay import replay
+from sim.core.units import find_unit, gains_per
+from sim.physics.replay import replay_log
 from sim.reconcile.residual_map import residual_map
 
 TOLD = 4  # places
@@ -38,7 +38,7 @@ def main() -> int:
     logs = {name: read(data / f"{name}.wpilog") for name in ("log", "validation", "held-out")}
     names = room.names_of(asked.effects) if asked.effects else ()
     model = room.with_effects(logs["log"], names)
-    per = unit(logs["log"].units)
+    per = find_unit(logs["log"].units)
     gains = gains_per(model.gains, factor=per.si)
     _say(", ".join(f"{name} = {value:.4g}" for name, value in gains.items()))
     for part in model.parts:
@@ -50,7 +50,7 @@ def main() -> int:
             _say(f"gap of the {name}: {wide:.3g} times the noise of the velocity")
     _say("Where the validation disagrees most:")
     shown = logs["validation"]
-    tracks = [np.column_stack((one.position, one.seen)) for one in replay(model, shown)]
+    tracks = [np.column_stack((one.position, one.seen)) for one in replay_log(model, shown)]
     found = residual_map(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
     places = found.places(TOLD, signal="velocity") if found else ()
     for place in places:

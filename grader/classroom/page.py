@@ -11,7 +11,7 @@ from grader.classroom.grading import MISSING, Graded
 from grader.classroom.items import FEWEST, analyze_items, count_misconceptions, summarize_exercises
 from grader.classroom.results import Results, scores, status_of
 from grader.misconception import MISCONCEPTIONS
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -48,7 +48,7 @@ def _templates() -> "Environment":
 
 
 def _page(one: Graded) -> str:
-    return f"{PEOPLE}/{folder_name(one.student)}.html"
+    return f"{PEOPLE}/{make_folder_name(one.student)}.html"
 
 
 def class_summary(results: Results) -> str:

@@ -20,10 +20,10 @@ from sim.bench.sensor_model import read_sensor
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
-from sim.physics.engine import State, Track, move
+from sim.physics.engine import State, Track, simulate_run
 from sim.physics.engine.one_body import OFF_UNTIL
 from sim.physics.model import Model
-from sim.physics.replay import let_cool
+from sim.physics.replay import cool_down
 
 __all__ = ["move_gains_only", "read_sensor", "simulate"]
 
@@ -65,32 +65,34 @@ def simulate(
     runs: list[Run] = []
     state, start, last, cut = State(), PAUSE, 0.0, False
     for test in routine.tests:
-        time = _loops(routine.lasts(test), period=period, jitter=mechanism.sensor.jitter, rng=rng)
-        voltage = np.array([routine.voltage(test, t) for t in time.tolist()])
+        time = _loops(
+            routine.longest_duration(test), period=period, jitter=mechanism.sensor.jitter, rng=rng
+        )
+        voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = state.body[OFF_UNTIL] > 0.0 or cut
         began = runs[0].time[0] if runs else start + time[0]
         state.clock = float(start + time[0] - began)  # what the log's own times say
         begun = replace(state, memory=state.memory.copy())
-        begun.body = State.at(_begin(mechanism, test, last)).body
+        begun.body = State.cold_at(_begin(mechanism, test, last)).body
         state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
-        track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+        track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
         end = _end(track, mechanism, test=test)
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
             if state.memory.any():  # nothing that someone ended goes on to warm a motor
                 state = begun
-                track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+                track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
             else:
-                track = track.until(end)
+                track = track.truncate(end)
         seen = read_sensor(
             mechanism.sensor, position=track.position, velocity=track.seen, time=time, rng=rng
         )
         extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
         runs.append(Run(test, start + time, track.applied, *seen, **extra))
-        let_cool(state, model, PAUSE)
+        cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
-    return log.with_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
+    return log.add_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
 
 
 def _check_period(period: float) -> None:
@@ -139,7 +141,7 @@ def move_gains_only(
     Returns:
         Position (n,) and velocity (n,), before the sensor.
     """
-    track = move(Model("simple", gains), time=time, voltage=voltage, state=State())
+    track = simulate_run(Model("simple", gains), time=time, voltage=voltage, state=State())
     return track.position, track.velocity
 
 

@@ -78,5 +78,5 @@ def read_together(
         read(file, units=units, type=type, motor=motor, entries=named) for file in files
     ]
     for log in more:
-        first = first.and_also(log)
+        first = first.join(log)
     return first

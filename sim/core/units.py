@@ -49,7 +49,7 @@ def gains_per(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
     }
 
 
-def unit(name: str) -> Unit:
+def find_unit(name: str) -> Unit:
     """Look up a unit by name, in any case.
 
     Raises:

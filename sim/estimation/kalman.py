@@ -21,22 +21,26 @@ from sim.physics.model import Model
 DOUBLINGS = 40  # rounds; 2⁴⁰ samples are for ever
 
 
-def steady_state_gain(model: Model, *, noise: SensorNoise, q: float, period: float) -> Array:
+def steady_state_gain(
+    model: Model, *, noise: SensorNoise, process_noise: float, period: float
+) -> Array:
     """(2, 2) steady-state Kalman gain for position and velocity.
 
     Args:
         model: whose kV/kA is the rate at which velocity forgets.
         noise: of the measurements.
-        q: [unit²/s³] size of what pushes the velocity at random; 0 corrects nothing.
+        process_noise: [unit²/s³] size of what pushes the velocity at random; 0 corrects nothing.
         period: [s] between samples.
     """
-    if q <= 0.0:
+    if process_noise <= 0.0:
         return NO_TRUST
     rate, dt = model.gains["kV"] / model.gains["kA"], period
     # velocities in units of their noise and positions in as many: so the numbers are near one
     kept = math.exp(-rate * dt)
     step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]])
-    push = (q / noise.velocity**2) * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
+    push = (process_noise / noise.velocity**2) * np.array(
+        [[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]]
+    )
     rough = np.array([(noise.position / noise.velocity) ** 2, 1.0])
     spread = _steady_covariance(step, push, rough)
     return np.ascontiguousarray(spread @ np.linalg.inv(spread + np.diag(rough)))

@@ -29,7 +29,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.random_friction import friction_prior, friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
-from sim.physics.engine import EXPECTED, NO_TRUST, RunBatch, Track, follow
+from sim.physics.engine import EXPECTED, NO_TRUST, RunBatch, Track, filter_runs
 from sim.physics.model import Model
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
@@ -196,39 +196,41 @@ class PredictionErrorProblem:
 
     # -- simulate --------------------------------------------------------------------------------
 
-    def simulate(self, model: Model, nuisance: RunNuisance, trust: Array = NO_TRUST) -> Track:
+    def simulate(self, model: Model, nuisance: RunNuisance, kalman_gain: Array = NO_TRUST) -> Track:
         """All runs, one after another.
 
         Args:
             model: what moves.
             nuisance: how each run begins.
-            trust: (2, 2) Kalman gain; by default nothing is corrected.
+            kalman_gain: (2, 2) Kalman gain; by default nothing is corrected.
         """
-        return Track.of(self._filter_runs(model, nuisance, trust, self.batch))
+        return Track.from_array(self._filter_runs(model, nuisance, kalman_gain, self.batch))
 
     def predict_errors(
-        self, model: Model, nuisance: RunNuisance, trust: Array, clocks: Array | None = None
+        self, model: Model, nuisance: RunNuisance, kalman_gain: Array, clocks: Array | None = None
     ) -> Array:
         """(n, 2) innovations: measured minus predicted; 0 where nothing is compared.
 
         Args:
             model: what moves.
             nuisance: how each run begins.
-            trust: (2, 2) Kalman gain.
+            kalman_gain: (2, 2) Kalman gain.
             clocks: (runs,) [s] when each run begins, if not when it did.
         """
         batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
-        errors = self.measured - self._filter_runs(model, nuisance, trust, batch)[:, EXPECTED:]
+        errors = (
+            self.measured - self._filter_runs(model, nuisance, kalman_gain, batch)[:, EXPECTED:]
+        )
         np.copyto(errors, 0.0, where=self.ignored_readings)
         return np.asarray(errors)
 
     def _filter_runs(
-        self, model: Model, nuisance: RunNuisance, trust: Array, batch: RunBatch
+        self, model: Model, nuisance: RunNuisance, kalman_gain: Array, batch: RunBatch
     ) -> Array:
-        return follow(
-            model, batch, trust=trust,
-            beside=nuisance.position_offset, meshed=nuisance.backlash_phase,
-            rubs=nuisance.friction_offset,
+        return filter_runs(
+            model, batch, kalman_gain=kalman_gain,
+            position_offset=nuisance.position_offset, backlash_phase=nuisance.backlash_phase,
+            friction_offset=nuisance.friction_offset,
         )  # fmt: skip
 
     def evaluate(
@@ -236,13 +238,20 @@ class PredictionErrorProblem:
         structure: ModelStructure,
         values: Mapping[str, float],
         nuisance: RunNuisance,
-        q: float,
+        process_noise: float,
     ) -> Estimate:
         """The estimate at these values; its cost is infinite where they are not physical."""
         if not structure.has_backlash:
             nuisance = nuisance.without_backlash_phase
         nowhere = Estimate(
-            structure, values, nuisance, q, NO_TRUST, np.empty((0, 2)), np.eye(2), math.inf
+            structure,
+            values,
+            nuisance,
+            process_noise,
+            NO_TRUST,
+            np.empty((0, 2)),
+            np.eye(2),
+            math.inf,
         )
         if not (values["kV"] > 0.0 and values["kA"] > SHORTEST * self.period * values["kV"]):
             return nowhere
@@ -250,14 +259,16 @@ class PredictionErrorProblem:
             return nowhere
         model = structure.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
-            trust = steady_state_gain(model, noise=self.noise, q=q, period=self.period)
+            trust = steady_state_gain(
+                model, noise=self.noise, process_noise=process_noise, period=self.period
+            )
             innovations = self.predict_errors(model, nuisance, trust)
             cov = self.covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
             cost = self._cost(cov) + own + friction_prior(values, nuisance)
         if not math.isfinite(cost):
             return nowhere
-        return Estimate(structure, values, nuisance, q, trust, innovations, cov, cost)
+        return Estimate(structure, values, nuisance, process_noise, trust, innovations, cov, cost)
 
     # -- compare ---------------------------------------------------------------------------------
 
@@ -354,12 +365,12 @@ class PredictionErrorProblem:
         ) else below, above if may_rise else value
 
     def _simulate_in_parallel(
-        self, tried: Sequence[tuple[Model, RunNuisance]], trust: Array
+        self, tried: Sequence[tuple[Model, RunNuisance]], kalman_gain: Array
     ) -> list[Array]:
         """The innovations of several simulations; compiled code runs beside other."""
 
         def one(each: tuple[Model, RunNuisance]) -> Array:
-            return self.predict_errors(*each, trust)
+            return self.predict_errors(*each, kalman_gain)
 
         return list((_threads().map if len(self.measured) > PARALLEL else map)(one, tried))
 

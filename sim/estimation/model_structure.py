@@ -65,7 +65,7 @@ class ModelStructure:
     @cached_property
     def backlash_names(self) -> tuple[str, ...]:
         """The values that are free play between motor and load."""
-        acts = {name: EFFECTS[name].acts.get("slack") for name in self.effects}
+        acts = {name: EFFECTS[name].hooks.get("backlash_gap") for name in self.effects}
         return tuple(
             f"{name}.{one}"
             for name, act in acts.items()

@@ -7,7 +7,7 @@ import numpy as np
 
 from sim.core.log import Array, Log
 from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs
-from sim.physics.voltage_residual import run_start_times, share_a_clock
+from sim.physics.voltage_residual import run_start_times, shares_clock
 
 FEWEST = 4  # samples of a run that can be compared, as ``measure_runs`` takes them
 AT_REST = 0.05  # [share of the top speed] that a position may creep in one sample of a rest
@@ -85,7 +85,7 @@ def run_records(
     places = [number for number, run in enumerate(log.runs) if len(run) >= FEWEST]
     runs = [log.runs[number] for number in places]
     began = run_start_times(log)
-    together = share_a_clock(log)
+    together = shares_clock(log)
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in runs), default=0.0)
     found = {}
     for number, run, one in zip(places, runs, measure_runs(log, friction=None), strict=True):
@@ -125,7 +125,7 @@ def session_length(*logs: Log) -> float:
 def join_records(log: Log, later: Log) -> Log:
     """The runs of two logs, on one clock where both have one."""
     runs = later.runs
-    if share_a_clock(log) and share_a_clock(later):
+    if shares_clock(log) and shares_clock(later):
         by = log.runs[0].time[0] + session_length(log) + AFTER - later.runs[0].time[0]
         runs = tuple(replace(run, time=run.time + by) for run in runs)
     return replace(log, runs=(*log.runs, *runs))

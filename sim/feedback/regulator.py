@@ -69,7 +69,7 @@ def allowed_velocity_error(*, ks: float, kv: float) -> float:
     return SPEED_SHARE * (12.0 - ks) / kv if kv else VELOCITY_ERROR
 
 
-def velocity_loop(
+def design_velocity_loop(
     *,
     kv: float,
     ka: float,
@@ -104,7 +104,7 @@ def velocity_loop(
     return Feedback(k * preset.output / (preset.velocity_time * encoder_factor), 0.0)
 
 
-def position_loop(
+def design_position_loop(
     *,
     kv: float,
     ka: float,
@@ -126,7 +126,7 @@ def position_loop(
         delay: [s] of the measurement; None takes the preset's.
 
     Raises:
-        BadRequest: as for ``velocity_loop``.
+        BadRequest: as for ``design_velocity_loop``.
     """
     _check(kv=kv, ka=ka, errors=(position_error, velocity_error, volts))
     loops = _wait(preset, delay) / preset.period

@@ -42,7 +42,7 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
             f"unknown method {method!r}", advice=f"Choose one of: {', '.join(METHODS)}."
         )
     if not type and chosen != "simple" and chosen in log.mechanism.lower():
-        log = log.with_doubts(_type_from_name(log))
+        log = log.add_doubts(_type_from_name(log))
     if method == "sysid":
         from sim.fit.wpilib_sysid import fit_wpilib_sysid  # noqa: PLC0415 - one method does not wait for the other
 

@@ -2,7 +2,7 @@
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.measurements import measure_runs
@@ -37,7 +37,7 @@ def hint_gravity_type(
     """
     if type != "simple" or not followed.has_misfit:
         return ""
-    angular = unit(log.units).angular
+    angular = find_unit(log.units).angular
     left = {
         name: _typical_velocity_error(log, problem, name)
         for name in ACTS

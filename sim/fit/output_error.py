@@ -12,7 +12,7 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import RunMeasurements, measure_runs
@@ -63,7 +63,7 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
         BadRequest: an arm whose position is no angle.
         NotIdentifiable: the log cannot tell these gains; the message says what would.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     if type == "arm" and not per.angular:
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {per.name}",
@@ -257,8 +257,8 @@ def _make_result(
     return Fit(
         type=point.structure.type,
         method="output-error",
-        units="radians" if unit(log.units).angular else "meters",
-        log_units=unit(log.units).name,
+        units="radians" if find_unit(log.units).angular else "meters",
+        log_units=find_unit(log.units).name,
         gains=signed,
         errors=errors,
         acceleration_r2=change[0],

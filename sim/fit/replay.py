@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.measurements import ROBUST, THIRD, RunMeasurements, estimate_noise, measure_runs
 from sim.fit import Fit
-from sim.physics.engine import State, Track, move
+from sim.physics.engine import State, Track, simulate_run
 from sim.physics.model import Model, Part
 
 FEWEST = 4  # samples of a run: shorter ones are no test
@@ -64,7 +64,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     Raises:
         BadRequest: one measures a length, the other an angle, or nothing moves with these gains.
     """
-    fitted = found.in_units("radians" if unit(log.units).angular else "meters")
+    fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
     way, model = _model(fitted)
     runs = [run for run in log.runs if len(run) >= FEWEST]
     friction = None if fitted.type == "simple" else model.gains["kS"]
@@ -72,9 +72,9 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     if not seen:
         return ()
     tracks = [
-        move(
+        simulate_run(
             model, time=part.time, voltage=way * part.voltage,
-            state=State.at(part.position, part.velocity),
+            state=State.cold_at(part.position, part.velocity),
         )
         for part in seen
     ]  # fmt: skip

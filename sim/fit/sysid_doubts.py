@@ -39,7 +39,11 @@ def sysid_doubts(
 
 
 def _doubt_repeats(log: Log) -> list[Doubt]:
-    again = [f"{test} ({len(log.of(test))} runs)" for test in FOUR_TESTS if len(log.of(test)) > 1]
+    again = [
+        f"{test} ({len(log.runs_of_test(test))} runs)"
+        for test in FOUR_TESTS
+        if len(log.runs_of_test(test)) > 1
+    ]
     other = sorted({run.test for run in log.runs} - set(FOUR_TESTS))
     doubts = []
     if again:
@@ -61,7 +65,11 @@ def _doubt_stale_velocities(log: Log) -> list[Doubt]:
     Of a velocity held for n samples SysId keeps the two next to each jump and spreads the jump over
     two periods instead of n, so kA comes out as 2/n, or 2·(1 - share repeated), of its size.
     """
-    steps = [_rise_changes(log.of(test)[0]) for test in FOUR_TESTS if test.startswith("dynamic")]
+    steps = [
+        _rise_changes(log.runs_of_test(test)[0])
+        for test in FOUR_TESTS
+        if test.startswith("dynamic")
+    ]
     repeated = np.concatenate(steps) == 0.0
     share = float(repeated.mean()) if repeated.size else 0.0
     if share < STALE:

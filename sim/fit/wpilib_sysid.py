@@ -2,7 +2,7 @@
 
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, FOUR_TESTS, Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit.metrics import score_simulated_velocity
 from sim.fit.regression import regress_acceleration
 from sim.fit.result import Fit
@@ -22,7 +22,7 @@ def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A
         BadRequest: an arm whose position is no angle.
         NotIdentifiable: the log cannot tell these gains.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     if type == "arm" and not per.angular:
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {per.name}",

@@ -19,7 +19,7 @@ from typing import NamedTuple, Protocol, cast
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal, UnreadableFile
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
 from sim.io import formats
 from sim.io.entries.entry import Entry
@@ -121,7 +121,7 @@ def read(
     if type is not None and type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
     asked = ReadOptions(
-        units=None if units is None else unit(units).name,
+        units=None if units is None else find_unit(units).name,
         type=type,
         motor=motor,
         entries=dict(entries or {}),
@@ -212,7 +212,7 @@ def _set_type(log: Log, wanted: str | None) -> Log:
         f"{log.source} says it is of type {log.type}; it is taken as {wanted}, as you asked. "
         "Leave out the type to follow the file.",
     )
-    return replace(log, type=wanted).with_doubts(doubt)
+    return replace(log, type=wanted).add_doubts(doubt)
 
 
 def _order_formats(path: str) -> Iterator[tuple[str, Format]]:

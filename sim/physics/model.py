@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from sim.core.errors import BadRequest
 from sim.core.log import TYPES
 from sim.core.units import Unit
-from sim.physics.effects import effect as find
+from sim.physics.effects import find_effect as find
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Part:
                     advice=f"Choose {parameter.least:g} to {parameter.most:g}.",
                 )
 
-    def said(self, per: Unit) -> dict[str, dict[str, float | str]]:
+    def to_json(self, per: Unit) -> dict[str, dict[str, float | str]]:
         """The parameters in the owner's unit: name -> its value and its unit, for JSON.
 
         Args:

@@ -70,7 +70,7 @@ MOTORS: dict[str, Motor] = {
 }
 
 
-def motor(name: str) -> Motor:
+def find_motor(name: str) -> Motor:
     """Look up a motor.
 
     Raises:

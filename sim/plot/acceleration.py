@@ -9,7 +9,7 @@ import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.core.log import FOUR_TESTS, Array, Log
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.fit.sysid_rows import Rows, prepare_rows
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
@@ -50,7 +50,7 @@ def acceleration_velocity(
     """
     if gains is not None:
         _checked(gains)
-    per = unit(log.units)
+    per = find_unit(log.units)
     rows = prepare_rows(log, median=median).rows
     speeds = {test: rows[test].velocity / per.si for test in FOUR_TESTS}
     heights = {test: _height(rows[test], gains, type=log.type) / per.si for test in FOUR_TESTS}

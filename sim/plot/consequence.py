@@ -41,7 +41,7 @@ class Trace:
 
 def profile_traces(one: FollowedProfile) -> tuple[Trace, ...]:
     """The panels of a profile that was followed: velocity, and position where it matters."""
-    done, wanted = "what it does", one.wanted
+    done, wanted = "what it does", one.target
     of_speed, of_place = f"velocity [{one.symbol}/s]", f"{one.place} [{one.symbol}]"
     speed = Trace(one.name, of_speed, wanted.time, wanted.velocity, {done: one.velocity})
     place = Trace(one.name, of_place, wanted.time, wanted.position, {done: one.position})

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, Array, Log, Run
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.plot.decimate import decimate_curve
 from sim.plot.fault_marks import (
     Damaged,
@@ -74,7 +74,7 @@ def time_series(
     Raises:
         BadRequest: the log has none of the four tests, or a damage is not of this log.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     runs = _first_runs(log)
     damage = assign_fault_marks(log, damages)
     figure, (upper, lower) = panels(2, 2, height=4.4, shared=True)

@@ -63,7 +63,7 @@ def draw_loop(figure: SubFigure, tried: Sequence[FeedbackTrial], *, per: Unit) -
             axes.plot(
                 time[kept], there[kept], color=COLORS[index], linestyle=LINES[index],
                 marker=MARKERS[index], markersize=4, markevery=MARK, linewidth=1.4,
-                label=trial.whose,
+                label=trial.owner,
             )  # fmt: skip
     upper.axhline(target, color=REFERENCE, linestyle=":", linewidth=1.2, label="target")
     low, high = upper.get_ylim()
@@ -89,10 +89,10 @@ def _worth(trial: FeedbackTrial) -> float:
 def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
     """What the picture of some trials shows, a sentence for each."""
     return " ".join(
-        f"{trial.whose.capitalize()} gains of the {trial.loop} loop, "
+        f"{trial.owner.capitalize()} gains of the {trial.loop} loop, "
         f"{format_gain_pair(trial.gains)}: when the target jumps by "
         f"{to_text(trial.response.target)} {_unit(trial.loop, per)}, "
-        f"the loop {trial.verdict.words}."
+        f"the loop {trial.verdict.describe}."
         for trial in tried
     )
 
@@ -100,7 +100,7 @@ def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
 def _numbers(tried: Sequence[FeedbackTrial], per: Unit) -> Table:
     rows = tuple(
         (
-            f"{trial.loop}, {trial.whose}",
+            f"{trial.loop}, {trial.owner}",
             f"{to_text(trial.response.target)} {_unit(trial.loop, per)}",
             _seconds(trial.verdict.reached),
             f"{trial.verdict.overshoot:.0%}",

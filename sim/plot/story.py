@@ -1,6 +1,6 @@
 """A reconcile story in pictures and a table."""
 
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.plot.story_bars import candidate_bars, gap_by_round
 from sim.plot.story_gap import residual_maps
 from sim.plot.story_runs import plot_overlays
@@ -30,7 +30,7 @@ def findings_table(story: Story) -> Table:
         )
     caption = (
         f"Verdict: {story.verdict}. The noise is {story.noise_floor:.3g} "
-        f"{unit(story.shown.units).symbol}/s."
+        f"{find_unit(story.shown.units).symbol}/s."
     )
     header = ("finding", "size", "parameters", "gap [times the noise]")
     return Table(header, tuple(rows) or (("nothing", "-", "-", "-"),), caption)

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
 from sim.plot.table import Table, to_text
 from sim.reconcile.story import Story, Tried
@@ -118,7 +118,7 @@ def gap_by_round(story: Story) -> Picture:
     axes.set_xlabel("RMS velocity error of the simulation [times the noise]", color=INK)
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
-    symbol = unit(story.shown.units).symbol
+    symbol = find_unit(story.shown.units).symbol
     rows = tuple(
         (name, _known(one.gap), _known(gap))
         for name, one, gap in zip(names, story.chapters, gaps, strict=True)

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.gap import BinnedResiduals, GapMap
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS, format_noises
 from sim.plot.picture import INK, PAPER, Picture
@@ -57,7 +57,7 @@ def residual_maps(story: Story) -> Picture:
         )
     titles = [title for title, one in maps.items() if one]
     found = [one for one in maps.values() if one]
-    per = unit(story.shown.units)
+    per = find_unit(story.shown.units)
     return Picture(
         _draw(found, titles, per=per),
         _words(found, titles),
@@ -67,7 +67,7 @@ def residual_maps(story: Story) -> Picture:
 
 def _map(story: Story, tracks: Sequence[Array]) -> GapMap | None:
     """What a model leaves of the shown runs; None if no velocity shows."""
-    floor = story.noise_floor * unit(story.shown.units).si
+    floor = story.noise_floor * find_unit(story.shown.units).si
     if not floor > 0.0:
         raise BadRequest("the noise is not known", advice="Give runs in which it moves.")
     made = residual_map(story.shown, tracks, compared=story.compared, floor=floor)

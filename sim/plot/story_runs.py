@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Run
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.plot.decimate import decimate_curve
 from sim.plot.measured_vs_simulated import BAND, plain_axes, shared_legend
 from sim.plot.picture import COLORS, INK, PAPER, Picture
@@ -84,7 +84,7 @@ def plot_overlays(story: Story, chapter: int = -1) -> Picture:
         raise BadRequest(f"no chapter {chapter}", advice=f"Choose one of 0 to {count - 1}.")
     chapter %= count
     runs = run_overlays(story, max(chapter - 1, 0), chapter)
-    per, noise = unit(story.shown.units), story.noise_floor
+    per, noise = find_unit(story.shown.units), story.noise_floor
     drawn = runs[:DRAWN]
     size = (WIDTH, HEIGHT * len(drawn) + 0.5)
     figure = Figure(figsize=size, layout="constrained", facecolor=PAPER)
@@ -160,7 +160,7 @@ def _tracks(one: RunOverlay, said: Sequence[str]) -> tuple[Array, ...]:
 
 
 def _numbers(runs: Sequence[RunOverlay], said: Sequence[str], story: Story) -> Table:
-    per = unit(story.shown.units)
+    per = find_unit(story.shown.units)
     rows = tuple(
         (
             f"{number}: {one.run.test}",

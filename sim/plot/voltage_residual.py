@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
 from sim.plot.table import Table, to_text
 
@@ -101,7 +101,7 @@ def residual_views(
     Returns:
         Side -> what is seen from there; without the battery's where its voltage was not recorded.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     columns: dict[str, list[Array]] = {name: [] for name in (*_ASKED, "lacks", "bus")}
     for run, said, lacks in zip(
         log.runs, simulated, missing_volts(log, simulated, gains), strict=True
@@ -137,7 +137,7 @@ def plot_voltage_residual(
     found = residual_views(log, simulated, gains)
     lacking = found[SPEED].volts
     figure, grid = panels(2, 2, height=5.0)
-    symbol = unit(log.units).symbol
+    symbol = find_unit(log.units).symbol
     labels = {
         SPEED: f"simulated speed [{symbol}/s]", SINCE: "time since the voltage jumped [s]",
         BATTERY: "battery voltage [V]", DIRECTION: "reverse (−1) and forward (+1)",

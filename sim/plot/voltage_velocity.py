@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, Array, Log, Run
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, panels
 from sim.plot.table import Table
@@ -66,7 +66,7 @@ def voltage_velocity(
     Raises:
         BadRequest: the log has no quasistatic test, or the zoom is not above zero.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     ramps = _ramps([run for run in log.runs if run.kind == "quasistatic" and len(run)], per)
     if not ramps:
         raise BadRequest(

@@ -16,7 +16,7 @@ from dataclasses import replace
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, guess_gains
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
@@ -89,7 +89,7 @@ def reconcile(
     shown = HeldOutLog.of({"log": log, "validation": validation, "held_out": held_out}, aside)
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
-    left, per = ResidualSummary.by(problem, done[-1].candidate.point), unit(log.units)
+    left, per = ResidualSummary.by(problem, done[-1].candidate.point), find_unit(log.units)
     findings = make_findings(
         problem, done, _once(slipped, aside.found), chapters, left=left, per=per
     )

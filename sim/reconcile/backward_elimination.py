@@ -66,7 +66,7 @@ def replace_effects(
 
 def _clear(effect: str, other: str) -> float:
     """[of -2 log L] by which another effect must be likelier to take the place of one."""
-    passing = EFFECTS[other].happens and not EFFECTS[effect].happens
+    passing = EFFECTS[other].has_onset and not EFFECTS[effect].has_onset
     return ONCE if passing else CLOSE
 
 

@@ -1,9 +1,9 @@
 """Candidate effects: each effect of the catalogue on top of a model, ranked by BIC.
 
-A start of each is drawn from what the log shows (``Effect.starts``) and simulated once; the most
-promising go downhill a little, the best of those to the end. What shakes only for a moment after
-each change of voltage, as two bodies do, is tried on the lively runs first; of a point that much
-pushes, which bears with anything, only near a calmer one.
+A start of each is drawn from what the log shows (``Effect.start_values``) and simulated once; the
+most promising go downhill a little, the best of those to the end. What shakes only for a moment
+after each change of voltage, as two bodies do, is tried on the lively runs first; of a point that
+much pushes, which bears with anything, only near a calmer one.
 """
 
 import math
@@ -172,7 +172,7 @@ def simplify_effect(
     if name not in names:
         return None
     mine = {one: point.values[f"{old.name}.{one}"] for one in old.names}
-    values = old.simplified(mine, evidence)
+    values = old.simplify(mine, evidence)
     structure = point.structure - old.name + name
     more = {
         f"{name}.{one}": structure.clamp_value(f"{name}.{one}", value)
@@ -209,7 +209,7 @@ def _begun(
                 f"{effect.name}.{one.name}": min(max(start[one.name], one.least), one.most)
                 for one in effect.parameters
             }
-            for start in effect.starts(evidence)
+            for start in effect.start_values(evidence)
         ]
         shakes = False
         if effect.kind == SHAKES:
@@ -217,7 +217,7 @@ def _begun(
             if shakes := lively.there:
                 more = lively.valleys(structure, more, heavy=heavy)
         more += _steps_below(effect, more)
-        if effect.happens:
+        if effect.has_onset:
             more += scan_onsets(problem, point, effect, kept=kept)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))

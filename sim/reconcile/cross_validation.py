@@ -103,7 +103,7 @@ def open_loop_errors(
             accident does to the gap says nothing about an effect.
     """
     track = problem.simulate(point.structure.model(point.values), nuisance)
-    errors = problem.measured - track.read
+    errors = problem.measured - track.sensor_readings
     moves = problem.moving | ((track.velocity != 0.0) & problem.informative)
     if not eased:
         return np.asarray(errors[moves])
@@ -161,7 +161,7 @@ def _costs(problem: PredictionErrorProblem, every: Array, moves: NDArray[np.bool
 
 def _missed(problem: PredictionErrorProblem, track: Track) -> Array:
     """(n, 2) measured less simulated, without end where a simulation ran away."""
-    seen = track.read
+    seen = track.sensor_readings
     away = ~np.isfinite(seen) & ~np.isnan(problem.measured)
     return np.where(away, np.inf, problem.measured - seen)
 

@@ -137,7 +137,7 @@ def is_contradicted(
     has it back at another pace. The knock itself is known to a sample, and never explained quite.
     """
     moment = left.worst_window
-    if not (EFFECTS[effect].happens and left.shaken):
+    if not (EFFECTS[effect].has_onset and left.shaken):
         return False
     record = problem.records[moment.record]
     onset = last.values[f"{effect}.{ONSET}"] - record.clock + float(record.measurements.time[0])

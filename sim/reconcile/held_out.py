@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
@@ -88,7 +88,7 @@ class HeldOutLog:
             last: the last model, on this log.
             fitted: [unit/s] its gap on the runs that were fitted or chosen by.
         """
-        gap = last.gap * unit(self.log.units).si
+        gap = last.gap * find_unit(self.log.units).si
         said = (*self.doubts, *((MESHED,) if _plays(last) else ()))
         if not self.held_out or gap <= FAR * max(fitted, self.problem.noise.velocity):
             return said
@@ -102,7 +102,7 @@ class HeldOutLog:
     @property
     def noise_floor(self) -> float:
         """[owner's unit/s] noise of its velocity."""
-        return self.problem.noise.velocity / unit(self.log.units).si
+        return self.problem.noise.velocity / find_unit(self.log.units).si
 
     @property
     def compared(self) -> tuple[NDArray[np.bool_], ...]:
@@ -125,9 +125,9 @@ class HeldOutLog:
         nuisance = self._outset(point)
         gap = (
             rms_gap(open_loop_errors(self.problem, point, nuisance)).velocity
-            / unit(self.log.units).si
+            / find_unit(self.log.units).si
         )
-        track = self.problem.simulate(model, nuisance).read
+        track = self.problem.simulate(model, nuisance).sensor_readings
         runs = tuple(track[first:last] for first, last in pairwise(self.problem.run_edges.tolist()))
         return Chapter(one.candidate.effect, model, one.tried, gap, runs)
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.initial_guess import guess_gains
 from sim.estimation.model_structure import ModelStructure
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
@@ -38,7 +38,7 @@ def check_logs(
         NotIdentifiable: too few runs, samples, or voltages.
     """
     _check_size(log)
-    if type == "arm" and not unit(log.units).angular:
+    if type == "arm" and not find_unit(log.units).angular:
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {log.units}",
             where=log.source,
@@ -107,7 +107,7 @@ def _check_way(log: Log, guess: dict[str, float], *, type: str) -> None:  # noqa
 
 
 def _check_units(log: Log, other: Log) -> None:
-    if unit(other.units).angular != unit(log.units).angular:
+    if find_unit(other.units).angular != find_unit(log.units).angular:
         raise BadRequest(
             f"positions in {other.units}, where {log.source or 'the first log'} has {log.units}",
             where=other.source,
@@ -173,10 +173,10 @@ def _held_against(log: Log, guess: dict[str, float], *, type: str) -> VoltageRes
 
 def _check_travel(log: Log, travel: float) -> None:
     spans = [run.position for run in log.runs if len(run)]
-    way = float(max(map(np.max, spans)) - min(map(np.min, spans))) / unit(log.units).si
+    way = float(max(map(np.max, spans)) - min(map(np.min, spans))) / find_unit(log.units).si
     if not travel > 0.0 or way > BEYOND * travel:
         raise BadRequest(
-            f"positions span {way:.3g} {unit(log.units).symbol}, and the travel is {travel:g}",
+            f"positions span {way:.3g} {find_unit(log.units).symbol}, and the travel is {travel:g}",
             where=log.source,
             advice="Give the way from stop to stop, in the log's units, or leave it out.",
         )

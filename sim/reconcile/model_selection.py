@@ -47,7 +47,7 @@ def weigh_candidates(
             continue
         gap = validation_gap(problem, candidate.point, parts)
         why = rejection_reason(gap, now.gap, score)
-        if why == HARDLY and EFFECTS[candidate.effect].happens:
+        if why == HARDLY and EFFECTS[candidate.effect].has_onset:
             why = ""
         share = gap.velocity / max(now.gap.velocity, TINY)
         tried = Tried(candidate.effect, score, share, admitted=not why, why=why)
@@ -57,7 +57,7 @@ def weigh_candidates(
 
 def required_improvement(effect: str) -> float:
     """[of -2 log L] by which a candidate has to improve the model."""
-    return ONCE if EFFECTS[effect].happens else SURE
+    return ONCE if EFFECTS[effect].has_onset else SURE
 
 
 def rejection_reason(gap: Gap, before: Gap, score: float) -> str:
@@ -81,7 +81,7 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     likelier than all that lasts by as much as than nothing.
     """
     best = admitted[0]
-    lasting = [one for one in admitted if not EFFECTS[one.candidate.effect].happens]
+    lasting = [one for one in admitted if not EFFECTS[one.candidate.effect].has_onset]
     if lasting and best is not lasting[0] and best.tried.score - lasting[0].tried.score < ONCE:
         admitted, best = lasting, lasting[0]
     closer = [one for one in admitted if one.tried.score > HALF * best.tried.score]
@@ -126,7 +126,7 @@ def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
         for one in weighed
         if one.tried.why == WIDENS
         and one.tried.score >= ONCE
-        and not EFFECTS[one.candidate.effect].happens
+        and not EFFECTS[one.candidate.effect].has_onset
         and not is_ordinary_size(one.candidate.effect, one.candidate.point.values)
     ]
 
@@ -134,7 +134,7 @@ def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
 def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
     """Whether an effect is no larger than on any healthy robot."""
     known = EFFECTS[effect]
-    return known.everyday({name: values[f"{effect}.{name}"] for name in known.names})
+    return known.is_ordinary({name: values[f"{effect}.{name}"] for name in known.names})
 
 
 def is_significant(
@@ -157,7 +157,7 @@ def is_significant(
         one.name: one.neutral + (values[f"{effect}.{one.name}"] - one.neutral) / FAR
         for one in known.parameters
     }
-    far = known.everyday(known.neutral) and not known.everyday(part)
+    far = known.is_ordinary(known.neutral) and not known.is_ordinary(part)
     return score >= (LONE if lone else SURER if far else WORTH_A_NAME)
 
 
@@ -170,7 +170,7 @@ def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
     """
     scores = {one.effect: one.score for one in tried}
     most = max(
-        (score for name, score in scores.items() if name != effect and not EFFECTS[name].happens),
+        (score for name, score in scores.items() if name != effect and not EFFECTS[name].has_onset),
         default=-math.inf,
     )
     return effect in scores and most < HALF * scores[effect]

@@ -88,7 +88,7 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
     """
     for name in point.structure.effects:
         effect = EFFECTS[name]
-        if not effect.happens:
+        if not effect.has_onset:
             continue
         onset = point.values[f"{name}.{ONSET}"]
         ends = [
@@ -109,7 +109,7 @@ def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     No search moves a moment: across a sample what is likely jumps.
     """
     for name in point.structure.effects:
-        if not EFFECTS[name].happens:
+        if not EFFECTS[name].has_onset:
             continue
         onset, step, structure = f"{name}.{ONSET}", problem.period, point.structure
         for _ in range(HALVINGS):

@@ -16,7 +16,7 @@ from markupsafe import Markup
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Log
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import FeedbackTrial
@@ -52,7 +52,7 @@ class Report:
     @property
     def per(self) -> Unit:
         """The unit of position."""
-        return unit(self.found.units)
+        return find_unit(self.found.units)
 
     @cached_property
     def runs(self) -> tuple[RunReplay, ...]:
@@ -104,7 +104,7 @@ def render_page(report: Report) -> str:
                 for run in report.runs
             ],
             steps=_html(step_responses(report.tried, per=report.per)) if report.tried else None,
-            tried=[(trial.whose, trial.loop, trial.verdict.words) for trial in report.tried],
+            tried=[(trial.owner, trial.loop, trial.verdict.describe) for trial in report.tried],
             controllers=controller_rows(report.found),
             snippets=snippet_rows(report.found),
         )

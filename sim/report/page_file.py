@@ -8,7 +8,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
-from sim.support.printable import printable
+from sim.support.printable import make_printable
 
 PAGES = (".html", ".htm")
 FOLDER = Path(__file__).parent
@@ -33,7 +33,7 @@ def load_templates(folder: Path | None = None) -> Environment:
 
 def _shown(value: object) -> object:
     """What a template shows; our own HTML, which is marked as such, stays as it is."""
-    return printable(value) if type(value) is str else value
+    return make_printable(value) if type(value) is str else value
 
 
 def page_path(path: str | os.PathLike[str]) -> Path:

@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import SUGGESTED, FeedbackTrial, feedback_delay, try_feedback_gains
@@ -79,7 +79,7 @@ def gain_rows(found: Fit) -> list[Gain]:
 
 def measure_rows(found: Fit) -> list[tuple[str, str, str]]:
     """How well the gains explain the log: name, number, what it says."""
-    per = unit(found.units).symbol
+    per = find_unit(found.units).symbol
     rows = [
         (
             "velocity, simulated: R²",
@@ -117,7 +117,7 @@ def controller_rows(found: Fit) -> list[ControllerRow]:
         tried = {
             trial.loop: trial
             for trial in try_feedback_gains(found, preset)
-            if trial.whose == SUGGESTED
+            if trial.owner == SUGGESTED
         }
         if {"velocity", "position"} <= set(tried):
             delays = {1000.0 * feedback_delay(found, preset, loop=loop) for loop in tried}
@@ -145,7 +145,7 @@ def _counts(preset: Preset) -> str:
 def _loop(trial: FeedbackTrial) -> tuple[str, str, str, bool]:
     """kP, kD, what they do in simulation, and whether to begin with them."""
     numbers = (_four(trial.gains.kp), _four(trial.gains.kd))
-    return (*numbers, trial.verdict.words, trial.good)
+    return (*numbers, trial.verdict.describe, trial.is_good)
 
 
 def snippet_rows(found: Fit) -> list[Snippet]:

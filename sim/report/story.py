@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from sim.core.errors import BadRequest
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.plot.picture import Picture
 from sim.plot.story import (
     candidate_bars,
@@ -91,7 +91,7 @@ def story_page(story: Story, *, title: str) -> str:
         .render(
             title=title,
             story=story,
-            per=unit(story.shown.units),
+            per=find_unit(story.shown.units),
             headline=headline(story),
             unsure=story.remainder or story.verdict in {AMBIGUOUS, UNEXPLAINED},
             beside=list_remarks(story),

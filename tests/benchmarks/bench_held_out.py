@@ -26,7 +26,7 @@ from sim.fit import fit
 from sim.fit.regression import regress_acceleration
 from sim.fit.sysid_rows import prepare_rows
 from sim.physics.model import Model, Part
-from sim.physics.replay import replay
+from sim.physics.replay import replay_log
 
 LOGS = {
     "sciborgs-2023-elbow-arm": "arm",
@@ -105,7 +105,7 @@ def miss(model: Model | None, log: Log, run: Run) -> float:
     """[unit/s] root mean square of measured velocity less predicted; nan without a model."""
     if model is None:
         return math.nan
-    (track,) = replay(model, replace(log, runs=(run,)))
+    (track,) = replay_log(model, replace(log, runs=(run,)))
     return float(np.sqrt(np.mean(np.square(track.seen - run.velocity))))
 
 

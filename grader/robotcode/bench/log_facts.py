@@ -28,7 +28,7 @@ from grader.robotcode.bench.sandboxed_run import LARGEST
 from grader.robotcode.bench.season import explain_other_season
 from sim.core.errors import Refusal
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.io import read
 from sim.io.formats.wpilog.contents import read_contents
 from sim.io.formats.wpilog.records import load_records
@@ -235,7 +235,7 @@ def _recorded(name: str, log: Log, trace: BenchTrace) -> LoggedMotor:
     got = applied[:, motor]
     awake = np.abs(got) > AWAKE
     kept, lowered = _low(pairs, motor)
-    encoder, scale = _followed(pairs, size=unit(log.units).si)
+    encoder, scale = _followed(pairs, size=find_unit(log.units).si)
     as_asked = bool(np.ptp(voltage) > 0 and np.allclose(voltage, asked, rtol=0, atol=1e-9))
     return LoggedMotor(
         one_line(name),
@@ -247,7 +247,7 @@ def _recorded(name: str, log: Log, trace: BenchTrace) -> LoggedMotor:
         _forward(pairs),
         scale,
         encoder,
-        unit(log.units).angular,
+        find_unit(log.units).angular,
     )
 
 

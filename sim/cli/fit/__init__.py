@@ -172,7 +172,7 @@ class _Told:
         own = [
             {"loop": one.loop, "kP": one.gains.kp, "kD": one.gains.kd, **one.verdict.to_json()}
             for one in self.tried
-            if one.whose == OWN
+            if one.owner == OWN
         ]
         said = self.found.to_json(PRESETS[self.preset])
         return said | ({"own_feedback": own[0]} if own else {})

@@ -26,9 +26,9 @@ def parts_of(
     if name is None:
         return None
     from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
-    from sim.physics.motors import motor  # noqa: PLC0415
+    from sim.physics.motors import find_motor  # noqa: PLC0415
 
-    found = motor(name)
+    found = find_motor(name)
     if ratio is None:
         raise click.UsageError("Missing option '--ratio': motor turns per turn of the output.")
     return Parts(found, count, ratio, radius=radius, load=load)

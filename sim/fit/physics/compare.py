@@ -6,7 +6,7 @@ from dataclasses import replace
 from sim.core.doubt import Doubt
 from sim.core.errors import NotIdentifiable
 from sim.core.log import DIRECTIONS, Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit.output_error import fit_output_error
 from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.result import Fit, gain_unit
@@ -58,7 +58,7 @@ def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 
 
 def _differing_gains(one: Fit, other: Fit, names: tuple[str, ...], what: str) -> tuple[Doubt, ...]:
     """Gains of two fits that differ by more than chance and more than a robot notices."""
-    per = unit(one.log_units)
+    per = find_unit(one.log_units)
     mirror = -1.0 if one.gains["kV"] * other.gains["kV"] < 0.0 else 1.0
     doubts = []
     for gain, why in SUSPECTS.items():

@@ -7,7 +7,7 @@ opposite ways: that tells the two apart.
 import math
 
 from sim.core.doubt import Doubt
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit.physics.parts import BELOW, HEAVY, SURELY, Parts, check_radius_unit
 from sim.fit.result import Fit, gain_unit
 from sim.physics.motors import MOTORS
@@ -92,7 +92,7 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
 
 def _describe_difference(found: Fit, gain: str, theory: float) -> str:
     """A gain beside its theory, in the unit of the log's owner."""
-    per = unit(found.log_units)
+    per = find_unit(found.log_units)
     value, share = found.gains[gain], found.gains[gain] / theory
     far = f"{abs(share - 1.0):.0%} {'above' if share > 1.0 else 'below'}"
     if not 1.0 / TIGHT / TIGHT < share < TIGHT * TIGHT:
@@ -140,7 +140,7 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
     if theory is None or ka <= 0.0:
         return []
     share, unsure = ka / theory, SURELY * found.errors["kA"] / theory
-    size = f"{parts.load:g} {'kg·m²' if unit(found.units).angular else 'kg'}"
+    size = f"{parts.load:g} {'kg·m²' if find_unit(found.units).angular else 'kg'}"
     motors = f"{parts.count} × {parts.motor.name}"
     difference = _describe_difference(found, "kA", theory)
     said = f"{difference} that {size} on {motors} take without their rotors"

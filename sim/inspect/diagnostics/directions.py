@@ -6,7 +6,7 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.log import DIRECTIONS, Array, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.inspect.log_features import MOVING, LogFeatures
 
 FEWEST = 10  # [samples in motion] less says little
@@ -77,7 +77,9 @@ def _line(features: LogFeatures, way: str) -> _Line | None:
     load = np.zeros(len(run))
     if features.log.type in ("elevator", "arm"):
         load = baseline.gravity(run.position)
-    elif unit(features.log.units).angular:  # it may be an arm; what differs is sought, not its mean
+    elif find_unit(
+        features.log.units
+    ).angular:  # it may be an arm; what differs is sought, not its mean
         load = baseline.gravity(run.position)
         load = load - load.mean()
     volts = (sign * (run.voltage - load - baseline.ka * _acceleration(run, features.period)))[fast]

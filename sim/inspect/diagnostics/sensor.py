@@ -4,7 +4,7 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.log import Array, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.log_features import MOVING, LogFeatures
 
@@ -85,7 +85,7 @@ def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
 
 def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
     """A length that nothing on a robot covers in a second."""
-    per = unit(features.log.units)
+    per = find_unit(features.log.units)
     if features.baseline is None or per.angular or FULL / features.baseline.kv <= FASTEST:
         return []
     return [

@@ -4,12 +4,13 @@ import sys
 
 from sim.core.errors import BadRequest
 from sim.inspect.fault import Fault, load_fault
-from sim.support.catalogue import members
+from sim.support.catalogue import list_members
 
 FAULTS: dict[str, Fault] = {
     found.name: found
     for found in (
-        load_fault(module, name=name) for name, module in members(sys.modules[__name__]).items()
+        load_fault(module, name=name)
+        for name, module in list_members(sys.modules[__name__]).items()
     )
 }
 

@@ -82,7 +82,7 @@ def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
 def _falls(run: Run, log: Log) -> bool:
     """Whether the other direction of the same test goes the same way, several times as fast."""
     mate = f"{run.kind}-{'reverse' if run.direction == 'forward' else 'forward'}"
-    for other in log.of(mate):
+    for other in log.runs_of_test(mate):
         goes = majority_sign(other.velocity) * majority_sign(run.velocity) > 0
         if goes and other.top_speed > FALLS * run.top_speed:
             return True

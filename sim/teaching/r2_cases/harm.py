@@ -137,7 +137,7 @@ def _scaled(log: Log, factor: float) -> Log:
 def _asked(run: Run, setup: Setup) -> Array:
     """(n,) [V] what the routine asked for."""
     since = run.time - run.time[0] + LOOPS_BEFORE_DRIVE * PERIOD
-    return np.array([setup.routine.voltage(run.test, t) for t in since.tolist()])
+    return np.array([setup.routine.command_voltage(run.test, t) for t in since.tolist()])
 
 
 def _late(run: Run, *, longest: float, rng: np.random.Generator) -> Run:

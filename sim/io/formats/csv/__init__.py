@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest, BadSample, UnreadableFile
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.io.entries import assemble_log
 from sim.io.entries.entry import Entry
 from sim.io.format import HEAD, ReadOptions, doubt_motor_choice, make_run
@@ -74,7 +74,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
     signals = {"time": table.parse_column("time_s")}
     signals |= {name: table.parse_column(name) for name in ("voltage", "position", "velocity")}
     signals |= {name: table.parse_column(name, gaps=True) for name in EXTRA if name in table.cells}
-    si = unit(asked.units_or_default).si
+    si = find_unit(asked.units_or_default).si
     runs: list[Run] = []
     doubts = [*table.doubts, *doubt_motor_choice(asked, where=table.where)]
     for number, rows in enumerate(_split(table, codes, signals["time"])):
@@ -119,7 +119,7 @@ def write(log: Log, path: Path) -> None:
         stream.write(",".join([*(["run"] if numbered else []), *NEEDED, *extra]) + "\n")
         for number, run in enumerate(log.runs):
             prefix = f"{number},{run.test}," if numbered else f"{run.test},"
-            for row in _rows(run, extra=extra, si=unit(log.units).si):
+            for row in _rows(run, extra=extra, si=find_unit(log.units).si):
                 stream.write(f"{prefix}{row}\n")
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.io.format import ReadOptions, doubt_motor_choice, make_run
 from sim.io.formats.sysid_json.drivetrain import read_drivetrain
 from sim.io.formats.sysid_json.rows import (
@@ -67,7 +67,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
         signals = sides[test].signals(time=tables[test][:, 0], scale=said.per_rotation)
         if form.battery is not None:
             signals["bus_voltage"] = tables[test][:, form.battery]
-        run, repeated = make_run(test, signals, si=unit(said.units).si, where=where)
+        run, repeated = make_run(test, signals, si=find_unit(said.units).si, where=where)
         runs.append(run)
         doubts.extend(repeated)
     return Log(

@@ -20,7 +20,7 @@ from sim.io.formats.wpilog.entry import FileEntry
 from sim.io.formats.wpilog.records import MAGIC, load_records
 from sim.io.formats.wpilog.writing import write
 
-__all__ = ["SUFFIXES", "entries", "knows", "read", "write"]
+__all__ = ["SUFFIXES", "entries", "read", "recognizes", "write"]
 
 SUFFIXES = (".wpilog",)
 
@@ -67,10 +67,10 @@ def read(path: Path, asked: ReadOptions) -> Log:
             raise
         raise _unreadable(damage, records.end, where, missing.what) from None
     if damage is None:
-        return log.with_doubts(*lost, *_unfinished(spans[-1], where))
+        return log.add_doubts(*lost, *_unfinished(spans[-1], where))
     if not damage.torn and spans[0].end == FOREVER:
         raise _unreadable(damage, records.end, where, "no run is whole before it")
-    return log.with_doubts(*lost, _partly(damage, where))
+    return log.add_doubts(*lost, _partly(damage, where))
 
 
 def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> UnreadableFile:
