@@ -54,11 +54,11 @@ from sim.plot import (
     Line,
     Picture,
     Table,
-    curves,
-    information_map,
-    live,
-    time_series,
-    voltage_velocity,
+    plot_curves,
+    plot_information_map,
+    plot_time_series,
+    plot_voltage_velocity,
+    show_interactive,
 )
 from sim.teaching.prediction import Prediction
 
@@ -87,7 +87,7 @@ Table(
 # %%
 routine = sim.Routine(ramp=1.0, step=2.0, timeout=8.0)
 log = simulate(drivetrain, routine, rng=np.random.default_rng(3))
-time_series(log, dynamic_seconds=1.0)
+plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
 # Only the first second of the steps is drawn. **Predict** how the speed rises in it, before you
@@ -113,7 +113,7 @@ print(f"You said: {guess_rise}.")
 print(
     f"kA/kV = {1000 * tau:.0f} ms (the star). By then: {100 * at_tau / top:.0f} % of its top speed."
 )
-curves(
+plot_curves(
     since,
     {
         "speed after the step": speed,
@@ -189,8 +189,8 @@ def drift_picture(name: str, ramp: float) -> list[Picture]:
     slow, line = read_off(SHOWN[name], ramp)
     rule = [gains["kS"] + gains["kA"] / gains["kV"] * one for one in RAMPS]
     return [
-        voltage_velocity(slow, lines={"straight line": line}),
-        curves(
+        plot_voltage_velocity(slow, lines={"straight line": line}),
+        plot_curves(
             RAMPS,
             {"kS read off": drifts[name], "true kS + τ·ramp": rule},
             xlabel="ramp [V/s]",
@@ -201,7 +201,7 @@ def drift_picture(name: str, ramp: float) -> list[Picture]:
     ]
 
 
-live(
+show_interactive(
     drift_picture,
     name=widgets.Dropdown(options=list(SHOWN), description="mechanism"),
     ramp=widgets.SelectionSlider(
@@ -297,7 +297,7 @@ def map_of(tests: list[str], pair: tuple[str, str]) -> Picture:
     """Where the rows of some runs lie, and how well two gains follow from them."""
     rows = {test: all_rows[test] for test in tests}
     told = compute_information(rows, type="simple", noise=NOISE).information_on_pair(*pair)
-    return information_map(
+    return plot_information_map(
         rows,
         told,
         names=(UNIT[pair[0]], UNIT[pair[1]]),
@@ -326,7 +326,7 @@ def map_picture(runs: str, gains: str) -> Picture:
     return map_of(SETS[runs], (first, second))
 
 
-live(
+show_interactive(
     map_picture,
     runs=widgets.Dropdown(options=list(SETS), description="runs", layout={"width": "25em"}),
     gains=widgets.Dropdown(options=["kS and kA", "kS and kV", "kV and kA"], description="gains"),
@@ -664,7 +664,7 @@ def plan(ramp: float, step: float, mark: float, room: float) -> Picture:
     rows = tuple(
         (rule, value, bound, "yes" if kept else "NO") for rule, value, bound, kept in rules
     )
-    drawn = curves(
+    drawn = plot_curves(
         time,
         {"ramp": slow, "step": hard, "the mark on the floor": np.full(time.size, mark)},
         xlabel="time [s]",
@@ -674,7 +674,7 @@ def plan(ramp: float, step: float, mark: float, room: float) -> Picture:
     return replace(drawn, table=Table(("rule", "your plan", "asked for", "kept"), rows))
 
 
-live(
+show_interactive(
     plan,
     ramp=widgets.FloatSlider(
         min=0.2, max=2.0, step=0.05, value=0.5, description="ramp [V/s]", continuous_update=False

@@ -71,7 +71,7 @@ from sim.fit import fit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.physics.battery import CONTROLLERS, Battery
-from sim.plot import Picture, Table, live, runway, time_series
+from sim.plot import Picture, Table, plot_runway, plot_time_series, show_interactive
 from sim.teaching.prediction import Prediction
 from sim.teaching.runway import GRIP, THUMB, Floor, drive_test
 
@@ -231,10 +231,10 @@ WALL = 12.0  # [m]
 def run_it(test: str, tape: float, thumb: float, moment: float) -> Picture:
     """One test in our hall."""
     floor = Floor(wall=WALL, tape=tape, thumb=thumb)
-    return runway(drive_test(ROBOT, routine, test=test, floor=floor), moment=moment)
+    return plot_runway(drive_test(ROBOT, routine, test=test, floor=floor), moment=moment)
 
 
-live(
+show_interactive(
     run_it,
     test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], description="test"),
     tape=widgets.FloatSlider(
@@ -293,10 +293,10 @@ def morning(skipped: str, test: str, moment: float) -> Picture:
     if skipped == "5 guard":
         floor = Floor(wall=1.5, watched=1.0)
     robot = TIRED if skipped == "2 battery" else ROBOT
-    return runway(drive_test(robot, routine, test=test, floor=floor), moment=moment)
+    return plot_runway(drive_test(robot, routine, test=test, floor=floor), moment=moment)
 
 
-live(
+show_interactive(
     morning,
     skipped=widgets.Dropdown(options=SKIPS, description="skipped"),
     test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], description="test"),
@@ -588,7 +588,7 @@ with TemporaryDirectory() as place:
 
 checked = inspect(mine)
 print(f"{len(mine.runs)} runs, {len(checked.damages) or 'no'} fault found")
-time_series(mine, dynamic_seconds=1.0)
+plot_time_series(mine, dynamic_seconds=1.0)
 
 # %%
 gains = fit(mine, method="sysid").in_log_units()

@@ -54,14 +54,14 @@ from sim.inspect.faults import FAULTS
 from sim.plot import (
     Picture,
     Table,
-    acceleration_velocity,
-    choices,
-    curves,
-    live,
-    r2_vs_gain_error,
-    time_series,
-    timesteps,
-    voltage_velocity,
+    plot_acceleration_velocity,
+    plot_choices,
+    plot_curves,
+    plot_r2_vs_gain_error,
+    plot_time_series,
+    plot_timesteps,
+    plot_voltage_velocity,
+    show_interactive,
 )
 from sim.teaching.prediction import Prediction
 from sim.teaching.r2_cases import GOOD, make_cases
@@ -91,7 +91,7 @@ guess_rise = Prediction(
 guess_rise
 
 # %%
-time_series(sound, dynamic_seconds=0.6)
+plot_time_series(sound, dynamic_seconds=0.6)
 
 # %% [markdown]
 # **A sound quasistatic test** (left):
@@ -111,7 +111,7 @@ time_series(sound, dynamic_seconds=0.6)
 # In both, the samples come every 20 ms, and the position is what the velocity adds up to.
 
 # %%
-voltage_velocity(sound)
+plot_voltage_velocity(sound)
 
 # %% [markdown]
 # > **Lesson says:** "Voltage vs. velocity forms a straight line with low scatter. The forward and
@@ -129,7 +129,7 @@ voltage_velocity(sound)
 # shows all four tests, and first takes off what the voltage and friction account for.)
 
 # %%
-acceleration_velocity(sound)
+plot_acceleration_velocity(sound)
 
 # %%
 rise = sound.runs_of_test("dynamic-forward")[0]
@@ -234,14 +234,14 @@ def position_slope(log: sim.Log) -> Picture:
         "velocity in the log": run.velocity[part],
         "slope of the position": np.gradient(run.position, run.time)[part],
     }
-    return curves(np.round(since[part], 2), lines, xlabel="time [s]", ylabel="velocity [m/s]")
+    return plot_curves(np.round(since[part], 2), lines, xlabel="time [s]", ylabel="velocity [m/s]")
 
 
 PLOTS = {
-    "over time": lambda log: time_series(log, dynamic_seconds=0.6),
-    "voltage over velocity": voltage_velocity,
-    "acceleration over velocity": acceleration_velocity,
-    "time steps": timesteps,
+    "over time": lambda log: plot_time_series(log, dynamic_seconds=0.6),
+    "voltage over velocity": plot_voltage_velocity,
+    "acceleration over velocity": plot_acceleration_velocity,
+    "time steps": plot_timesteps,
     "velocity and position's slope": position_slope,
 }
 
@@ -251,7 +251,7 @@ def look(log: str, plot: str) -> Picture:
     return PLOTS[plot](gallery[log])
 
 
-live(
+show_interactive(
     look,
     log=widgets.Dropdown(options=list(gallery), description="log"),
     plot=widgets.Dropdown(options=list(PLOTS), description="plot"),
@@ -387,7 +387,7 @@ wild = ramp.velocity.copy()
 wild[[90, 150, 200]] += np.array([1.2, -1.0, 1.5])
 messy = replace(messy, runs=(replace(ramp, velocity=wild), *messy.runs[1:]))
 
-time_series(messy, dynamic_seconds=0.6)
+plot_time_series(messy, dynamic_seconds=0.6)
 
 
 # %%
@@ -410,12 +410,12 @@ def ratios(end: float, threshold: float, median: int) -> dict[str, float]:
 
 def trimmed(end: float, threshold: float, median: int) -> Picture:
     """The same as a picture."""
-    return choices(ratios(end, threshold, median), truth=1.0, name="found ÷ true")
+    return plot_choices(ratios(end, threshold, median), truth=1.0, name="found ÷ true")
 
 
 WHOLE = {"description_width": "initial"}  # a slider's name is not cut off
 
-live(
+show_interactive(
     trimmed,
     threshold=widgets.FloatSlider(
         min=0, max=1, step=0.05, description="threshold [m/s]", style=WHOLE, continuous_update=False
@@ -527,10 +527,12 @@ KEYS = {
 def grid(sort: str, truth: str) -> Picture:
     """All logs with their badges, and how far off their gains are if that is to be told."""
     scores = {name: SCORES[SIM][name] for name in sorted(SCORES[SIM], key=KEYS[sort])}
-    return r2_vs_gain_error(scores, good=GOOD, score=SIM, off=OFF if truth == "reveal" else None)
+    return plot_r2_vs_gain_error(
+        scores, good=GOOD, score=SIM, off=OFF if truth == "reveal" else None
+    )
 
 
-live(
+show_interactive(
     grid,
     truth=widgets.Dropdown(options=["hide", "reveal"], description="truth"),
     sort=widgets.Dropdown(options=list(KEYS), description="sort by"),
@@ -674,7 +676,7 @@ for damage in seen.damages:
     print(f"{damage.fault} in {damage.where.test}, confidence {damage.confidence:.2f}")
     for text in (damage.evidence, damage.advice):
         print(fill(text, width=90, initial_indent="  ", subsequent_indent="  "))
-time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
+plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 
 # %% [markdown]
 # In a terminal: `sysid inspect drive.wpilog`. It is a second pair of eyes. It has never seen *your*

@@ -56,12 +56,12 @@ from sim.plot import (
     Line,
     Picture,
     Table,
-    choices,
-    curves,
-    live,
-    misses,
-    time_series,
-    voltage_velocity,
+    plot_choices,
+    plot_curves,
+    plot_misses,
+    plot_time_series,
+    plot_voltage_velocity,
+    show_interactive,
 )
 from sim.teaching.prediction import Prediction
 
@@ -78,7 +78,7 @@ truth = robot.gains
 routine = sim.Routine(ramp=1.0, step=3.5, timeout=10.0)
 log = simulate(robot, routine, rng=np.random.default_rng(7))
 
-time_series(log, dynamic_seconds=1.0)
+plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
 # ## 2 Look first: voltage over velocity
@@ -127,11 +127,11 @@ def ramp_picture(ramp: float) -> Picture:
         "straight line": line_through(slow.runs_of_test("quasistatic-forward")[0]),
         "truth": Line(truth["kS"], truth["kV"]),
     }
-    return voltage_velocity(slow, lines=lines)
+    return plot_voltage_velocity(slow, lines=lines)
 
 
 RAMPS = [0.25, 0.5, 1.0, 2.0]
-live(
+show_interactive(
     ramp_picture,
     ramp=widgets.SelectionSlider(
         options=RAMPS, value=1.0, description="V per s", continuous_update=False
@@ -237,10 +237,10 @@ six_v, six_volts = slow.velocity[some], slow.voltage[some]
 def by_hand(intercept: float, slope: float) -> Picture:
     """How far a line of your choice misses six samples."""
     labels = {"xlabel": "velocity [m/s]", "ylabel": "voltage [V]"}
-    return misses(six_v, six_volts, intercept=intercept, slope=slope, **labels)
+    return plot_misses(six_v, six_volts, intercept=intercept, slope=slope, **labels)
 
 
-live(
+show_interactive(
     by_hand,
     intercept=widgets.FloatSlider(
         min=0, max=1, step=0.01, value=0.8, description="V at v = 0", continuous_update=False
@@ -374,7 +374,7 @@ for level in NOISE:
     for name, method in sides.items():
         found[name].append(float(np.mean([method(one)["kA"] for one in logs])))
 
-curves(
+plot_curves(
     NOISE,
     found,
     xlabel="noise of the velocity [m/s]",
@@ -536,7 +536,7 @@ for seed in range(8):
 
 results = {way: [my_fit(one, **s)["kA"] for one in gappy] for way, s in WAYS.items()}
 print(f"You said: {guess_choice}.")
-choices(
+plot_choices(
     {way: float(np.mean(values)) for way, values in results.items()},
     spreads={way: float(np.std(values)) for way, values in results.items()},
     truth=truth["kA"],
@@ -559,10 +559,10 @@ def try_choices(left: str, threshold: float, median: int, *, mean_dt: bool, trim
         "as SysId does it": my_fit(gappy[0])["kA"],
         "your choice": my_fit(gappy[0], left=left, **settings)["kA"],
     }
-    return choices(values, truth=truth["kA"], name="kA", unit="V·s²/m")
+    return plot_choices(values, truth=truth["kA"], name="kA", unit="V·s²/m")
 
 
-live(
+show_interactive(
     try_choices,
     left=widgets.Dropdown(options=["acceleration", "voltage"], description="left side"),
     threshold=widgets.FloatSlider(
@@ -625,7 +625,7 @@ def simulated(log: sim.Log, gains: dict[str, float]) -> sim.Log:
 
 
 model = simulated(log, recipe.gains)
-time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds=1.0)
+plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds=1.0)
 
 # %% [markdown]
 # Now both numbers, by hand. The textbook defines
@@ -772,7 +772,7 @@ for name, level in levels.items():
 
 print(f"You said: {guess_filter}.")
 print(f"kA/kV = {1000 * timescale:.0f} ms, which is {timescale / 0.02:.1f} samples of 20 ms.")
-curves(
+plot_curves(
     WINDOWS,
     by_window,
     xlabel="window of the median filter [samples]",
@@ -828,7 +828,7 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
         )
         return loop.kp
 
-    return curves(
+    return plot_curves(
         QS,
         {f"{r:g} V, {delay} ms late": [suggested(float(error)) for error in QS]},
         xlabel="q, the allowed velocity error [m/s]",
@@ -838,7 +838,7 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
     )
 
 
-live(
+show_interactive(
     kp_picture,
     q=widgets.FloatSlider(
         min=0.5, max=4, step=0.05, value=1.5, description="q [m/s]", continuous_update=False
@@ -901,7 +901,7 @@ else:
     print("No log of your own yet. Make it in a terminal, in the course's folder:  grade start")
     print("Until then, here is a shooter from the bench.")
 
-time_series(own, dynamic_seconds=1.0)
+plot_time_series(own, dynamic_seconds=1.0)
 
 # %% [markdown]
 # Fit it with SysId's recipe, and with your own five lines. For a log in rotations, gains per radian

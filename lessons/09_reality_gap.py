@@ -71,14 +71,14 @@ from sim.physics.voltage_residual import compute_voltage_residual
 from sim.plot import (
     Picture,
     Table,
-    curves,
-    gap_bars,
-    live,
+    make_residual_views,
+    plot_curves,
+    plot_gap_bars,
+    plot_time_series,
     plot_voltage_residual,
-    residual_views,
-    time_series,
+    show_interactive,
 )
-from sim.plot.story import findings_table, gap_by_round, residual_maps
+from sim.plot.story import make_findings_table, plot_gap_by_round, plot_residual_maps
 from sim.reconcile import reconcile
 from sim.teaching.prediction import Prediction
 
@@ -200,7 +200,7 @@ model_log = replace(
     ),
 )
 print(f"You said: {guess_ka}.")
-time_series(log, beside=model_log, names=("log", "simulation"), dynamic_seconds=1.0)
+plot_time_series(log, beside=model_log, names=("log", "simulation"), dynamic_seconds=1.0)
 
 # %% [markdown]
 # The colored curves are the log, the dotted black ones the simulation. Look at the start of the
@@ -315,7 +315,9 @@ def under_the_microscope(which: str) -> Picture:
     return plot_voltage_residual(one, simulated(true_model, one), truth)
 
 
-live(under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="look at"))
+show_interactive(
+    under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="look at")
+)
 
 # %% [markdown]
 # No menu on your screen? Change the name here:
@@ -330,7 +332,7 @@ under_the_microscope("robot B")
 # %%
 rows = []
 for name, one in suspects.items():
-    seen = residual_views(one, simulated(true_model, one), truth)
+    seen = make_residual_views(one, simulated(true_model, one), truth)
     rows.append((name, *(f"{100 * view.explains:.0f} %" for view in seen.values())))
 sides = tuple(seen)
 
@@ -404,7 +406,7 @@ def both_gaps(model: Model) -> dict[str, float]:
 
 
 print(f"You said: {guess_first}.")
-gap_bars({name: both_gaps(model) for name, model in models.items()})
+plot_gap_bars({name: both_gaps(model) for name, model in models.items()})
 
 # %% [markdown]
 # **Read the bars.**
@@ -423,10 +425,10 @@ def with_it(model: str) -> list[Picture]:
     """What is missing once a model is in place, and its gaps beside those of gains alone."""
     chosen = models[model]
     shown = {"gains alone": both_gaps(base), model: both_gaps(chosen)}
-    return [plot_voltage_residual(log, simulated(chosen, log), chosen.gains), gap_bars(shown)]
+    return [plot_voltage_residual(log, simulated(chosen, log), chosen.gains), plot_gap_bars(shown)]
 
 
-live(with_it, model=widgets.Dropdown(options=list(models), description="model"))
+show_interactive(with_it, model=widgets.Dropdown(options=list(models), description="model"))
 
 # %% [markdown]
 # No menu? Change the name:
@@ -443,7 +445,7 @@ first = models["+ velocity-filter"]
 pairs = {"+ velocity-filter": first}
 for name in ("stribeck", "drag", "delay", "current-limit", "asymmetric-friction"):
     pairs[f"  … and {name}"] = fitted(("velocity-filter", name), first, log)
-gap_bars({name: both_gaps(model) for name, model in pairs.items()})
+plot_gap_bars({name: both_gaps(model) for name, model in pairs.items()})
 
 # %%
 second = pairs["  … and stribeck"]
@@ -516,7 +518,9 @@ every = {
     "+ velocity-filter": first,
     "+ stribeck": second,
 }
-gap_bars({name: {"log": gap(m, log), "held out": gap(m, held_out)} for name, m in every.items()})
+plot_gap_bars(
+    {name: {"log": gap(m, log), "held out": gap(m, held_out)} for name, m in every.items()}
+)
 
 # %% [markdown]
 # The bars shrink term by term, on motions that nothing was fitted to. That is what "we understood
@@ -563,7 +567,7 @@ def gaps_of(one: sim.Log) -> list[float]:
 
 
 print(f"You said: {guess_limit}.")
-curves(
+plot_curves(
     LIMITS,
     {"2.5 V step (fitted)": gaps_of(gentle), "6 V step (other data)": gaps_of(hard)},
     xlabel="limit in the model [V that drive the current]",
@@ -599,17 +603,17 @@ Table(
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
 print(f"Verdict: {story.verdict}.")
-findings_table(story)
+make_findings_table(story)
 
 # %%
-gap_by_round(story)
+plot_gap_by_round(story)
 
 # %% [markdown]
 # Where simulation and log disagree, before (left) and after (right). It is a microscope, too: blue
 # where the robot is slower than the model says, orange where it is faster.
 
 # %%
-residual_maps(story)
+plot_residual_maps(story)
 
 # %% [markdown]
 # ### Compare with yours

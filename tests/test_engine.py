@@ -17,7 +17,7 @@ from sim.physics.effects import EFFECTS
 from sim.physics.effects.drag import EFFECT as DRAG
 from sim.physics.engine import (
     EXACT,
-    NO_TRUST,
+    NO_CORRECTION,
     NO_WIRES,
     State,
     effect_arrays,
@@ -390,7 +390,7 @@ def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
         "rubs": np.zeros(1), "sessions": np.zeros(1), "c": model_constants(PLAIN), "w": NO_WIRES,
         "on": on, "p": parameters,
         "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS), "began": np.zeros(1),
-        "steps": EXACT, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_TRUST,
+        "steps": EXACT, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_CORRECTION,
         "out": np.zeros((TIME.size, 8)),
     }  # fmt: skip
     engine = compose_engine(EFFECTS)

@@ -9,7 +9,7 @@ from sim.core.errors import BadRequest
 from sim.feedback import Plant
 from sim.feedback.following import follow_profile
 from sim.feedback.profile import STEP, Leg, join_legs, make_brisk_profile, make_return_profile
-from sim.plot.consequence import Trace, consequence, profile_traces
+from sim.plot.consequence import Trace, make_profile_traces, plot_consequence
 
 DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.2}
 LIFT = {"kS": 0.25, "kV": 4.5, "kA": 0.2, "kG": 2.0}
@@ -98,7 +98,7 @@ def test_no_number_is_too_large(gain, size):
 
 def test_the_picture_shows_both_and_says_it_in_words():
     one = followed("elevator", kG=0.0)
-    drawn = consequence(profile_traces(one), words=one.words)
+    drawn = plot_consequence(make_profile_traces(one), words=one.words)
     speed, height = drawn.figure.axes
 
     assert one.words in drawn.alt
@@ -114,13 +114,13 @@ def test_where_only_speed_matters_there_is_one_panel():
         Plant("simple", DRIVE), Plant("simple", DRIVE), UP, name="wheel", symbol="rot", place=""
     )
 
-    assert [one.ylabel for one in profile_traces(spun)] == ["velocity [rot/s]"]
+    assert [one.ylabel for one in make_profile_traces(spun)] == ["velocity [rot/s]"]
 
 
 def test_what_cannot_be_drawn_is_refused():
     short = Trace("thing", "way [m]", (0.0, 1.0), (0.0, 1.0), {"what it does": (0.0,)})
 
     with pytest.raises(BadRequest, match="not one value for each time. Give as many"):
-        consequence([short], words="")
+        plot_consequence([short], words="")
     with pytest.raises(BadRequest, match="no motion to draw"):
-        consequence([], words="")
+        plot_consequence([], words="")

@@ -84,14 +84,14 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     spring = {**GAINS, "spring.rate": 1e-4, "spring.preload": 0.3}
     taken = score_estimate(problem, minimize(problem, at(problem, spring, "spring")), "spring")
-    gaps = [validation_gap(problem, one.point, parts) for one in (base, taken)]
+    gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
     told = simplify_effects(problem, done, log, parts)
 
     assert [one.candidate.effect for one in told] == ["", "constant-load"]
-    assert told[-1].candidate.point.structure.effects == ("constant-load",)
-    assert told[-1].candidate.point.values["constant-load.load"] == pytest.approx(0.3, abs=0.02)
+    assert told[-1].candidate.estimate.structure.effects == ("constant-load",)
+    assert told[-1].candidate.estimate.values["constant-load.load"] == pytest.approx(0.3, abs=0.02)
 
 
 def test_an_effect_that_needs_its_parameters_keeps_them():
@@ -101,7 +101,7 @@ def test_an_effect_that_needs_its_parameters_keeps_them():
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}
     taken = score_estimate(problem, minimize(problem, at(problem, values, "spring")), "spring")
-    gaps = [validation_gap(problem, one.point, parts) for one in (base, taken)]
+    gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
     assert simplify_effects(problem, done, log, parts) == done

@@ -218,7 +218,7 @@ def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, s
         problem, SelectionRound(base, gap, gap), log, make_folds([0, 0, 0, 0])
     )
 
-    assert one.tried.admitted is admitted
+    assert one.report.admitted is admitted
 
 
 def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypatch):
@@ -243,8 +243,8 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
         problem, SelectionRound(base, gap, gap), log, make_folds([0, 0, 0, 0])
     )
 
-    assert inertia.tried.admitted
-    assert drag.tried.why == model_selection.HARDLY
+    assert inertia.report.admitted
+    assert drag.report.why == model_selection.HARDLY
 
 
 @pytest.fixture(scope="module")

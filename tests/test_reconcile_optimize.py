@@ -23,7 +23,7 @@ from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.local_minimum import predicted_improvement
 from sim.reconcile.model_selection import WIDENS, rejection_reason
 from sim.reconcile.selection_round import WeighedCandidate
-from sim.reconcile.story import Tried
+from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import MAJOR
 
 BAND = 0.25  # [V] of an elevator whose ramps begin at 1.5 V upward, and at once downward
@@ -169,7 +169,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
         other = replace(now.candidate, effect="drag", score=now.candidate.score - 500.0)
         return [
             WeighedCandidate(
-                other, sizes[len(calls)], Tried("drag", 500.0, 0.9, admitted=True, why="")
+                other, sizes[len(calls)], TriedCandidate("drag", 500.0, 0.9, admitted=True, why="")
             )
         ]
 

@@ -26,7 +26,7 @@ from sim.reconcile.forward_selection import (
 )
 from sim.reconcile.model_selection import HARDLY, WIDENS, choose_simplest
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
-from sim.reconcile.story import Tried
+from sim.reconcile.story import TriedCandidate
 
 
 def weighed(effect, score, *, gap=0.95, why="", **values):
@@ -34,7 +34,7 @@ def weighed(effect, score, *, gap=0.95, why="", **values):
     structure = ModelStructure("simple") + effect
     named = {f"{effect}.{name}": value for name, value in values.items()}
     point = replace(NOWHERE, structure=structure, values=named)
-    tried = Tried(effect, score, gap, admitted=not why, why=why)
+    tried = TriedCandidate(effect, score, gap, admitted=not why, why=why)
     return WeighedCandidate(Candidate(effect, point, 0.0), Gap(gap, gap), tried)
 
 
@@ -45,7 +45,7 @@ def model(effect, score, *, gap, others=()):
         WeighedCandidate(
             Candidate(name, NOWHERE, 0.0),
             Gap(gap, gap),
-            Tried(name, more, 0.9, admitted=good, why=""),
+            TriedCandidate(name, more, 0.9, admitted=good, why=""),
         )
         for name, more, good in others
     )
@@ -136,7 +136,7 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
     effect, score, why = other
     small = {f"{effect}.{name}": 0.001 for name in EFFECTS[effect].names}
     point = replace(NOWHERE, values=small)
-    tried = Tried(effect, score, 1.2, admitted=False, why=why)
+    tried = TriedCandidate(effect, score, 1.2, admitted=False, why=why)
     another = WeighedCandidate(Candidate(effect, point, 0.0), Gap(5.0, 5.0), tried)
     done = [replace(model("", 1000.0, gap=4.0), candidates=(another,))]
     asked = []
@@ -160,7 +160,7 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
 )
 def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, taken):
     small = {f"compliance.{name}": 0.001 for name in EFFECTS["compliance"].names}
-    tried = Tried("compliance", 900.0, 1.2, admitted=False, why=WIDENS)
+    tried = TriedCandidate("compliance", 900.0, 1.2, admitted=False, why=WIDENS)
     suspect = Candidate("compliance", replace(NOWHERE, values=small), 0.0)
     blocked = WeighedCandidate(suspect, Gap(5.0, 5.0), tried)
     base = model("", 1000.0, gap=4.0)
@@ -236,7 +236,7 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
 ):
     one_gap = Gap(1.0, 1.0)
     alike = (("battery-sag", 425.0), (other, 366.0))
-    tried = tuple(Tried(name, score, 0.9, admitted=True, why="") for name, score in alike)
+    tried = tuple(TriedCandidate(name, score, 0.9, admitted=True, why="") for name, score in alike)
     base = replace(model("", 1000.0, gap=2.0), tried=tried)
     point = replace(
         NOWHERE,

@@ -12,7 +12,7 @@ from sim.estimation.optimize import append_prior_rows, make_joint_jacobian
 from sim.estimation.random_friction import friction_sd, laplace_correction
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
-from sim.physics.engine import NO_TRUST, RunBatch, filter_runs
+from sim.physics.engine import NO_CORRECTION, RunBatch, filter_runs
 from sim.physics.model import Model, Part
 from sim.reconcile.cross_validation import open_loop_errors, parabola_minima, rms_gap
 from sim.reconcile.findings import standard_errors
@@ -45,7 +45,7 @@ def followed(model, time, volts, *, rubs):
     return filter_runs(
         model,
         course,
-        kalman_gain=NO_TRUST,
+        kalman_gain=NO_CORRECTION,
         position_offset=still,
         backlash_phase=still,
         friction_offset=np.array(rubs),

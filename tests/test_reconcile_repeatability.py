@@ -19,7 +19,7 @@ from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_re
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import ALIKE
-from sim.reconcile.verdict import verdict_of
+from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -117,7 +117,7 @@ def test_it_is_told_where_and_by_how_much(alike, units, said):
     gap = Gap(problem.noise.velocity, problem.noise.position)
     done = [SelectionRound(score_estimate(problem, point), gap, gap)]
 
-    verdict, remainder, remains = verdict_of(
+    verdict, remainder, remains = reach_verdict(
         [], done, problem, left=ResidualSummary(repeated=alike), per=find_unit(units)
     )
 

@@ -23,7 +23,7 @@ from sim.reconcile.residual_tests.spectrum import FASTEST, TURNS, SpectralPeak, 
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import RHYTHM
-from sim.reconcile.verdict import verdict_of
+from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -70,15 +70,15 @@ def test_a_swing_is_found_at_its_rate_though_it_passes_for_pushes_at_random(seed
     assert rhythm.size > RHYTHM
     assert rhythm.rate == pytest.approx(swings, abs=0.15)
     assert point.process_noise > problem.noise.velocity**2
-    assert ResidualSummary.by(problem, point).swings
+    assert ResidualSummary.summarize(problem, point).is_periodic
 
 
 def test_a_wave_along_the_way_is_told_as_a_habit_of_places():
     wave = Part("cogging", {"cosine": 0.25, "sine": 0.0, "turns": 3.0})
 
-    left = ResidualSummary.by(*found(session(wave, seed=2))[:2])
+    left = ResidualSummary.summarize(*found(session(wave, seed=2))[:2])
 
-    assert left.repeats
+    assert left.is_repeated
     assert "At the same places" in remains_of(left)[2]
 
 
@@ -105,7 +105,7 @@ def remains_of(left):
     problem, point = based(session(seed=6), GAINS)
     gap = Gap(problem.noise.velocity, problem.noise.position)
     done = [SelectionRound(score_estimate(problem, point), gap, gap)]
-    return verdict_of([], done, problem, left=left, per=find_unit("meters"))
+    return reach_verdict([], done, problem, left=left, per=find_unit("meters"))
 
 
 def test_it_is_told_how_often():

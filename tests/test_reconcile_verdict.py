@@ -25,8 +25,8 @@ from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
-from sim.reconcile.story import Tried
-from sim.reconcile.verdict import verdict_of
+from sim.reconcile.story import TriedCandidate
+from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
 METERS = find_unit("meters")
@@ -74,7 +74,9 @@ def rounds(problem, *gaps, values=GAINS, structure=None):
     ],
 )
 def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, verdict, remains):
-    said = verdict_of(findings, rounds(problem, *gaps), problem, left=ResidualSummary(), per=METERS)
+    said = reach_verdict(
+        findings, rounds(problem, *gaps), problem, left=ResidualSummary(), per=METERS
+    )
 
     assert said[:2] == (verdict, remains)
     assert bool(said[2]) is remains
@@ -87,13 +89,13 @@ def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, 
     done = rounds(problem, 2.0)
     values = {"compliance.softness": softness, "compliance.share": 0.2}
     point = replace(done[0].candidate.point, values=values)
-    tried = Tried("compliance", score, 1.6, admitted=False, why=WIDENS)
+    tried = TriedCandidate("compliance", score, 1.6, admitted=False, why=WIDENS)
     other = WeighedCandidate(
         replace(done[0].candidate, effect="compliance", point=point), done[0].gap, tried
     )
     done = [replace(done[0], candidates=(other,))]
 
-    said = verdict_of([], done, problem, left=ResidualSummary(), per=METERS)
+    said = reach_verdict([], done, problem, left=ResidualSummary(), per=METERS)
 
     assert said[0] == verdict
     assert ("compliance" in said[2]) is (verdict == "unexplained")
@@ -114,7 +116,7 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
 ):
     findings = [replace(DRAG, effect=name) for name in names]
 
-    verdict, remainder, remains = verdict_of(
+    verdict, remainder, remains = reach_verdict(
         findings, rounds(problem, 40.0, 1.1), problem, left=ResidualSummary(), per=METERS
     )
 
@@ -134,7 +136,11 @@ def added(problem, *steps, values):
         without = Gap(bare * problem.noise.velocity, 1e-5)
         done.append(
             SelectionRound(
-                score_estimate(problem, point, name), gap, before, lost=150.0, bare=without
+                score_estimate(problem, point, name),
+                gap,
+                before,
+                removal_cost=150.0,
+                gap_without=without,
             )
         )
     return done
@@ -260,7 +266,9 @@ def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score
     values = {**GAINS, "battery-sag.share": 0.64}
     base, one = added(problem, ("battery-sag", 1.9, 2.0), values=values)
     scores = {"battery-sag": score, **others}
-    tried = tuple(Tried(name, each, 1.0, admitted=False, why="") for name, each in scores.items())
+    tried = tuple(
+        TriedCandidate(name, each, 1.0, admitted=False, why="") for name, each in scores.items()
+    )
     done = [replace(base, tried=tried), replace(one, lost=score)]
     chapters = [SimpleNamespace(gap=each.gap.velocity) for each in done]
 

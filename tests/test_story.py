@@ -37,15 +37,20 @@ from sim.cli import sysid
 from sim.core.errors import BadRequest
 from sim.physics.effects import EFFECTS
 from sim.plot.story import (
-    candidate_bars,
-    findings_table,
-    gap_by_round,
+    make_findings_table,
+    plot_candidate_bars,
+    plot_gap_by_round,
     plot_overlays,
-    residual_maps,
+    plot_residual_maps,
 )
-from sim.reconcile.story_text import format_estimate, headline, list_inspections, list_next_tests
-from sim.report.story import story_page, write_story
-from sim.report.story_terminal import progress_bar, show_story
+from sim.reconcile.story_text import (
+    format_estimate,
+    list_inspections,
+    list_next_tests,
+    write_headline,
+)
+from sim.report.story import render_story, write_story
+from sim.report.story_terminal import show_progress, show_story
 from sim.support.command_line import run_command
 
 BEFORE, AFTER = 16.2, 1.01  # [noises] of the story's log, worked out in the first test
@@ -56,7 +61,7 @@ PAGES = ("nothing missing", "explained", "damage and drag", "ambiguous", "unexpl
 @pytest.fixture(scope="module")
 def pages():
     """Each story's page."""
-    return {name: story_page(STORIES[name], title="drive.csv") for name in PAGES}
+    return {name: render_story(STORIES[name], title="drive.csv") for name in PAGES}
 
 
 def told(one):
@@ -95,7 +100,7 @@ def test_the_numbers_of_the_story_are_those_of_its_log():
     ],
 )
 def test_the_verdict_is_one_plain_sentence(name, said):
-    sentence = headline(STORIES[name])
+    sentence = write_headline(STORIES[name])
 
     assert said in sentence
     assert sentence.endswith(".")
@@ -105,7 +110,7 @@ def test_the_verdict_is_one_plain_sentence(name, said):
 def test_a_gap_that_does_not_shrink_is_said_so():
     worse = story(DRAG, gap_after=1.2 * EXPLAINED.gap_before)
 
-    assert "with it the gap does not shrink" in headline(worse)
+    assert "with it the gap does not shrink" in write_headline(worse)
     assert "do not trust the finding" in re.sub(r"\s+", " ", told(worse))
 
 
@@ -113,8 +118,10 @@ def test_nothing_is_called_complete_that_is_far_off():
     off = STORIES["nothing missing"]
     off = replace(off, gap_after=3.0 * off.noise_floor)
 
-    assert headline(off).startswith("No effect of the catalogue would narrow the gap by much, thou")
-    assert "off by 3 times the noise" in headline(off)
+    assert write_headline(off).startswith(
+        "No effect of the catalogue would narrow the gap by much, thou"
+    )
+    assert "off by 3 times the noise" in write_headline(off)
 
 
 @pytest.mark.parametrize(
@@ -170,7 +177,7 @@ def test_a_terminal_shows_plain_lines_of_eighty_columns(name):
     assert max(map(len, said.splitlines())) <= 80
     assert "\x1b" not in said
     assert all(line == line.rstrip() for line in said.splitlines())
-    assert re.sub(r"\s+", " ", headline(STORIES[name])) in re.sub(r"\s+", " ", said)
+    assert re.sub(r"\s+", " ", write_headline(STORIES[name])) in re.sub(r"\s+", " ", said)
 
 
 def test_a_terminal_shows_findings_gaps_and_what_to_do():
@@ -197,7 +204,7 @@ def test_brackets_in_a_name_are_no_markup():
 
 
 def test_nobody_watches_a_bar_that_no_terminal_shows(capsys):
-    with progress_bar() as progress:
+    with show_progress() as progress:
         progress("round 1", 0.5)
 
     assert capsys.readouterr() == ("", "")
@@ -213,7 +220,7 @@ def test_the_page_is_alone_and_for_everybody(pages, name):
 
 @pytest.mark.parametrize("name", PAGES)
 def test_the_page_opens_with_the_verdict(pages, name):
-    page, sentence = unescape(pages[name]), headline(STORIES[name])
+    page, sentence = unescape(pages[name]), write_headline(STORIES[name])
 
     assert page.index(sentence) < page.index("<nav") < page.index("<h2")
 
@@ -253,13 +260,13 @@ def test_a_round_that_explains_nothing_has_no_empty_picture(pages):
 
 
 def test_the_same_story_gives_the_same_page(pages):
-    assert story_page(EXPLAINED, title="drive.csv") == pages["explained"]
+    assert render_story(EXPLAINED, title="drive.csv") == pages["explained"]
 
 
 def test_what_a_file_is_called_is_no_code():
     hostile = "<script>alert(1)</script>.csv"
 
-    page = story_page(story(replace(DRAG, sentence="<b onclick='x'>")), title=hostile)
+    page = render_story(story(replace(DRAG, sentence="<b onclick='x'>")), title=hostile)
 
     assert page_flaws(page) == []
     assert "&lt;script&gt;alert(1)" in page
@@ -275,7 +282,7 @@ def test_a_simulation_that_ran_away_is_said_in_words():
         findings=(replace(DRAG, gap_before=math.inf),),
     )
 
-    page = story_page(mad, title="drive.csv")
+    page = render_story(mad, title="drive.csv")
 
     assert page_flaws(page) == []
     assert "ran away" in page
@@ -319,7 +326,7 @@ def test_the_base_has_no_before():
 
 
 def test_the_map_shows_where_before_and_nowhere_after():
-    picture = residual_maps(EXPLAINED)
+    picture = plot_residual_maps(EXPLAINED)
 
     models = [row[-1] for row in picture.table.rows]
     assert set(models) == {"base"}
@@ -330,24 +337,24 @@ def test_the_map_shows_where_before_and_nowhere_after():
 def test_samples_that_do_not_count_are_not_on_the_map():
     ramp_only = tuple(np.full(150, test.startswith("quasistatic")) for test in TESTS)
 
-    picture = residual_maps(replace(EXPLAINED, compared=ramp_only))
+    picture = plot_residual_maps(replace(EXPLAINED, compared=ramp_only))
 
     assert "quasistatic-forward" in picture.alt
     assert "dynamic" not in picture.alt
-    assert "dynamic" in residual_maps(EXPLAINED).alt
+    assert "dynamic" in plot_residual_maps(EXPLAINED).alt
 
 
 def test_a_map_of_nothing_is_refused_and_said_on_the_page():
     none = replace(EXPLAINED, compared=tuple(np.zeros(150, dtype=bool) for _ in TESTS))
 
     with pytest.raises(BadRequest, match="Give longer runs"):
-        residual_maps(none)
-    assert "there is too little to compare" in story_page(none, title="drive.csv")
+        plot_residual_maps(none)
+    assert "there is too little to compare" in render_story(none, title="drive.csv")
 
 
 def test_suspects_and_the_gap_are_told_in_numbers():
-    lineup = candidate_bars(EXPLAINED)
-    shrinking = gap_by_round(EXPLAINED)
+    lineup = plot_candidate_bars(EXPLAINED)
+    shrinking = plot_gap_by_round(EXPLAINED)
 
     assert [row[0] for row in lineup.table.rows] == ["drag", "stribeck", "battery-sag", "delay"]
     assert [row[1] for row in lineup.table.rows] == ["812", "400", "120", "−9"]
@@ -360,7 +367,7 @@ def test_suspects_and_the_gap_are_told_in_numbers():
 
 
 def test_the_table_has_a_row_for_each_finding():
-    rows = findings_table(STORIES["damage and drag"]).rows
+    rows = make_findings_table(STORIES["damage and drag"]).rows
 
     assert [row[:2] for row in rows] == [
         ("encoder-slip", "damage to the record"), ("drag", "major"), ("battery-sag", "minor"),
@@ -381,10 +388,10 @@ def test_a_round_without_suspects_is_refused():
     none = replace(EXPLAINED, chapters=tuple(replace(one, tried=()) for one in (base, last)))
 
     with pytest.raises(BadRequest, match="No effect was tried on any model: read the verdict."):
-        candidate_bars(none, 0)
+        plot_candidate_bars(none, 0)
     with pytest.raises(BadRequest, match="in chapter 1. Choose one of: 0."):
-        candidate_bars(bare, 1)
-    assert all(page_flaws(story_page(one, title="drive.csv")) == [] for one in (bare, none))
+        plot_candidate_bars(bare, 1)
+    assert all(page_flaws(render_story(one, title="drive.csv")) == [] for one in (bare, none))
 
 
 # -- command -------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from sim.physics.engine import NO_TRUST, RunBatch, State, filter_runs, simulate_run
+from sim.physics.engine import NO_CORRECTION, RunBatch, State, filter_runs, simulate_run
 from sim.physics.engine.two_body_modes import (
     MOVES,
     ROW,
@@ -57,7 +57,7 @@ def searched(model, volts):
     return filter_runs(
         model,
         course,
-        kalman_gain=NO_TRUST,
+        kalman_gain=NO_CORRECTION,
         position_offset=still,
         backlash_phase=still,
         friction_offset=still,

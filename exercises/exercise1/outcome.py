@@ -61,7 +61,7 @@ def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None
         shown = [
             plot.Trace(one.name, ylabel, one.time, one.wanted, {done: one.found}) for one in motions
         ]
-        return plot.consequence(shown, words=words)
+        return plot.plot_consequence(shown, words=words)
 
     return Consequence(words, draw)
 

@@ -17,7 +17,7 @@ from sim import read
 from sim.core.errors import Refusal
 from sim.core.units import find_unit, gains_per
 from sim.physics.replay import replay_log
-from sim.reconcile.residual_map import residual_map
+from sim.reconcile.residual_map import map_residuals
 
 TOLD = 4  # places
 
@@ -51,8 +51,8 @@ def main() -> int:
     _say("Where the validation disagrees most:")
     shown = logs["validation"]
     tracks = [np.column_stack((one.position, one.seen)) for one in replay_log(model, shown)]
-    found = residual_map(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
-    places = found.places(TOLD, signal="velocity") if found else ()
+    found = map_residuals(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
+    places = found.find_places(TOLD, signal="velocity") if found else ()
     for place in places:
         _say(f"  {place.sentence}")
     if not places:

@@ -60,7 +60,7 @@ def outcome(plans: Mapping[str, Plan], machines: Mapping[str, Machine]) -> Conse
             )
             for one in found
         ]
-        return plot.consequence(shown, words=words)
+        return plot.plot_consequence(shown, words=words)
 
     return Consequence(words, draw)
 

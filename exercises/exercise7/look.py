@@ -20,7 +20,7 @@ from sim.bench.dataset.student import make_folder_name
 from sim.core.errors import Refusal
 from sim.core.units import find_unit
 from sim.io import read
-from sim.plot.picture import COLORS, INK, Picture, panels
+from sim.plot.picture import COLORS, INK, Picture, make_panels
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,7 +64,7 @@ def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float =
     """
     per = find_unit(log.units)
     names = ("voltage [V]", f"velocity [{per.symbol}/s]", f"position [{per.symbol}]", "step [ms]")
-    figure, grid = panels(len(names), len(runs), width=3.4 * len(runs) + 1.0, height=8.4)
+    figure, grid = make_panels(len(names), len(runs), width=3.4 * len(runs) + 1.0, height=8.4)
     for column, run in enumerate(runs):
         since = run.time - run.time[0]
         kept = (since >= begin) & (since <= end)

@@ -19,7 +19,7 @@ from grader.course import update_progress
 from grader.variant import make_folder_name, normalize_name
 from sim.bench.dataset.roster_file import read_roster
 from sim.core.errors import BadRequest
-from sim.report.page_file import write_whole
+from sim.report.page_file import write_page_file
 
 CODES = "codes.csv"
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"  # without those that look like others
@@ -45,7 +45,7 @@ def login_codes(folder: Path, students: Iterable[str]) -> dict[str, str]:
         stream = io.StringIO(newline="")
         csv.writer(stream).writerows([("student", "code"), *found.items()])
         folder.mkdir(parents=True, exist_ok=True)
-        write_whole(stream.getvalue(), path, private=True)
+        write_page_file(stream.getvalue(), path, private=True)
     if path.exists():
         path.chmod(0o600)  # one that was made before
     return found

@@ -15,7 +15,7 @@ import numpy as np
 
 from sim.core.log import Array
 from sim.estimation.measurements import SensorNoise
-from sim.physics.engine import NO_TRUST
+from sim.physics.engine import NO_CORRECTION
 from sim.physics.model import Model
 
 DOUBLINGS = 40  # rounds; 2⁴⁰ samples are for ever
@@ -33,7 +33,7 @@ def steady_state_gain(
         period: [s] between samples.
     """
     if process_noise <= 0.0:
-        return NO_TRUST
+        return NO_CORRECTION
     rate, dt = model.gains["kV"] / model.gains["kA"], period
     # velocities in units of their noise and positions in as many: so the numbers are near one
     kept = math.exp(-rate * dt)

@@ -29,7 +29,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.random_friction import friction_prior, friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
-from sim.physics.engine import EXPECTED, NO_TRUST, RunBatch, Track, filter_runs
+from sim.physics.engine import EXPECTED, NO_CORRECTION, RunBatch, Track, filter_runs
 from sim.physics.model import Model
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
@@ -196,7 +196,9 @@ class PredictionErrorProblem:
 
     # -- simulate --------------------------------------------------------------------------------
 
-    def simulate(self, model: Model, nuisance: RunNuisance, kalman_gain: Array = NO_TRUST) -> Track:
+    def simulate(
+        self, model: Model, nuisance: RunNuisance, kalman_gain: Array = NO_CORRECTION
+    ) -> Track:
         """All runs, one after another.
 
         Args:
@@ -248,7 +250,7 @@ class PredictionErrorProblem:
             values,
             nuisance,
             process_noise,
-            NO_TRUST,
+            NO_CORRECTION,
             np.empty((0, 2)),
             np.eye(2),
             math.inf,

@@ -13,7 +13,7 @@ from sim.core.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
 from sim.core.units import Unit, find_unit
 from sim.fit.sysid_rows import Rows, prepare_rows
 from sim.plot.decimate import decimate_cloud, decimate_curve
-from sim.plot.picture import COLORS, INK, LINES, REFERENCE, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, LINES, REFERENCE, Picture, add_legend, make_panels
 from sim.plot.table import Table
 
 KINDS = ("quasistatic", "dynamic")
@@ -22,7 +22,7 @@ MOST_CURVE = 1000  # samples of a curve that are drawn: a panel has fewer pixels
 FAINT = "#767676"  # what is there for comparison; the palest gray that is still easy to see
 
 
-def velocity_time(
+def plot_velocity_time(
     log: Log,
     *,
     median: int = 1,
@@ -49,7 +49,7 @@ def velocity_time(
     """
     per = find_unit(log.units)
     rows = prepare_rows(log, median=median).rows
-    figure, grid = panels(2, 2, height=4.6)
+    figure, grid = make_panels(2, 2, height=4.6)
     for column, kind in enumerate(KINDS):
         for row, way in enumerate(DIRECTIONS):
             test = f"{kind}-{way}"
@@ -64,7 +64,7 @@ def velocity_time(
     if dynamic_seconds is not None:
         for line in grid:
             line[1].set_xlim(-0.02 * dynamic_seconds, dynamic_seconds)
-    legend(figure, [axes for line in grid for axes in line])
+    add_legend(figure, [axes for line in grid for axes in line])
     table = _table(log, rows, beside, name=name, per=per)
     return Picture(figure, _words(log, rows, beside, median=median, name=name, per=per), table)
 

@@ -103,7 +103,7 @@ def draw_fault_marks(log: Log, damage: Sequence[FaultMark], *, drawn: Signals) -
             _letters(axes, here, boxes)
 
 
-def legend_entries(damage: Sequence[FaultMark]) -> list[Patch]:
+def make_legend_entries(damage: Sequence[FaultMark]) -> list[Patch]:
     """One entry of the legend for each fault."""
     first = {mark.fault: mark for mark in reversed(damage)}
     return [

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from sim.core.errors import BadRequest
-from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
+from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, make_panels
 from sim.plot.table import Table
 from sim.teaching.runway import FloorTest
 
@@ -16,7 +16,7 @@ SEEN, TAPE, BUMP = COLORS[0], COLORS[3], COLORS[1]
 LIT = "#F5C2A3"  # a paler vermilion: words over it stay legible
 
 
-def runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
+def plot_runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
     """A test on its floor from above, and below it speed and battery over time.
 
     Args:
@@ -29,7 +29,7 @@ def runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
     if not 0.0 <= moment <= 1.0:
         raise BadRequest(f"a moment of {moment:g}", advice="Choose 0 (start) to 1 (end).")
     now = round(moment * (drive.time.size - 1))
-    figure, ((floor,), (speed,), (battery,)) = panels(3, 1, height=5.0)
+    figure, ((floor,), (speed,), (battery,)) = make_panels(3, 1, height=5.0)
     _floor(floor, drive, now)
     _over_time(speed, drive, drive.velocity, now)
     speed.set_ylabel("speed [m/s]", color=INK)

@@ -42,12 +42,12 @@ def estimate_backlash_phase(
             for by in (-FINER, FINER)
         ]
     model = point.structure.model(point.values)
-    costs = [_costs(problem, point, point.innovations, before)]
+    costs = [_costs_by_run(problem, point, point.innovations, before)]
     for each in others:
         ahead = problem.predict_errors(
             model, point.nuisance.with_backlash_phase(each), point.kalman_gain
         )
-        costs.append(_costs(problem, point, ahead, each))
+        costs.append(_costs_by_run(problem, point, ahead, each))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
     if not chosen.any():
         return point
@@ -72,19 +72,21 @@ def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     )
 
 
-def _costs(problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshed: Array) -> Array:
+def _costs_by_run(
+    problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshed: Array
+) -> Array:
     """(runs,) what the innovations of each cost, by the spread at a point, and what was told."""
     squares = np.square(problem.whiten(point, ahead)).reshape(-1, 2).sum(axis=1)
-    costs: Array = np.add.reduceat(squares, problem.run_edges[:-1]) + _prices(meshed)
+    costs: Array = np.add.reduceat(squares, problem.run_edges[:-1]) + _prior_costs(meshed)
     return costs
 
 
 def backlash_phase_prior(point: Estimate) -> float:
     """[of -2 log L] prior cost of the backlash phases."""
-    return float(np.sum(_prices(point.nuisance.backlash_phase)))
+    return float(np.sum(_prior_costs(point.nuisance.backlash_phase)))
 
 
-def _prices(meshed: Array) -> Array:
+def _prior_costs(meshed: Array) -> Array:
     """(runs,) [of -2 log L]."""
     told = np.where(np.abs(meshed) == 1.0, ASIDE, BETWEEN)
     return np.where(np.isnan(meshed), 0.0, told)

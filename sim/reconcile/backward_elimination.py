@@ -33,14 +33,14 @@ def replace_effects(
     last = done[-1]
     for place in range(1, len(done) - 1):
         effect = done[place].candidate.effect
-        others = _others(done, place)
+        others = _look_alikes(done, place)
         if not others:
             continue
         reduced = refit_without(problem, last.candidate, effect)
         if reduced.score - last.candidate.score < required_improvement(
             effect
         ):  # it has become needless
-            gap = validation_gap(problem, reduced.point, parts)
+            gap = validation_gap(problem, reduced.estimate, parts)
             if not math.isfinite(gap.velocity + gap.position):
                 continue
             rest = [*done[:place], *done[place + 1 : -1]]
@@ -48,23 +48,23 @@ def replace_effects(
                 *rest,
                 replace(last, candidate=replace(reduced, effect=last.candidate.effect), gap=gap),
             ]
-        model = reduced.point.structure.model(reduced.point.values)
+        model = reduced.estimate.structure.model(reduced.estimate.values)
         evidence = compute_voltage_residual(
-            log, dict(model.gains), type=reduced.point.structure.type
+            log, dict(model.gains), type=reduced.estimate.structure.type
         )
-        found = rank_candidates(problem, reduced.point, evidence, only=others, seeds=last.seeds)
-        if not found or score_improvement(last.candidate, found[0]) < _clear(
+        found = rank_candidates(problem, reduced.estimate, evidence, only=others, seeds=last.seeds)
+        if not found or score_improvement(last.candidate, found[0]) < _required_advantage(
             effect, found[0].effect
         ):
             continue
-        gap = validation_gap(problem, found[0].point, parts)
+        gap = validation_gap(problem, found[0].estimate, parts)
         if rejection_reason(gap, last.gap, SURER) == WIDENS:
             continue
-        return _replaced(done, place, found[0], gap)
+        return _replace_one(done, place, found[0], gap)
     return done
 
 
-def _clear(effect: str, other: str) -> float:
+def _required_advantage(effect: str, other: str) -> float:
     """[of -2 log L] by which another effect must be likelier to take the place of one."""
     passing = EFFECTS[other].has_onset and not EFFECTS[effect].has_onset
     return ONCE if passing else CLOSE
@@ -80,24 +80,24 @@ def simplify_effects(
     for place in range(1, len(done)):
         last = done[-1]
         effect = done[place].candidate.effect
-        had = last.candidate.point.structure.effects  # those that nobody names among them
+        had = last.candidate.estimate.structure.effects  # those that nobody names among them
         names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []
-        model = last.candidate.point.structure.model(last.candidate.point.values)
+        model = last.candidate.estimate.structure.model(last.candidate.estimate.values)
         evidence = compute_voltage_residual(
-            log, dict(model.gains), type=last.candidate.point.structure.type
+            log, dict(model.gains), type=last.candidate.estimate.structure.type
         )
-        begun = simplify_effect(problem, last.candidate.point, names, evidence, effect=effect)
+        begun = simplify_effect(problem, last.candidate.estimate, names, evidence, effect=effect)
         if begun is None or not math.isfinite(begun.cost):
             continue
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
-        gap = validation_gap(problem, found.point, parts)
+        gap = validation_gap(problem, found.estimate, parts)
         as_good = found.score - last.candidate.score <= SIMPLER
         if as_good and rejection_reason(gap, last.gap, SURER) != WIDENS:
-            done = _replaced(done, place, found, gap)
+            done = _replace_one(done, place, found, gap)
     return done
 
 
-def _others(done: Sequence[SelectionRound], place: int) -> list[str]:
+def _look_alikes(done: Sequence[SelectionRound], place: int) -> list[str]:
     """Effects that looked like one that was added, or are known to."""
     effect = done[place].candidate.effect
     had = {one.candidate.effect for one in done}
@@ -107,7 +107,7 @@ def _others(done: Sequence[SelectionRound], place: int) -> list[str]:
     return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
 
 
-def _replaced(
+def _replace_one(
     done: Sequence[SelectionRound], place: int, found: Candidate, gap: Gap
 ) -> list[SelectionRound]:
     """The rounds with another effect in the place of one."""
@@ -126,19 +126,19 @@ def measure_removals(
 ) -> list[SelectionRound]:
     """Each round with the estimate that lacks its effect."""
     last = done[-1].candidate
-    if len(last.point.structure.effects) <= 1:  # what it brought is what it is worth
+    if len(last.estimate.structure.effects) <= 1:  # what it brought is what it is worth
         return done
     told = [done[0]]
     for one in done[1:]:
         reduced = refit_without(problem, last, one.candidate.effect)
-        gap = validation_gap(problem, reduced.point, parts)
-        told.append(replace(one, lost=reduced.score - last.score, bare=gap))
+        gap = validation_gap(problem, reduced.estimate, parts)
+        told.append(replace(one, removal_cost=reduced.score - last.score, gap_without=gap))
     return told
 
 
 def refit_without(problem: PredictionErrorProblem, candidate: Candidate, effect: str) -> Candidate:
     """A model refitted without one of its effects."""
-    point = candidate.point
+    point = candidate.estimate
     structure = point.structure - effect
     values = {name: point.values[name] for name in structure.names}
     begin = problem.evaluate(structure, values, point.nuisance, point.process_noise)

@@ -50,13 +50,13 @@ class Candidate:
 
     Args:
         effect: its name; empty for the point itself.
-        point: the best with it.
+        estimate: the best with it.
         score: [of -2 log L] of the point, friction that varies and the number of values priced in;
             the smaller, the likelier.
     """
 
     effect: str
-    point: Estimate
+    estimate: Estimate
     score: float
 
 
@@ -85,25 +85,25 @@ def rank_candidates(
     had = (*point.structure.effects, *OWN.get(point.structure.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
-    calmer = _calmer(problem, point)
+    calmer = _find_calmer_estimate(problem, point)
     here = effects if calmer is None else [one for one in effects if one.kind != SHAKES]
-    begun = _begun(problem, point, here, evidence, seeds)[:TRIED]
+    begun = _best_starts(problem, point, here, evidence, seeds)[:TRIED]
     gone = [
         descend_candidate(problem, point, refine_onset(problem, one))
         for starts in begun
         for _, one in starts
     ]
-    best = _each_once(gone)[:KEPT]
+    best = _best_of_each_effect(gone)[:KEPT]
     if calmer is not None:
-        begun = _begun(problem, calmer, effects, evidence, seeds, heavy=True)
-        shaken = [one for one in begun[TRIED_CALM:] if _shakes(one[0][1])]
+        begun = _best_starts(problem, calmer, effects, evidence, seeds, heavy=True)
+        shaken = [one for one in begun[TRIED_CALM:] if _ends_in_two_bodies(one[0][1])]
         begun = [*begun[:TRIED_CALM], *shaken]
         calm = [descend_candidate(problem, point, one) for starts in begun for _, one in starts]
-        best = _each_once([*gone, *calm])[:KEPT]
-        best += _each_once(calm)[:1]  # the likeliest of these has the longer way to go
+        best = _best_of_each_effect([*gone, *calm])[:KEPT]
+        best += _best_of_each_effect(calm)[:1]  # the likeliest of these has the longer way to go
     ended = [minimize(problem, one) for one in dict.fromkeys(best)]
     simpler = [simplify_effect(problem, one, names, evidence) for one in ended]
-    ended = _each_once([*ended, *(minimize(problem, one) for one in simpler if one)])
+    ended = _best_of_each_effect([*ended, *(minimize(problem, one) for one in simpler if one)])
     found = [score_estimate(problem, one, one.structure.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
 
@@ -121,7 +121,7 @@ def descend_candidate(
         point: the best without the candidate.
         start: with it.
     """
-    if not _shakes(start):
+    if not _ends_in_two_bodies(start):
         return levenberg_marquardt(problem, start, steps=A_LITTLE)
     gone = levenberg_marquardt(problem, start, steps=FURTHER)
     if gone.cost < point.cost or not start.nuisance.has_backlash_phase:
@@ -132,12 +132,12 @@ def descend_candidate(
     return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=total_cost)
 
 
-def _shakes(point: Estimate) -> bool:
+def _ends_in_two_bodies(point: Estimate) -> bool:
     """Whether the last effect of a point is a joint of two bodies."""
     return EFFECTS[point.structure.effects[-1]].kind == SHAKES
 
 
-def _calmer(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None:
+def _find_calmer_estimate(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None:
     """A point that little pushes, near one that much does; None where little does anyway."""
     calm = CALM * problem.noise.velocity**2
     if point.process_noise <= AGITATED * calm:
@@ -182,7 +182,7 @@ def simplify_effect(
     return problem.evaluate(structure, {**kept, **more}, point.nuisance, point.process_noise)
 
 
-def _each_once(points: Iterable[Estimate]) -> list[Estimate]:
+def _best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
     """The best point of each effect, the likeliest first."""
     best: dict[str, Estimate] = {}
     for one in sorted(points, key=total_cost):
@@ -190,7 +190,7 @@ def _each_once(points: Iterable[Estimate]) -> list[Estimate]:
     return list(best.values())
 
 
-def _begun(
+def _best_starts(
     problem: PredictionErrorProblem, point: Estimate, effects: Iterable[Effect],
     evidence: VoltageResidual, seeds: Seeds, *, heavy: bool = False,
 ) -> list[list[Begun]]:  # fmt: skip
@@ -215,7 +215,7 @@ def _begun(
         if effect.kind == SHAKES:
             lively = lively or TwoBodyStarts(problem, point)
             if shakes := lively.there:
-                more = lively.valleys(structure, more, heavy=heavy)
+                more = lively.list_starts(structure, more, heavy=heavy)
         more += _steps_below(effect, more)
         if effect.has_onset:
             more += scan_onsets(problem, point, effect, kept=kept)

@@ -32,16 +32,16 @@ class DamageDecision:
     """Which damage is cut out, and which is reported.
 
     Args:
-        cut: which log -> stretches that are left out.
-        found: what is reported as a finding, one of each fault.
+        excluded: which log -> stretches that are left out.
+        reported: what is reported as a finding, one of each fault.
     """
 
-    cut: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
-    found: tuple[DamagedInterval, ...] = ()
+    excluded: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
+    reported: tuple[DamagedInterval, ...] = ()
 
-    def of(self, name: str) -> tuple[ExcludedInterval, ...]:
+    def excluded_from(self, name: str) -> tuple[ExcludedInterval, ...]:
         """What is left out of a log."""
-        return self.cut.get(name, ())
+        return self.excluded.get(name, ())
 
 
 def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDecision:
@@ -51,7 +51,7 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
     for name, every in damages.items():
         turned = {one.run for one in every if one.fault in WHOLE}
         for one in every:
-            if not _of_the_record(one) or (one.fault in WHOLE and len(turned) > 1):
+            if not _is_damage_to_record(one) or (one.fault in WHOLE and len(turned) > 1):
                 continue
             if one.run is not None:
                 stretch = ExcludedInterval(one.run, one.start, one.end, one.fault in FOR_GOOD)
@@ -65,7 +65,7 @@ def _confidence(one: DamagedInterval | None) -> float:
     return -1.0 if one is None else one.confidence
 
 
-def _of_the_record(one: DamagedInterval) -> bool:
+def _is_damage_to_record(one: DamagedInterval) -> bool:
     """Whether it is damage to the record beyond doubt, and no physics."""
     if one.confidence < OF_THE_RECORD.get(one.fault, 2.0):
         return False

@@ -65,7 +65,7 @@ def select_effects(
         progress: told what is done.
     """
     gap = validation_gap(problem, base, parts)
-    done = _gone(
+    done = _continue_search(
         problem, [SelectionRound(score_estimate(problem, base), gap, gap)], log, parts, progress
     )
     done = add_pair(problem, done, log, parts, progress)
@@ -74,7 +74,7 @@ def select_effects(
     return measure_removals(problem, done, parts)
 
 
-def _gone(
+def _continue_search(
     problem: PredictionErrorProblem,
     done: list[SelectionRound],
     log: Log,
@@ -83,7 +83,7 @@ def _gone(
 ) -> list[SelectionRound]:
     """The same, gone on until nothing is to be added and no earlier effect gives way."""
     for _ in range(SECOND_THOUGHTS + 1):
-        done = _added(problem, done, log, parts, progress)
+        done = _add_effects(problem, done, log, parts, progress)
         thought = replace_effects(problem, done, log, parts) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
         if thought is done:
             break
@@ -108,8 +108,12 @@ def add_pair(
     if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
         return done
     one = found[0]
-    begun = SelectionRound(one.candidate, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
-    path = _gone(problem, [*done, begun], log, parts, lambda what, _: progress(what, BESIDE))
+    begun = SelectionRound(
+        one.candidate, one.gap, now.gap, nuisance_effects=now.nuisance_effects, seeds=now.seeds
+    )
+    path = _continue_search(
+        problem, [*done, begun], log, parts, lambda what, _: progress(what, BESIDE)
+    )
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
     narrows = closes and rejection_reason(path[-1].gap, now.gap, SURER) != WIDENS
     new = {other.candidate.effect for other in path} - {other.candidate.effect for other in done}
@@ -127,13 +131,17 @@ def choose_path(
     best = done
     if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
         return best
-    for place, other in alternative_paths(done, lost=_leads_nowhere(problem, done))[:PATHS]:
+    for place, other in alternative_paths(done, lost=_is_dead_end(problem, done))[:PATHS]:
         now = done[place]
         begun = SelectionRound(
-            other.candidate, other.gap, now.gap, quiet=now.quiet, seeds=now.seeds
+            other.candidate,
+            other.gap,
+            now.gap,
+            nuisance_effects=now.nuisance_effects,
+            seeds=now.seeds,
         )
         path = [*done[: place + 1], begun]
-        path = _gone(problem, path, log, parts, lambda what, _: progress(what, BESIDE))
+        path = _continue_search(problem, path, log, parts, lambda what, _: progress(what, BESIDE))
         likelier = score_improvement(best[-1].candidate, path[-1].candidate) >= CLOSE
         if likelier and rejection_reason(path[-1].gap, best[-1].gap, SURER) != WIDENS:
             best = path
@@ -156,10 +164,10 @@ def alternative_paths(
     found = []
     for place, one in enumerate(done[:-1]):
         had = {before.candidate.effect for before in done[: place + 1]}
-        admitted = [other for other in one.candidates if other.tried.admitted]
-        top = max((other.tried.score for other in admitted), default=0.0)
-        near = [other for other in admitted if other.tried.score >= NEAR * top]
-        near.sort(key=lambda other: other.tried.gap if lost else -other.tried.score)
+        admitted = [other for other in one.candidates if other.report.admitted]
+        top = max((other.report.score for other in admitted), default=0.0)
+        near = [other for other in admitted if other.report.score >= NEAR * top]
+        near.sort(key=lambda other: other.report.gap if lost else -other.report.score)
         for other in near:
             names = frozenset({*had, other.candidate.effect})
             if names not in gone:
@@ -168,7 +176,7 @@ def alternative_paths(
     return found
 
 
-def _added(
+def _add_effects(
     problem: PredictionErrorProblem,
     done: list[SelectionRound],
     log: Log,
@@ -177,38 +185,44 @@ def _added(
 ) -> list[SelectionRound]:
     """The same, and a round for each effect that narrows the gap."""
     done = list(done)
-    while len(done) <= MOST and not _leads_nowhere(problem, done):
+    while len(done) <= MOST and not _is_dead_end(problem, done):
         progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
         now = done[-1]
         weighed = weigh_candidates(problem, now, log, parts)
-        tried = tuple(one.tried for one in weighed)
-        seeds = {**now.seeds, **_seeds(weighed)}
+        tried = tuple(one.report for one in weighed)
+        seeds = {**now.seeds, **_collect_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))
-        admitted, quiet = admissible_candidates(weighed, most=MOST_QUIET - now.quiet)
-        if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
+        admitted, quiet = admissible_candidates(weighed, most=MOST_QUIET - now.nuisance_effects)
+        if quiet and not any(one.report.score > PART * quiet[0].report.score for one in admitted):
             one = quiet[0]
-            if is_significant(one.candidate.effect, one.candidate.point.values, one.tried.score):
+            if is_significant(
+                one.candidate.effect, one.candidate.estimate.values, one.report.score
+            ):
                 done.append(
                     SelectionRound(
-                        one.candidate, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds
+                        one.candidate,
+                        one.gap,
+                        now.gap,
+                        nuisance_effects=now.nuisance_effects,
+                        seeds=now.seeds,
                     )
                 )
             else:
-                done[-1] = _with_quiet(now, one)
+                done[-1] = _add_nuisance_effect(now, one)
             continue
         if not admitted:
             break
         chosen = choose_simplest(admitted)
-        best, near = _ended(problem, chosen, parts), list_rivals(chosen, weighed)
+        best, near = _finish_search(problem, chosen, parts), list_rivals(chosen, weighed)
         if best is not chosen:
-            near = [one for one in near if _near(_ended(problem, one, parts), best)]
+            near = [one for one in near if _is_close(_finish_search(problem, one, parts), best)]
         done.append(
             SelectionRound(
                 best.candidate,
                 best.gap,
                 now.gap,
                 tuple(one.candidate.effect for one in near),
-                quiet=now.quiet,
+                nuisance_effects=now.nuisance_effects,
                 seeds=now.seeds,
             )
         )
@@ -228,19 +242,23 @@ def admissible_candidates(
         weighed: the candidates of a round.
         most: how many may be added without a name.
     """
-    admitted = [one for one in weighed if one.tried.admitted]
-    quiet = [one for one in weighed if one.tried.why == HARDLY and one.tried.score >= SURER][:most]
-    every = sorted([*admitted, *quiet], key=lambda one: -one.tried.score)
-    usual = [
-        one for one in every if is_ordinary_size(one.candidate.effect, one.candidate.point.values)
+    admitted = [one for one in weighed if one.report.admitted]
+    quiet = [one for one in weighed if one.report.why == HARDLY and one.report.score >= SURER][
+        :most
     ]
-    if usual and usual[0].tried.score >= USUAL * every[0].tried.score:
+    every = sorted([*admitted, *quiet], key=lambda one: -one.report.score)
+    usual = [
+        one
+        for one in every
+        if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
+    ]
+    if usual and usual[0].report.score >= USUAL * every[0].report.score:
         admitted = [one for one in admitted if one is usual[0]]
         quiet = [one for one in quiet if one is usual[0]]
     return admitted, quiet
 
 
-def _leads_nowhere(problem: PredictionErrorProblem, done: Sequence[SelectionRound]) -> bool:
+def _is_dead_end(problem: PredictionErrorProblem, done: Sequence[SelectionRound]) -> bool:
     """Whether the model is lost, and has nothing to add to, or its last effect took little away.
 
     Of such a model nothing is told in the end, and it may take minutes to see four effects of it.
@@ -249,18 +267,18 @@ def _leads_nowhere(problem: PredictionErrorProblem, done: Sequence[SelectionRoun
     share = missed_motion(now.gap.velocity / problem.noise.velocity, problem)
     if share <= LOST:
         return False
-    values = now.candidate.point.values
+    values = now.candidate.estimate.values
     if len(done) == 1:
         return values["kA"] > UNDRIVEN * values["kV"]
-    return not now.gap.velocity <= FAR_MAJOR * now.before.velocity
+    return not now.gap.velocity <= FAR_MAJOR * now.gap_before.velocity
 
 
-def _ended(
+def _finish_search(
     problem: PredictionErrorProblem, best: WeighedCandidate, parts: Sequence[Fold]
 ) -> WeighedCandidate:
     """The same, as far as its search leads: candidates are only compared, the one taken goes on."""
     candidate = best.candidate
-    point = minimize_fully(problem, candidate.point)
+    point = minimize_fully(problem, candidate.estimate)
     for other in flip_duration(problem, point):
         settled = minimize(problem, other)
         if settled.cost < point.cost - CLOSE:
@@ -268,7 +286,7 @@ def _ended(
     near = refine_onset(problem, point)
     if near is not point:
         point = minimize(problem, near)
-    if abs(candidate.point.cost - point.cost) < ENOUGH:
+    if abs(candidate.estimate.cost - point.cost) < ENOUGH:
         return best
     gap = validation_gap(problem, point, parts)
     if rejection_reason(gap, best.gap, SURER) == WIDENS:
@@ -276,22 +294,28 @@ def _ended(
     return replace(best, candidate=score_estimate(problem, point, candidate.effect), gap=gap)
 
 
-def _near(other: WeighedCandidate, best: WeighedCandidate) -> bool:
+def _is_close(other: WeighedCandidate, best: WeighedCandidate) -> bool:
     return other.candidate.score - best.candidate.score <= CLOSE
 
 
-def _seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
+def _collect_seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
     """What the candidates' parameters are, of those that explain something."""
     found = {}
     for one in weighed:
-        if one.tried.score >= SURE:
-            name, values = one.candidate.effect, one.candidate.point.values
+        if one.report.score >= SURE:
+            name, values = one.candidate.effect, one.candidate.estimate.values
             found[name] = {f"{name}.{p}": values[f"{name}.{p}"] for p in EFFECTS[name].names}
     return found
 
 
-def _with_quiet(now: SelectionRound, best: WeighedCandidate) -> SelectionRound:
+def _add_nuisance_effect(now: SelectionRound, best: WeighedCandidate) -> SelectionRound:
     """Adds a nuisance effect that is modelled but not reported."""
     candidate = replace(best.candidate, effect=now.candidate.effect)
-    plain = now.plain or now.candidate
-    return replace(now, candidate=candidate, gap=best.gap, quiet=now.quiet + 1, plain=plain)
+    plain = now.reported_candidate or now.candidate
+    return replace(
+        now,
+        candidate=candidate,
+        gap=best.gap,
+        nuisance_effects=now.nuisance_effects + 1,
+        reported_candidate=plain,
+    )

@@ -46,13 +46,13 @@ def check_logs(
         )
     _check_voltage(log)
     guess = guess_gains(log, type=type)
-    _check_way(log, guess, type=type)
+    _check_direction(log, guess, type=type)
     others = [other for other in (validation, held_out) if other is not None]
     for other in others:
         _check_units(log, other)
         _check_voltage(other)
-        _check_moves(other, than=_top(log))
-        if _obeys(log, guess, type=type):
+        _check_moves(other, than=_top_speed(log))
+        if _follows_voltage(log, guess, type=type):
             _check_same(log, other, guess, type=type)
     if travel is not None:
         _check_travel(log, travel)
@@ -61,10 +61,10 @@ def check_logs(
 def count_repeated_runs(log: Log, others: tuple[Log | None, ...]) -> int:
     """How many runs of a log stand in others as well, sample by sample."""
     known = [run for other in others if other is not None for run in other.runs]
-    return sum(any(_same(run, other) for other in known) for run in log.runs)
+    return sum(any(_is_same_run(run, other) for other in known) for run in log.runs)
 
 
-def _same(one: Run, other: Run) -> bool:
+def _is_same_run(one: Run, other: Run) -> bool:
     return bool(
         one.test == other.test
         and np.array_equal(one.velocity, other.velocity)
@@ -94,11 +94,11 @@ def _check_voltage(log: Log) -> None:
         )
 
 
-def _check_way(log: Log, guess: dict[str, float], *, type: str) -> None:  # noqa: A002 - as above
+def _check_direction(log: Log, guess: dict[str, float], *, type: str) -> None:  # noqa: A002 - as above
     """Refuse a mechanism that goes backward, and does so as a mechanism would."""
     backward = {name: -value for name, value in guess.items()}
     runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
-    if _obeys(replace(log, runs=runs), backward, type=type):
+    if _follows_voltage(replace(log, runs=runs), backward, type=type):
         raise BadRequest(
             "a positive voltage drives it backward",
             where=log.source,
@@ -116,7 +116,7 @@ def _check_units(log: Log, other: Log) -> None:
 
 
 def _check_moves(log: Log, *, than: float) -> None:
-    if not _top(log) > HARDLY * than:
+    if not _top_speed(log) > HARDLY * than:
         raise NotIdentifiable(
             "the mechanism hardly moves in this log",
             where=log.source,
@@ -124,14 +124,14 @@ def _check_moves(log: Log, *, than: float) -> None:
         )
 
 
-def _top(log: Log) -> float:
+def _top_speed(log: Log) -> float:
     """[m/s or rad/s] the fastest but for single samples."""
     long = [np.abs(run.velocity) for run in log.runs if len(run) >= SHORTEST]
     return max((float(np.quantile(one, 0.98)) for one in long), default=0.0)
 
 
 def _check_same(log: Log, other: Log, guess: dict[str, float], *, type: str) -> None:  # noqa: A002 - as above
-    seen = _held_against(other, guess, type=type)
+    seen = _refuse_difference(other, guess, type=type)
     square = float(seen.velocity @ seen.velocity)
     if square == 0.0:
         raise NotIdentifiable(
@@ -143,13 +143,13 @@ def _check_same(log: Log, other: Log, guess: dict[str, float], *, type: str) -> 
     factor = costs / guess["kV"]
     if not 1.0 / OTHER < factor < OTHER:
         raise BadRequest(
-            _otherwise(factor, log.source or "the first log"),
+            _describe_difference(factor, log.source or "the first log"),
             where=other.source,
             advice="Give logs of one mechanism, in the same units.",
         )
 
 
-def _otherwise(factor: float, first: str) -> str:
+def _describe_difference(factor: float, first: str) -> str:
     """How a log's voltages are not those of another."""
     if factor < -1.0 / OTHER:
         return f"it goes the other way than {first} at the same voltage"
@@ -157,9 +157,9 @@ def _otherwise(factor: float, first: str) -> str:
     return f"a speed takes {times} the voltage that it takes in {first}"
 
 
-def _obeys(log: Log, guess: dict[str, float], *, type: str) -> bool:  # noqa: A002 - as above
+def _follows_voltage(log: Log, guess: dict[str, float], *, type: str) -> bool:  # noqa: A002 - as above
     """Whether its voltages are those of a mechanism, whatever else may be missing."""
-    seen = _held_against(log, guess, type=type)
+    seen = _refuse_difference(log, guess, type=type)
     most = float(np.max(np.abs(seen.voltage), initial=0.0))
     if guess["kV"] <= 0.0 or guess["kA"] <= 0.0 or guess["kS"] < LEAST_KS * most:
         return False
@@ -167,7 +167,7 @@ def _obeys(log: Log, guess: dict[str, float], *, type: str) -> bool:  # noqa: A0
     return missed < OBEYS**2 * whole
 
 
-def _held_against(log: Log, guess: dict[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - as above
+def _refuse_difference(log: Log, guess: dict[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - as above
     return compute_voltage_residual(log, dict(ModelStructure(type).model(guess).gains), type=type)
 
 

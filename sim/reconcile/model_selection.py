@@ -10,7 +10,7 @@ from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import Candidate, rank_candidates
 from sim.reconcile.cross_validation import Fold, Gap, validation_gap
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
-from sim.reconcile.story import Tried
+from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
     AS_GOOD,
     CLOSE,
@@ -35,22 +35,24 @@ def weigh_candidates(
     problem: PredictionErrorProblem, now: SelectionRound, log: Log, parts: Sequence[Fold]
 ) -> list[WeighedCandidate]:
     """All candidates of a round with their cross-validated gaps, likeliest first."""
-    point = now.candidate.point
+    point = now.candidate.estimate
     model = point.structure.model(point.values)
     evidence = compute_voltage_residual(log, dict(model.gains), type=point.structure.type)
     found = []
     for candidate in rank_candidates(problem, point, evidence, seeds=now.seeds):
         score = now.candidate.score - candidate.score
         if score < required_improvement(candidate.effect):
-            tried = Tried(candidate.effect, score, 1.0, admitted=False, why="explains too little")
+            tried = TriedCandidate(
+                candidate.effect, score, 1.0, admitted=False, why="explains too little"
+            )
             found.append(WeighedCandidate(candidate, now.gap, tried))
             continue
-        gap = validation_gap(problem, candidate.point, parts)
+        gap = validation_gap(problem, candidate.estimate, parts)
         why = rejection_reason(gap, now.gap, score)
         if why == HARDLY and EFFECTS[candidate.effect].has_onset:
             why = ""
         share = gap.velocity / max(now.gap.velocity, TINY)
-        tried = Tried(candidate.effect, score, share, admitted=not why, why=why)
+        tried = TriedCandidate(candidate.effect, score, share, admitted=not why, why=why)
         found.append(WeighedCandidate(candidate, gap, tried))
     return found
 
@@ -82,26 +84,26 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     """
     best = admitted[0]
     lasting = [one for one in admitted if not EFFECTS[one.candidate.effect].has_onset]
-    if lasting and best is not lasting[0] and best.tried.score - lasting[0].tried.score < ONCE:
+    if lasting and best is not lasting[0] and best.report.score - lasting[0].report.score < ONCE:
         admitted, best = lasting, lasting[0]
-    closer = [one for one in admitted if one.tried.score > HALF * best.tried.score]
-    closest = min(closer, key=lambda one: one.tried.gap)
-    if closest.tried.gap < MUCH_NARROWER * best.tried.gap:
+    closer = [one for one in admitted if one.report.score > HALF * best.report.score]
+    closest = min(closer, key=lambda one: one.report.gap)
+    if closest.report.gap < MUCH_NARROWER * best.report.gap:
         best = closest
-    top = best.tried.score
-    admitted = [one for one in admitted if one.tried.score <= top]
+    top = best.report.score
+    admitted = [one for one in admitted if one.report.score <= top]
     simpler = EFFECTS[best.candidate.effect].simpler
     near = [
         one
         for one in admitted
-        if top - one.tried.score <= SIMPLER
-        or (one.candidate.effect == simpler and one.tried.score > AS_GOOD * top)
+        if top - one.report.score <= SIMPLER
+        or (one.candidate.effect == simpler and one.report.score > AS_GOOD * top)
     ]
-    fewest = min(one.candidate.point.structure.free_count for one in near)
-    near = [one for one in near if one.candidate.point.structure.free_count == fewest]
-    likeliest = max(near, key=lambda one: one.tried.score)
-    nearest = min(near, key=lambda one: one.tried.gap)
-    return nearest if nearest.tried.gap < NARROWER * likeliest.tried.gap else likeliest
+    fewest = min(one.candidate.estimate.structure.free_count for one in near)
+    near = [one for one in near if one.candidate.estimate.structure.free_count == fewest]
+    likeliest = max(near, key=lambda one: one.report.score)
+    nearest = min(near, key=lambda one: one.report.gap)
+    return nearest if nearest.report.gap < NARROWER * likeliest.report.gap else likeliest
 
 
 def list_rivals(
@@ -111,7 +113,7 @@ def list_rivals(
     return [
         one
         for one in weighed
-        if one is not best and one.tried.admitted and best.tried.score - one.tried.score <= CLOSE
+        if one is not best and one.report.admitted and best.report.score - one.report.score <= CLOSE
     ]
 
 
@@ -124,10 +126,10 @@ def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
     return [
         one
         for one in weighed
-        if one.tried.why == WIDENS
-        and one.tried.score >= ONCE
+        if one.report.why == WIDENS
+        and one.report.score >= ONCE
         and not EFFECTS[one.candidate.effect].has_onset
-        and not is_ordinary_size(one.candidate.effect, one.candidate.point.values)
+        and not is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
     ]
 
 
@@ -161,7 +163,7 @@ def is_significant(
     return score >= (LONE if lone else SURER if far else WORTH_A_NAME)
 
 
-def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
+def is_unrivalled(effect: str, tried: Sequence[TriedCandidate]) -> bool:
     """Whether no other permanent effect explained half as much.
 
     Args:
@@ -178,5 +180,5 @@ def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
 
 def score_improvement(now: Candidate, other: Candidate) -> float:
     """[of -2 log L] by which one model is likelier than another."""
-    fewer = now.point.structure.free_count - other.point.structure.free_count
+    fewer = now.estimate.structure.free_count - other.estimate.structure.free_count
     return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)

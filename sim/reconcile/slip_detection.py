@@ -88,11 +88,11 @@ def detect_slips(
     gains = point.structure.model(point.values).gains
     scale = gains["kA"] / gains["kV"]
     every = dict(_errors(problem, point))
-    sharp = _sharp_of_all(every.values()) if scale >= SLOW * problem.period else {}
+    sharp = _find_sharp_jumps(every.values()) if scale >= SLOW * problem.period else {}
     for number, run in every.items():
-        short = _short(run, longest=scale / CLEARLY)
+        short = _find_short_deviations(run, longest=scale / CLEARLY)
         for begin, end, size in (*short, *sharp.get(run, ())):
-            slip = _slip(run.record, begin, end, size / run.spread, scale)
+            slip = _is_slip(run.record, begin, end, size / run.spread, scale)
             yield number, replace(slip, run=number)
 
 
@@ -115,13 +115,13 @@ def _errors(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[
         yield number, _Errors(record, left, speeds[first:last], told, since, near, spread)
 
 
-def _short(run: _Errors, *, longest: float) -> Iterator[tuple[int, int, float]]:
+def _find_short_deviations(run: _Errors, *, longest: float) -> Iterator[tuple[int, int, float]]:
     """First and last sample, and size, of what is over before a mechanism could have answered."""
     time, near = run.record.measurements.time, run.near
     apart = run.left - _median(run.left, near)
     told = run.told & (run.since > STARTING)
     told[-near:] = False
-    for begin, end in _stretches((np.abs(apart) > FAR * run.spread) & told):
+    for begin, end in _find_intervals((np.abs(apart) > FAR * run.spread) & told):
         length = float(time[end] - time[begin]) + float(time[1] - time[0])
         peak = float(np.max(np.abs(apart[begin : end + 1])))
         after = float(np.mean(apart[end + 2 : end + 2 + near // 2]))
@@ -132,17 +132,17 @@ def _short(run: _Errors, *, longest: float) -> Iterator[tuple[int, int, float]]:
             yield begin, end, peak
 
 
-def _sharp_of_all(every: Iterable[_Errors]) -> dict[_Errors, list[tuple[int, int, float]]]:
+def _find_sharp_jumps(every: Iterable[_Errors]) -> dict[_Errors, list[tuple[int, int, float]]]:
     """The same, of each run, of what goes from one sample to the next and is back as suddenly.
 
     An encoder slips once: where more jumps are left that are none, something else makes them.
     """
-    found = {run: list(_sharp(run)) for run in every}
+    found = {run: list(_find_sharp_jump(run)) for run in every}
     jumps = sum(len(run.clear) for run in found)
     return found if jumps <= OTHERS * sum(map(len, found.values())) else {}
 
 
-def _sharp(run: _Errors) -> Iterator[tuple[int, int, float]]:
+def _find_sharp_jump(run: _Errors) -> Iterator[tuple[int, int, float]]:
     time, jumps = run.record.measurements.time, run.jumps
     edges = np.flatnonzero(np.abs(jumps) > SEEN * run.spread).tolist()
     done = 0
@@ -158,13 +158,13 @@ def _sharp(run: _Errors) -> Iterator[tuple[int, int, float]]:
         if not others:
             continue
         begin, end = sorted((clear, max(others, key=lambda one: abs(jumps[one]))))
-        size = _lost(run, begin, end)
+        size = _lost_speed(run, begin, end)
         if size > 0.0:
             done = end
             yield begin, end - 1, size
 
 
-def _lost(run: _Errors, begin: int, end: int) -> float:
+def _lost_speed(run: _Errors, begin: int, end: int) -> float:
     """[unit/s] of a share of the speed that is lost between two samples; 0 if it is no such."""
     before = float(np.median(run.left[begin - run.near : begin]))
     after = float(np.median(run.left[end : end + run.near]))
@@ -178,7 +178,9 @@ def _lost(run: _Errors, begin: int, end: int) -> float:
     return size if alike and abs(after - before) < BACK * size + run.spread else 0.0
 
 
-def _slip(record: RunRecord, begin: int, end: int, noises: float, scale: float) -> DamagedInterval:
+def _is_slip(
+    record: RunRecord, begin: int, end: int, noises: float, scale: float
+) -> DamagedInterval:
     time = record.measurements.time
     length = float(time[end] - time[begin] + time[1] - time[0])
     return DamagedInterval(
@@ -197,7 +199,7 @@ def _median(values: Array, reach: int) -> Array:
     return np.asarray(np.median(windows, axis=1))
 
 
-def _stretches(here: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+def _find_intervals(here: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
     """First and last sample of each stretch."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], here.astype(int), [0]))))
     for begin, end in zip(edges[::2], edges[1::2], strict=True):

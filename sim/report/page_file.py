@@ -36,7 +36,7 @@ def _shown(value: object) -> object:
     return make_printable(value) if type(value) is str else value
 
 
-def page_path(path: str | os.PathLike[str]) -> Path:
+def choose_page_path(path: str | os.PathLike[str]) -> Path:
     """Where a page goes.
 
     Raises:
@@ -52,7 +52,7 @@ def page_path(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def write_whole(text: str, target: Path, *, private: bool = False) -> None:
+def write_page_file(text: str, target: Path, *, private: bool = False) -> None:
     """Write a file, whole or not at all.
 
     Args:

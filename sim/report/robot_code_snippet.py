@@ -107,7 +107,7 @@ ORDER = {  # of the constructor's arguments
 CLASSES = {"elevator": "ElevatorFeedforward", "arm": "ArmFeedforward"}
 
 
-def robot_code_snippet(found: Fit, *, language: str, season: int = 2026, name: str = "") -> str:
+def write_robot_code(found: Fit, *, language: str, season: int = 2026, name: str = "") -> str:
     """Robot code with the gains of a fit, rounded to the digits that their errors deserve.
 
     Args:

@@ -48,7 +48,7 @@ __all__ = [
     "COARSEST",
     "EXACT",
     "EXPECTED",
-    "NO_TRUST",
+    "NO_CORRECTION",
     "NO_WIRES",
     "ORDER",
     "RunBatch",
@@ -66,7 +66,7 @@ __all__ = [
 ONE_AT_A_TIME = Lock()
 NO_WIRES: Array = np.zeros(9)
 UNSEEN: Array = np.zeros((0, 2))
-NO_TRUST: Array = np.zeros((2, 2))
+NO_CORRECTION: Array = np.zeros((2, 2))
 
 
 @dataclass(eq=False)
@@ -141,7 +141,7 @@ def simulate_run(
     step: float | None = None,
     plain: bool = False,
     measured: Array = UNSEEN,
-    trust: Array = NO_TRUST,
+    trust: Array = NO_CORRECTION,
 ) -> Track:
     """Move a model along a voltage.
 
@@ -197,7 +197,7 @@ def filter_runs(
     Args:
         model: what moves.
         batch: the runs.
-        kalman_gain: (2, 2) by how much measurements correct; ``NO_TRUST`` leaves it alone.
+        kalman_gain: (2, 2) by how much measurements correct; ``NO_CORRECTION`` leaves it alone.
         position_offset: (runs,) [m or rad] by which each begins, and has its stops, beside where it
             says.
         backlash_phase: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where a

@@ -83,7 +83,7 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
             for mine in [told & (np.sign(speed) == way)]
             for cells in _cells(missed[mine], value[mine], run[mine])
         }
-        found.append(_told(what, ways))
+        found.append(_sum_cells(what, ways))
     return max(found, key=lambda one: one.size)
 
 
@@ -120,7 +120,7 @@ def _cells(missed: Array, value: Array, run: NDArray[np.intp]) -> Iterator[_Cell
     yield _Cells(cross, 0.5 * count * (count - 1.0), squares, count, edges)
 
 
-def _told(what: str, ways: dict[int, _Cells]) -> RepeatedResidual:
+def _sum_cells(what: str, ways: dict[int, _Cells]) -> RepeatedResidual:
     """What all cells come to, and where it is most."""
     every = ways.values()
     pairs = sum(float(one.pairs.sum()) for one in every)

@@ -43,7 +43,7 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
         problem: the measurements.
         point: what is believed.
     """
-    runs = list(_runs(problem, point))
+    runs = list(_disturbances_by_run(problem, point))
     squares = sum(float(push @ push) for _, push in runs)
     if not squares > 0.0:
         return SpectralPeak()
@@ -56,12 +56,14 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
         waves = np.exp(-2j * np.pi * rates[told, None] * time)
         power[told] += np.abs(waves @ push) ** 2 / (push.size * mean)
         count[told] += 1.0
-    sizes = (_unlikely(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True))
+    sizes = (_surprisal(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True))
     found = (SpectralPeak(size, rate) for size, rate in zip(sizes, rates.tolist(), strict=True))
     return max(found, key=lambda one: one.size, default=SpectralPeak())
 
 
-def _runs(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[Array, Array]]:
+def _disturbances_by_run(
+    problem: PredictionErrorProblem, point: Estimate
+) -> Iterator[tuple[Array, Array]]:
     """Of each run that is long enough: times, and pushes less their mean."""
     every, told = (
         smooth_innovations(problem, point),
@@ -76,7 +78,7 @@ def _runs(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[Ar
             yield record.measurements.time[mine], push - np.mean(push)
 
 
-def _unlikely(power: float, count: int) -> float:
+def _surprisal(power: float, count: int) -> float:
     """-log of the chance that so many exponential deviates sum up to as much (Erlang's tail)."""
     if not (power > 0.0 and count):
         return 0.0

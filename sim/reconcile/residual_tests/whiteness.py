@@ -49,11 +49,11 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
 
     What pushes moves position and velocity the same way: where both say so, they count together.
     """
-    white = _in_time(problem, point)
+    white = _remove_clock_errors(problem, point)
     moments = []
     for length in WINDOWS:
         count = max(round(length / problem.period), 2)
-        position, velocity = (_sizes(problem, white[:, column], count) for column in (0, 1))
+        position, velocity = (_window_sizes(problem, white[:, column], count) for column in (0, 1))
         for record, one in position.items():
             other = velocity[record]
             together = np.where(one * other > 0.0, np.hypot(one, other), 0.0)
@@ -67,21 +67,21 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
     return max(moments, key=lambda one: one.size, default=CALM)
 
 
-def _sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
+def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
     """Which run -> (windows,) their sums, in what is ordinary."""
-    sums = {record: one for record, one in _windows(problem, white, count) if one.size}
+    sums = {record: one for record, one in _window_sums(problem, white, count) if one.size}
     every = np.concatenate([*sums.values(), np.zeros(0)])
     if every.size < FEWEST:
         return {record: np.zeros(one.size) for record, one in sums.items()}
     spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
     spread = max(spread, LEAST * count**0.5)
     return {
-        record: one / (spread * _ordinary(problem.records[record])[: one.size])
+        record: one / (spread * _ordinary_size(problem.records[record])[: one.size])
         for record, one in sums.items()
     }
 
 
-def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
+def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(n, 2) white innovations, less what a clock of each run's own makes of them.
 
     A step comes a part of a sample late, another part in each run: that is of clocks, not of
@@ -103,7 +103,7 @@ def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
     return np.asarray(white)
 
 
-def _ordinary(record: RunRecord) -> Array:
+def _ordinary_size(record: RunRecord) -> Array:
     """(n,) what is ordinary for a window that begins there, in what is ordinary elsewhere.
 
     Soon after a step of the voltage everything is fast: what happens between two samples, as a
@@ -116,7 +116,7 @@ def _ordinary(record: RunRecord) -> Array:
     return np.where(since <= SOON, 2.0, 1.0)
 
 
-def _windows(
+def _window_sums(
     problem: PredictionErrorProblem, white: Array, count: int
 ) -> Iterator[tuple[int, Array]]:
     """Sums of so many innovations, of each run; windows with untold samples are left out."""
