@@ -53,7 +53,7 @@ def follow_profiles(followed: "Sequence[FollowedProfile]") -> Consequence:
     Args:
         followed: at least one.
     """
-    told = " ".join(one.describe for one in followed)
+    told = " ".join(one.description for one in followed)
     words = f"Your numbers as feedforward, without feedback. {told}"
 
     def draw() -> Drawn:

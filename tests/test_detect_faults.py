@@ -122,7 +122,7 @@ def test_what_is_found_comes_in_the_order_of_time(drive):
 def test_the_doubts_of_the_log_come_along(drive):
     doubt = Doubt("odd", "The file was odd.")
 
-    found = inspect(drive.with_doubts(doubt))
+    found = inspect(drive.add_doubts(doubt))
 
     assert doubt in found.doubts
     assert found.is_clean

@@ -30,10 +30,10 @@ def followed(kind, *, wanted=UP, **changes):
 @pytest.mark.parametrize("kind", PLANTS)
 def test_right_gains_follow(kind):
     one = followed(kind)
-    off = np.abs(np.subtract(one.position, one.wanted.position)).max()
+    off = np.abs(np.subtract(one.position, one.target.position)).max()
 
     assert off < 0.015 * 0.5  # of the way
-    assert one.words == "The thing does nearly what is asked of it here."
+    assert one.description == "The thing does nearly what is asked of it here."
 
 
 def test_a_profile_is_whole():
@@ -49,13 +49,13 @@ def test_the_steady_speed_is_in_proportion_to_kv(factor):
     one = followed(
         "simple", wanted=make_brisk_profile(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"]
     )
-    place = one.wanted.cruise
+    place = one.target.cruise
 
     free = follow_profile(
-        Plant("simple", DRIVE), Plant("simple", {**DRIVE, "kV": factor * DRIVE["kV"]}), one.wanted,
+        Plant("simple", DRIVE), Plant("simple", {**DRIVE, "kV": factor * DRIVE["kV"]}), one.target,
         name="thing", symbol="m",
     )  # fmt: skip
-    assert free.velocity[place] == pytest.approx(factor * one.wanted.velocity[place], rel=1e-3)
+    assert free.velocity[place] == pytest.approx(factor * one.target.velocity[place], rel=1e-3)
 
 
 def test_an_elevator_without_kg_falls_as_its_gains_say():
@@ -84,7 +84,7 @@ def test_an_elevator_without_kg_falls_as_its_gains_say():
     ],
 )
 def test_a_wrong_gain_is_told_by_what_it_does(kind, changes, words):
-    assert words in followed(kind, **changes).words
+    assert words in followed(kind, **changes).description
 
 
 @pytest.mark.parametrize("size", [1e300, -1e300])
@@ -93,15 +93,15 @@ def test_no_number_is_too_large(gain, size):
     one = followed("elevator", **{gain: size})
 
     assert np.isfinite(one.position).all()
-    assert "nan" not in one.words
+    assert "nan" not in one.description
 
 
 def test_the_picture_shows_both_and_says_it_in_words():
     one = followed("elevator", kG=0.0)
-    drawn = plot_consequence(make_profile_traces(one), words=one.words)
+    drawn = plot_consequence(make_profile_traces(one), words=one.description)
     speed, height = drawn.figure.axes
 
-    assert one.words in drawn.alt
+    assert one.description in drawn.alt
     assert "sinks about 0.4 m" in drawn.svg  # its title, for who cannot see it
     assert (speed.get_ylabel(), height.get_ylabel()) == ("velocity [m/s]", "height [m]")
     wanted, done = height.get_lines()

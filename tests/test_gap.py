@@ -239,14 +239,14 @@ def test_a_run_of_half_a_second_has_its_row_in_the_map():
 def test_what_is_not_compared_says_nothing():
     runs = runs_of(plant=lambda at: 50.0 * (at.t > 4.0))
     for run in runs:
-        run.missed[run.time > 4.0] = np.nan
+        run.error[run.time > 4.0] = np.nan
 
     assert map_gap(runs, noise=NOISE).find_places(5) == ()
 
 
 def test_nothing_to_compare_is_refused():
     (run,) = runs_of("dynamic-forward")
-    run.missed[:] = np.nan
+    run.error[:] = np.nan
 
     with pytest.raises(BadRequest, match="Give a run in which the mechanism moves."):
         map_gap([run], noise=NOISE)
@@ -258,7 +258,7 @@ def test_a_few_samples_are_no_trouble(samples):
     (run,) = runs_of("dynamic-forward")
     few = Residuals(
         run.test, run.time[:samples], run.voltage[:samples], run.predicted[:samples],
-        run.missed[:samples],
+        run.error[:samples],
     )  # fmt: skip
 
     assert map_gap([few], noise=NOISE).find_places(5) == ()

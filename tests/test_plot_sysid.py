@@ -142,7 +142,7 @@ def test_what_the_fit_uses_is_counted_and_drawn_where_it_is():
         strict=True,
     ):
         used = next(line for line in axes.lines if line.get_label() == "used by the fit")
-        start = log.of(test)[0].time[0]
+        start = log.runs_of_test(test)[0].time[0]
         assert used.get_xdata() == pytest.approx(rows[test].time - start)
         assert axes.get_title() == f"{test}: {len(rows[test])} of 150 used"
         assert f"Of {test} {len(rows[test])} of 150 samples are used" in picture.alt

@@ -77,7 +77,7 @@ def problem():
 def at(problem, structure=PLAYS, nuisance=None):
     begun = nuisance or RunNuisance.at_first_samples(len(problem.records))
     values = {name: VALUES[name] for name in structure.names}
-    return problem.at(structure, values, begun, problem.noise.velocity**2)
+    return problem.evaluate(structure, values, begun, problem.noise.velocity**2)
 
 
 def test_each_run_is_begun_where_it_went_on_from(problem):

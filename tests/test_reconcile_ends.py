@@ -26,7 +26,9 @@ def session(*parts, step, frictions=(1.0, 1.0, 1.0, 1.0)):
 def at(problem, values, *effects, process_noise=1.0):
     structure = ModelStructure("simple", effects)
     size = process_noise * problem.noise.velocity**2
-    return problem.at(structure, values, RunNuisance.at_first_samples(len(problem.records)), size)
+    return problem.evaluate(
+        structure, values, RunNuisance.at_first_samples(len(problem.records)), size
+    )
 
 
 def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
@@ -67,7 +69,7 @@ def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
 
     def halfway(problem, point):
         values = {name: 0.5 * (point.values[name] + GAINS[name]) for name in GAINS}
-        found = problem.at(point.structure, values, point.nuisance, point.process_noise)
+        found = problem.evaluate(point.structure, values, point.nuisance, point.process_noise)
         costs.append(found.cost)
         return found
 

@@ -271,7 +271,7 @@ def test_what_was_over_with_its_run_is_tried_for_good(joined):
     assert best.values["inertia-change.until"] == LATER
     assert best.values["inertia-change.extra"] == pytest.approx(0.02, rel=0.05)
     assert best.cost < minimize(problem, point).cost - 100.0
-    plain = problem.at(
+    plain = problem.evaluate(
         ModelStructure("simple"), GAINS, RunNuisance.at_first_samples(4), point.process_noise
     )
     assert not list(flip_duration(problem, plain))

@@ -31,7 +31,7 @@ def session(shares, *parts, step=4.0, seed=0):
 def begun(problem, *effects, **values):
     structure = ModelStructure("simple", effects)
     nuisance = RunNuisance.at_first_samples(len(problem.records))
-    return problem.at(structure, {**GAINS, **values}, nuisance, problem.noise.velocity**2)
+    return problem.evaluate(structure, {**GAINS, **values}, nuisance, problem.noise.velocity**2)
 
 
 def followed(model, time, volts, *, rubs):
@@ -91,7 +91,7 @@ def test_its_slope_is_of_the_size_by_which_friction_varies():
     problem = session(SHARES)
     found = minimize(problem, begun(problem))
     nudged = [
-        problem.at(found.structure, {**found.values, "kS": share * found.values["kS"]},
+        problem.evaluate(found.structure, {**found.values, "kS": share * found.values["kS"]},
                    found.nuisance, found.process_noise)
         for share in (0.999, 0.9995, 1.0005, 1.001)
     ]  # fmt: skip
@@ -125,7 +125,7 @@ def test_what_a_point_adjusts_to_is_what_the_priors_allow():
     problem = session(SHARES)
     point = begun(problem)
     kept = make_joint_jacobian(problem, point)
-    white = problem.white(point, point.innovations)
+    white = problem.whiten(point, point.innovations)
 
     table, rest = append_prior_rows(problem, point)
     by, *_ = np.linalg.lstsq(table, rest, rcond=None)

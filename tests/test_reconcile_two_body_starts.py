@@ -64,7 +64,7 @@ def test_free_play_is_found_whatever_its_motor_weighs(share):
 def test_valleys_explain_the_lively_runs_and_are_not_one():
     lively, evidence = looked(built("compliance", softness=0.02, share=0.3))
 
-    found = lively.valleys(SOFT, starts("compliance", evidence), heavy=False)
+    found = lively.list_starts(SOFT, starts("compliance", evidence), heavy=False)
 
     assert 0 < len(found) <= VALLEYS
     for one in found:
@@ -95,4 +95,4 @@ def test_what_makes_the_lively_runs_less_likely_is_not_tried_on_all():
     lively, _ = looked(built())
     far = {"compliance.softness": 50.0, "compliance.share": 0.01}  # all of the load hangs loose
 
-    assert lively.valleys(SOFT, [far], heavy=False) == []
+    assert lively.list_starts(SOFT, [far], heavy=False) == []

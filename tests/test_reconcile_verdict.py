@@ -50,7 +50,7 @@ def problem():
 def rounds(problem, *gaps, values=GAINS, structure=None):
     """The base and what was added to it, with gaps in noises of the velocity."""
     structure = structure or ModelStructure("simple")
-    point = problem.at(
+    point = problem.evaluate(
         structure, values, RunNuisance.at_first_samples(2), problem.noise.velocity**2
     )
     sizes = [Gap(gap * problem.noise.velocity, 1e-5) for gap in gaps]
@@ -127,7 +127,7 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
 def added(problem, *steps, values):
     """The base and each effect with the gap it left, and the gap without it in the end [noises]."""
     structure = ModelStructure("simple", tuple(name for name, *_ in steps))
-    point = problem.at(
+    point = problem.evaluate(
         structure, values, RunNuisance.at_first_samples(2), problem.noise.velocity**2
     )
     gaps = [Gap(size * problem.noise.velocity, 1e-5) for size in (2.0, *(one[1] for one in steps))]

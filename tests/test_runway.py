@@ -38,8 +38,8 @@ def test_the_motors_are_off_a_thumb_after_the_tape():
     passed = went.time[np.argmax(went.position >= 7.0)]
 
     assert went.released - passed == pytest.approx(0.3)
-    assert 7.0 < went.rests < 12.0
-    assert went.hit is None
+    assert 7.0 < went.final_position < 12.0
+    assert went.hit_wall is None
 
 
 def test_braking_keeps_to_what_the_carpet_holds():
@@ -50,7 +50,9 @@ def test_braking_keeps_to_what_the_carpet_holds():
 
 
 def test_on_slippery_ground_it_goes_further():
-    carpet, tiles = (gone(RAMP, wall=12.0, tape=7.0, grip=grip).rests for grip in (1.1, 0.4))
+    carpet, tiles = (
+        gone(RAMP, wall=12.0, tape=7.0, grip=grip).final_position for grip in (1.1, 0.4)
+    )
     speed = gone(RAMP, wall=12.0, tape=7.0).velocity.max()
 
     assert tiles - carpet == pytest.approx(
@@ -61,8 +63,8 @@ def test_on_slippery_ground_it_goes_further():
 def test_without_a_tape_it_goes_on_until_the_wall():
     went = gone(RAMP, wall=12.0)
 
-    assert went.hit == pytest.approx(went.time[-1])
-    assert went.rests == 12.0
+    assert went.hit_wall == pytest.approx(went.time[-1])
+    assert went.final_position == 12.0
     assert went.released == pytest.approx(10.0)
 
 
@@ -77,7 +79,7 @@ def test_a_tired_battery_browns_out_in_a_step_and_not_in_a_ramp():
     )
 
     assert step.browned_out
-    assert step.final_position < 0.5 * gone(STEP, wall=12.0, tape=7.0).rests
+    assert step.final_position < 0.5 * gone(STEP, wall=12.0, tape=7.0).final_position
     assert not ramp.browned_out
 
 
@@ -122,7 +124,7 @@ def test_the_picture_of_an_accident_says_so():
     picture = plot_runway(went)
 
     assert "There is no tape" in picture.alt
-    assert f"hits the wall after {went.hit:.2f} s" in picture.alt
+    assert f"hits the wall after {went.hit_wall:.2f} s" in picture.alt
     assert dict(picture.table.rows)["room left [m]"] == "none: it hit the wall"
 
 
@@ -151,4 +153,4 @@ def test_what_braking_takes_is_no_less_than_the_carpet_asks_for():
     speed = went.velocity[off]
 
     assert speed == went.velocity.max()
-    assert went.rests - went.position[off] > 0.97 * speed**2 / (2 * 1.1 * 9.81)
+    assert went.final_position - went.position[off] > 0.97 * speed**2 / (2 * 1.1 * 9.81)

@@ -117,7 +117,7 @@ def test_a_position_loop_too_weak_for_friction_stops_short_by_what_friction_hold
 
     assert told.kind == "stays-short"
     assert told.left == pytest.approx(0.15, abs=0.01)
-    assert told.describe == "stops 15% of the step before the target"
+    assert told.description == "stops 15% of the step before the target"
 
 
 def test_a_negative_gain_runs_away():
@@ -126,7 +126,7 @@ def test_a_negative_gain_runs_away():
     )
 
     assert judge_step_response(took).kind == "runs-away"
-    assert judge_step_response(took).describe == "runs away from the target"
+    assert judge_step_response(took).description == "runs away from the target"
 
 
 @pytest.mark.parametrize("loop", ["velocity", "position"])
@@ -145,7 +145,7 @@ def test_what_sysid_suggests_without_a_delay_settles(kind, loop):
 
     assert told.is_good
     assert told.reached < told.settled + 0.5
-    assert told.describe.startswith("is 90% there after")
+    assert told.description.startswith("is 90% there after")
 
 
 def test_the_numbers_of_a_verdict_are_those_of_the_curve():
@@ -161,7 +161,7 @@ def test_the_numbers_of_a_verdict_are_those_of_the_curve():
     assert told.reached == pytest.approx(0.45, abs=0.002)
     assert told.overshoot == pytest.approx(0.2, abs=0.001)
     assert told.settled == pytest.approx(0.75, abs=0.002)
-    assert told.describe == (
+    assert told.description == (
         "is 90% there after 450 ms, goes 20% past the target and is settled after 751 ms"
     )
 
@@ -181,7 +181,7 @@ def test_whatever_the_gains_the_answer_is_numbers_and_a_sentence(kp, kd, delay, 
     )
 
     assert all(map(math.isfinite, took.value))
-    assert "nan" not in judge_step_response(took).describe
+    assert "nan" not in judge_step_response(took).description
 
 
 @pytest.mark.parametrize(

@@ -43,7 +43,7 @@ class FollowedProfile:
     stops: tuple[float, float] = INFINITE
 
     @property
-    def describe(self) -> str:
+    def description(self) -> str:
         """What happens, in short sentences with rounded numbers."""
         parts = [part for part in (self._held(), self._went(), self._stands()) if part]
         told = " ".join(parts) or "It does nearly what is asked of it here."

@@ -42,7 +42,7 @@ class Verdict:
         return self.kind == "settles"
 
     @property
-    def describe(self) -> str:
+    def description(self) -> str:
         """A clause: what it does."""
         match self.kind:
             case "settles" | "rings":

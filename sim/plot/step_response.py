@@ -92,7 +92,7 @@ def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
         f"{trial.owner.capitalize()} gains of the {trial.loop} loop, "
         f"{format_gain_pair(trial.gains)}: when the target jumps by "
         f"{to_text(trial.response.target)} {_unit(trial.loop, per)}, "
-        f"the loop {trial.verdict.describe}."
+        f"the loop {trial.verdict.description}."
         for trial in tried
     )
 

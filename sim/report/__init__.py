@@ -111,7 +111,7 @@ def render_page(report: Report) -> str:
             steps=_html(plot_step_responses(report.tried, per=report.position_unit))
             if report.tried
             else None,
-            tried=[(trial.owner, trial.loop, trial.verdict.describe) for trial in report.tried],
+            tried=[(trial.owner, trial.loop, trial.verdict.description) for trial in report.tried],
             controllers=make_controller_rows(report.found),
             snippets=make_snippet_rows(report.found),
         )

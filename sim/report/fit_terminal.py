@@ -64,7 +64,7 @@ def show_fit(
         bad = "" if trial.is_good else " (no good start)"
         console.print(
             f"  {own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} it "
-            f"{trial.verdict.describe}"
+            f"{trial.verdict.description}"
         )
     for note in notes:
         console.print(note)

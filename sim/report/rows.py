@@ -145,7 +145,7 @@ def _counts(preset: Preset) -> str:
 def _loop(trial: FeedbackTrial) -> tuple[str, str, str, bool]:
     """kP, kD, what they do in simulation, and whether to begin with them."""
     numbers = (_four(trial.gains.kp), _four(trial.gains.kd))
-    return (*numbers, trial.verdict.describe, trial.is_good)
+    return (*numbers, trial.verdict.description, trial.is_good)
 
 
 def make_snippet_rows(found: Fit) -> list[Snippet]:
