@@ -13,6 +13,7 @@ from sim.reconcile.backward_elimination import simplify_effects
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import make_folds, open_loop_errors, rms_gap, validation_gap
 from sim.reconcile.local_minimum import minimize, minimize_fully
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
@@ -89,7 +90,7 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
-    told = simplify_effects(problem, done, log, parts)
+    told = simplify_effects(SelectionData(problem, log, parts), done)
 
     assert [one.candidate.effect for one in told] == ["", "constant-load"]
     assert told[-1].candidate.estimate.structure.effects == ("constant-load",)
@@ -106,4 +107,4 @@ def test_an_effect_that_needs_its_parameters_keeps_them():
     gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
-    assert simplify_effects(problem, done, log, parts) == done
+    assert simplify_effects(SelectionData(problem, log, parts), done) == done

@@ -24,6 +24,7 @@ from sim.reconcile.local_minimum import minimize, predicted_improvement
 from sim.reconcile.onset_scan import flip_duration, refine_onset, scan_onsets
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 
 PERIOD, LATER = 0.02, 1e6  # [s]
@@ -215,7 +216,7 @@ def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, s
     monkeypatch.setattr(model_selection, "validation_gap", lambda *_: Gap(0.9, 0.9))
 
     (one,) = model_selection.weigh_candidates(
-        problem, SelectionRound(base, gap, gap), log, make_folds([0, 0, 0, 0])
+        SelectionData(problem, log, make_folds([0, 0, 0, 0])), SelectionRound(base, gap, gap)
     )
 
     assert one.report.admitted is admitted
@@ -240,7 +241,7 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
     monkeypatch.setattr(model_selection, "validation_gap", lambda *_: gap)
 
     inertia, drag = model_selection.weigh_candidates(
-        problem, SelectionRound(base, gap, gap), log, make_folds([0, 0, 0, 0])
+        SelectionData(problem, log, make_folds([0, 0, 0, 0])), SelectionRound(base, gap, gap)
     )
 
     assert inertia.report.admitted

@@ -22,6 +22,7 @@ from sim.reconcile.cross_validation import Gap, open_loop_errors, rms_gap
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.local_minimum import predicted_improvement
 from sim.reconcile.model_selection import WIDENS, rejection_reason
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import WeighedCandidate
 from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import MAJOR
@@ -177,7 +178,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     monkeypatch.setattr(room, "weigh_candidates", weighed)
     monkeypatch.setattr(room, "validation_gap", lambda *_: sizes[0])
     monkeypatch.setattr(room, "minimize_fully", lambda _, point: point)
-    monkeypatch.setattr(room, "_seeds", lambda _: {})
+    monkeypatch.setattr(room, "_collect_seeds", lambda _: {})
     for name in (
         "replace_effects",
         "simplify_effects",
@@ -187,7 +188,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     ):
         monkeypatch.setattr(room, name, lambda _, done, *__: done)
 
-    done = select_effects(problem, base, log, [], lambda *_: None)
+    done = select_effects(SelectionData(problem, log, []), base)
 
     assert len(calls) == asked
     assert len(done) == 1 + min(asked, len(sizes) - 1)

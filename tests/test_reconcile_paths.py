@@ -25,6 +25,7 @@ from sim.reconcile.forward_selection import (
     choose_path,
 )
 from sim.reconcile.model_selection import HARDLY, WIDENS, choose_simplest
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
 
@@ -109,9 +110,9 @@ def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
     done = gone(end=end)
     score, gap = other
     path = [done[0], model("delay", score, gap=gap)]
-    monkeypatch.setattr(sys.modules[choose_path.__module__], "_gone", lambda *_: path)
+    monkeypatch.setattr(sys.modules[choose_path.__module__], "_continue_search", lambda *_: path)
 
-    found = choose_path(ONE_NOISE, done, None, (), lambda *_: None)
+    found = choose_path(SelectionData(ONE_NOISE, None, ()), done)
 
     assert (found is path) is taken
 
@@ -147,9 +148,9 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
         return [*done, *new]
 
     room = sys.modules[choose_path.__module__]
-    monkeypatch.setattr(room, "_gone", gone_on)
+    monkeypatch.setattr(room, "_continue_search", gone_on)
 
-    found = add_pair(ONE_NOISE, done, None, (), lambda *_: None)
+    found = add_pair(SelectionData(ONE_NOISE, None, ()), done)
 
     assert (found is not done) is taken
     assert set(asked) <= {"compliance"}
@@ -167,9 +168,9 @@ def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, 
     done = [base, replace(model("cogging", 900.0, gap=3.8), candidates=(blocked,))]
     path = [base, *(model(name, 100.0, gap=1.2) for name in pair)]
     room = sys.modules[choose_path.__module__]
-    monkeypatch.setattr(room, "_gone", lambda *_: path)
+    monkeypatch.setattr(room, "_continue_search", lambda *_: path)
 
-    found = add_pair(ONE_NOISE, done, None, (), lambda *_: None)
+    found = add_pair(SelectionData(ONE_NOISE, None, ()), done)
 
     assert found == (path if taken else done)
 
@@ -247,13 +248,13 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     last = SelectionRound(Candidate("stribeck", point, 500.0), one_gap, one_gap)
     done = [base, model("battery-sag", 600.0, gap=1.1), last]
     path = sys.modules["sim.reconcile.backward_elimination"]
-    monkeypatch.setattr(path, "compute_voltage_residual", lambda *_, **__: None)
+    monkeypatch.setattr(SelectionData, "voltage_residual", lambda *_: None)
     monkeypatch.setattr(path, "refit_without", lambda *_: Candidate("", point, 900.0))
     monkeypatch.setattr(
         path, "rank_candidates", lambda *_, **__: [Candidate(other, point, 500.0 - gains)]
     )
     monkeypatch.setattr(path, "validation_gap", lambda *_: one_gap)
 
-    found = replace_effects(ONE_NOISE, done, None, ())
+    found = replace_effects(SelectionData(ONE_NOISE, None, ()), done)
 
     assert [one.candidate.effect for one in found] == ["", taken, "stribeck"]

@@ -32,6 +32,7 @@ from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.local_minimum import minimize, minimize_fully, scan_process_noise
 from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.slip_detection import detect_slips
 from sim.reconcile.story import Story
 from sim.reconcile.thresholds import LOST, MAJOR, WANDERS
@@ -82,17 +83,14 @@ def reconcile(
             advice="Inspect the log, and record it anew.",
         )
     problem, base, slipped = _exclude_slips(problem, base)
-    done = select_effects(
-        problem, base, both, make_folds([one.session for one in problem.records]), progress
-    )
+    folds = make_folds([one.session for one in problem.records])
+    done = select_effects(SelectionData(problem, both, folds, progress), base)
     progress("what remains", 0.9)
     shown = HeldOutLog.choose({"log": log, "validation": validation, "held_out": held_out}, aside)
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
-    left, per = (
-        ResidualSummary.summarize(problem, done[-1].candidate.estimate),
-        find_unit(log.units),
-    )
+    left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
+    per = find_unit(log.units)
     findings = make_findings(
         problem, done, _one_per_fault(slipped, aside.reported), chapters, left=left, per=per
     )

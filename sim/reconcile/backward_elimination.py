@@ -7,12 +7,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
-from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
-from sim.reconcile.cross_validation import Fold, Gap, validation_gap
+from sim.reconcile.cross_validation import Gap, validation_gap
 from sim.reconcile.local_minimum import minimize
 from sim.reconcile.model_selection import (
     WIDENS,
@@ -20,44 +18,36 @@ from sim.reconcile.model_selection import (
     required_improvement,
     score_improvement,
 )
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import CLOSE, ONCE, SIMPLER, SURER
 
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
 
 
-def replace_effects(
-    problem: PredictionErrorProblem, done: list[SelectionRound], log: Log, parts: Sequence[Fold]
-) -> list[SelectionRound]:
+def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Replace an earlier effect by another where that is likelier now."""
-    last = done[-1]
+    problem, last = data.problem, done[-1]
     for place in range(1, len(done) - 1):
         effect = done[place].candidate.effect
         others = _look_alikes(done, place)
         if not others:
             continue
         reduced = refit_without(problem, last.candidate, effect)
-        if reduced.score - last.candidate.score < required_improvement(
-            effect
-        ):  # it has become needless
-            gap = validation_gap(problem, reduced.estimate, parts)
+        needed = reduced.score - last.candidate.score >= required_improvement(effect)
+        if not needed:
+            gap = validation_gap(problem, reduced.estimate, data.folds)
             if not math.isfinite(gap.velocity + gap.position):
                 continue
-            rest = [*done[:place], *done[place + 1 : -1]]
-            return [
-                *rest,
-                replace(last, candidate=replace(reduced, effect=last.candidate.effect), gap=gap),
-            ]
-        model = reduced.estimate.structure.model(reduced.estimate.values)
-        evidence = compute_voltage_residual(
-            log, dict(model.gains), type=reduced.estimate.structure.type
-        )
+            best = replace(reduced, effect=last.candidate.effect)
+            return [*done[:place], *done[place + 1 : -1], replace(last, candidate=best, gap=gap)]
+        evidence = data.voltage_residual(reduced.estimate)
         found = rank_candidates(problem, reduced.estimate, evidence, only=others, seeds=last.seeds)
         if not found or score_improvement(last.candidate, found[0]) < _required_advantage(
             effect, found[0].effect
         ):
             continue
-        gap = validation_gap(problem, found[0].estimate, parts)
+        gap = validation_gap(problem, found[0].estimate, data.folds)
         if rejection_reason(gap, last.gap, SURER) == WIDENS:
             continue
         return _replace_one(done, place, found[0], gap)
@@ -70,27 +60,23 @@ def _required_advantage(effect: str, other: str) -> float:
     return ONCE if passing else CLOSE
 
 
-def simplify_effects(
-    problem: PredictionErrorProblem, done: list[SelectionRound], log: Log, parts: Sequence[Fold]
-) -> list[SelectionRound]:
+def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Replace effects by their simpler forms where these explain as much.
 
     What an effect had to explain before all was found may have needed its further parameters.
     """
+    problem = data.problem
     for place in range(1, len(done)):
-        last = done[-1]
-        effect = done[place].candidate.effect
-        had = last.candidate.estimate.structure.effects  # those that nobody names among them
+        last, effect = done[-1], done[place].candidate.effect
+        point = last.candidate.estimate
+        had = point.structure.effects  # those that nobody names among them
         names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []
-        model = last.candidate.estimate.structure.model(last.candidate.estimate.values)
-        evidence = compute_voltage_residual(
-            log, dict(model.gains), type=last.candidate.estimate.structure.type
-        )
-        begun = simplify_effect(problem, last.candidate.estimate, names, evidence, effect=effect)
+        evidence = data.voltage_residual(point)
+        begun = simplify_effect(problem, point, names, evidence, effect=effect)
         if begun is None or not math.isfinite(begun.cost):
             continue
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
-        gap = validation_gap(problem, found.estimate, parts)
+        gap = validation_gap(problem, found.estimate, data.folds)
         as_good = found.score - last.candidate.score <= SIMPLER
         if as_good and rejection_reason(gap, last.gap, SURER) != WIDENS:
             done = _replace_one(done, place, found, gap)
@@ -121,17 +107,15 @@ def _replace_one(
     return [*middle, replace(last, candidate=end, gap=gap, rivals=())]
 
 
-def measure_removals(
-    problem: PredictionErrorProblem, done: list[SelectionRound], parts: Sequence[Fold]
-) -> list[SelectionRound]:
+def measure_removals(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Each round with the estimate that lacks its effect."""
     last = done[-1].candidate
     if len(last.estimate.structure.effects) <= 1:  # what it brought is what it is worth
         return done
     told = [done[0]]
     for one in done[1:]:
-        reduced = refit_without(problem, last, one.candidate.effect)
-        gap = validation_gap(problem, reduced.estimate, parts)
+        reduced = refit_without(data.problem, last, one.candidate.effect)
+        gap = validation_gap(data.problem, reduced.estimate, data.folds)
         told.append(replace(one, removal_cost=reduced.score - last.score, gap_without=gap))
     return told
 

@@ -1,16 +1,15 @@
 """Forward selection: try every candidate, add the best, refit, repeat."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
-from sim.core.log import Log
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import ENOUGH
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import measure_removals, replace_effects, simplify_effects
 from sim.reconcile.candidates import Seeds, score_estimate
-from sim.reconcile.cross_validation import Fold, missed_motion, validation_gap
+from sim.reconcile.cross_validation import missed_motion, validation_gap
 from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.model_selection import (
     HARDLY,
@@ -25,6 +24,7 @@ from sim.reconcile.model_selection import (
     weigh_candidates,
 )
 from sim.reconcile.onset_scan import flip_duration, refine_onset
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.thresholds import (
     CLOSE,
@@ -45,59 +45,33 @@ from sim.reconcile.thresholds import (
 
 SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
 BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
-Progress = Callable[[str, float], None]
 
 
-def select_effects(
-    problem: PredictionErrorProblem,
-    base: Estimate,
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
-) -> list[SelectionRound]:
+def select_effects(data: SelectionData, base: Estimate) -> list[SelectionRound]:
     """The base model, then one round for each effect that was added.
 
     Args:
-        problem: the measurements of all that may be fitted.
+        data: the measurements.
         base: the best point without effects.
-        log: the runs of the problem.
-        parts: what predicts what.
-        progress: told what is done.
     """
-    gap = validation_gap(problem, base, parts)
-    done = _continue_search(
-        problem, [SelectionRound(score_estimate(problem, base), gap, gap)], log, parts, progress
-    )
-    done = add_pair(problem, done, log, parts, progress)
-    done = choose_path(problem, done, log, parts, progress)
-    done = simplify_effects(problem, done, log, parts)
-    return measure_removals(problem, done, parts)
+    gap = validation_gap(data.problem, base, data.folds)
+    done = _continue_search(data, [SelectionRound(score_estimate(data.problem, base), gap, gap)])
+    done = simplify_effects(data, choose_path(data, add_pair(data, done)))
+    return measure_removals(data, done)
 
 
-def _continue_search(
-    problem: PredictionErrorProblem,
-    done: list[SelectionRound],
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
-) -> list[SelectionRound]:
+def _continue_search(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """The same, gone on until nothing is to be added and no earlier effect gives way."""
     for _ in range(SECOND_THOUGHTS + 1):
-        done = _add_effects(problem, done, log, parts, progress)
-        thought = replace_effects(problem, done, log, parts) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
+        done = _add_effects(data, done)
+        thought = replace_effects(data, done) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
         if thought is done:
             break
         done = thought
     return done
 
 
-def add_pair(
-    problem: PredictionErrorProblem,
-    done: list[SelectionRound],
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
-) -> list[SelectionRound]:
+def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Add two effects where one alone is likelier and yet widens the gap.
 
     What a spring gives back may be hidden by a limit that nobody has named, and misses more than no
@@ -107,41 +81,21 @@ def add_pair(
     found = list_blocked(now.candidates)
     if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
         return done
-    one = found[0]
-    begun = SelectionRound(
-        one.candidate, one.gap, now.gap, nuisance_effects=now.nuisance_effects, seeds=now.seeds
-    )
-    path = _continue_search(
-        problem, [*done, begun], log, parts, lambda what, _: progress(what, BESIDE)
-    )
+    path = _continue_search(_on_another_path(data), [*done, _next_round(now, found[0])])
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
     narrows = closes and rejection_reason(path[-1].gap, now.gap, SURER) != WIDENS
     new = {other.candidate.effect for other in path} - {other.candidate.effect for other in done}
     return path if narrows and len(new) > 1 else done  # what was there may have become needless
 
 
-def choose_path(
-    problem: PredictionErrorProblem,
-    done: list[SelectionRound],
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
-) -> list[SelectionRound]:
+def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Try alternative paths where the greedy one led astray; the best is returned."""
-    best = done
+    best, problem = done, data.problem
     if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
         return best
     for place, other in alternative_paths(done, lost=_is_dead_end(problem, done))[:PATHS]:
-        now = done[place]
-        begun = SelectionRound(
-            other.candidate,
-            other.gap,
-            now.gap,
-            nuisance_effects=now.nuisance_effects,
-            seeds=now.seeds,
-        )
-        path = [*done[: place + 1], begun]
-        path = _continue_search(problem, path, log, parts, lambda what, _: progress(what, BESIDE))
+        path = [*done[: place + 1], _next_round(done[place], other)]
+        path = _continue_search(_on_another_path(data), path)
         likelier = score_improvement(best[-1].candidate, path[-1].candidate) >= CLOSE
         if likelier and rejection_reason(path[-1].gap, best[-1].gap, SURER) != WIDENS:
             best = path
@@ -176,19 +130,13 @@ def alternative_paths(
     return found
 
 
-def _add_effects(
-    problem: PredictionErrorProblem,
-    done: list[SelectionRound],
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
-) -> list[SelectionRound]:
+def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """The same, and a round for each effect that narrows the gap."""
     done = list(done)
-    while len(done) <= MOST and not _is_dead_end(problem, done):
-        progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
+    while len(done) <= MOST and not _is_dead_end(data.problem, done):
+        data.progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
         now = done[-1]
-        weighed = weigh_candidates(problem, now, log, parts)
+        weighed = weigh_candidates(data, now)
         tried = tuple(one.report for one in weighed)
         seeds = {**now.seeds, **_collect_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))
@@ -198,35 +146,32 @@ def _add_effects(
             if is_significant(
                 one.candidate.effect, one.candidate.estimate.values, one.report.score
             ):
-                done.append(
-                    SelectionRound(
-                        one.candidate,
-                        one.gap,
-                        now.gap,
-                        nuisance_effects=now.nuisance_effects,
-                        seeds=now.seeds,
-                    )
-                )
+                done.append(_next_round(now, one))
             else:
                 done[-1] = _add_nuisance_effect(now, one)
             continue
         if not admitted:
             break
         chosen = choose_simplest(admitted)
-        best, near = _finish_search(problem, chosen, parts), list_rivals(chosen, weighed)
+        best, near = _finish_search(data, chosen), list_rivals(chosen, weighed)
         if best is not chosen:
-            near = [one for one in near if _is_close(_finish_search(problem, one, parts), best)]
-        done.append(
-            SelectionRound(
-                best.candidate,
-                best.gap,
-                now.gap,
-                tuple(one.candidate.effect for one in near),
-                nuisance_effects=now.nuisance_effects,
-                seeds=now.seeds,
-            )
-        )
+            near = [one for one in near if _is_close(_finish_search(data, one), best)]
+        rivals = tuple(one.candidate.effect for one in near)
+        done.append(replace(_next_round(now, best), rivals=rivals))
     return done
+
+
+def _next_round(now: SelectionRound, added: WeighedCandidate) -> SelectionRound:
+    """The round that begins with a candidate of the one before."""
+    return SelectionRound(
+        added.candidate, added.gap, now.gap,
+        nuisance_effects=now.nuisance_effects, seeds=now.seeds,
+    )  # fmt: skip
+
+
+def _on_another_path(data: SelectionData) -> SelectionData:
+    """The same data, with a progress that waits where the first path ended."""
+    return replace(data, progress=lambda what, _: data.progress(what, BESIDE))
 
 
 def admissible_candidates(
@@ -273,11 +218,9 @@ def _is_dead_end(problem: PredictionErrorProblem, done: Sequence[SelectionRound]
     return not now.gap.velocity <= FAR_MAJOR * now.gap_before.velocity
 
 
-def _finish_search(
-    problem: PredictionErrorProblem, best: WeighedCandidate, parts: Sequence[Fold]
-) -> WeighedCandidate:
+def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandidate:
     """The same, as far as its search leads: candidates are only compared, the one taken goes on."""
-    candidate = best.candidate
+    candidate, problem = best.candidate, data.problem
     point = minimize_fully(problem, candidate.estimate)
     for other in flip_duration(problem, point):
         settled = minimize(problem, other)
@@ -288,7 +231,7 @@ def _finish_search(
         point = minimize(problem, near)
     if abs(candidate.estimate.cost - point.cost) < ENOUGH:
         return best
-    gap = validation_gap(problem, point, parts)
+    gap = validation_gap(problem, point, data.folds)
     if rejection_reason(gap, best.gap, SURER) == WIDENS:
         return best
     return replace(best, candidate=score_estimate(problem, point, candidate.effect), gap=gap)

@@ -3,12 +3,10 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from sim.core.log import Log
-from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
-from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import Candidate, rank_candidates
-from sim.reconcile.cross_validation import Fold, Gap, validation_gap
+from sim.reconcile.cross_validation import Gap, validation_gap
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
@@ -31,15 +29,12 @@ HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
 TINY = 1e-300  # no gap at all
 
 
-def weigh_candidates(
-    problem: PredictionErrorProblem, now: SelectionRound, log: Log, parts: Sequence[Fold]
-) -> list[WeighedCandidate]:
+def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCandidate]:
     """All candidates of a round with their cross-validated gaps, likeliest first."""
     point = now.candidate.estimate
-    model = point.structure.model(point.values)
-    evidence = compute_voltage_residual(log, dict(model.gains), type=point.structure.type)
     found = []
-    for candidate in rank_candidates(problem, point, evidence, seeds=now.seeds):
+    evidence = data.voltage_residual(point)
+    for candidate in rank_candidates(data.problem, point, evidence, seeds=now.seeds):
         score = now.candidate.score - candidate.score
         if score < required_improvement(candidate.effect):
             tried = TriedCandidate(
@@ -47,7 +42,7 @@ def weigh_candidates(
             )
             found.append(WeighedCandidate(candidate, now.gap, tried))
             continue
-        gap = validation_gap(problem, candidate.estimate, parts)
+        gap = validation_gap(data.problem, candidate.estimate, data.folds)
         why = rejection_reason(gap, now.gap, score)
         if why == HARDLY and EFFECTS[candidate.effect].has_onset:
             why = ""
