@@ -72,7 +72,6 @@ def reconcile(
     """
     check_logs(log, validation, held_out, type=type, travel=travel)
     aside = judge_damage(damages or {})
-    both = log if validation is None else join_records(log, validation)
     problem = _make_problem(log, validation, aside)
     progress("base model", 0.05)
     problem, base = _fit_base_model(problem, log, type=type)
@@ -83,8 +82,9 @@ def reconcile(
             advice="Inspect the log, and record it anew.",
         )
     problem, base, slipped = _exclude_slips(problem, base)
+    both = log if validation is None else join_records(log, validation)
     folds = make_folds([one.session for one in problem.records])
-    done = select_effects(SelectionData(problem, both, folds, progress), base)
+    done = select_effects(SelectionData(problem, folds, progress), base, both)
     progress("what remains", 0.9)
     shown = HeldOutLog.choose({"log": log, "validation": validation, "held_out": held_out}, aside)
     chapters = shown.chapters(done)

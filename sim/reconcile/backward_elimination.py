@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
 from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
@@ -18,14 +19,16 @@ from sim.reconcile.model_selection import (
     required_improvement,
     score_improvement,
 )
-from sim.reconcile.selection_data import SelectionData
+from sim.reconcile.selection_data import SelectionData, voltage_residual_at
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import CLOSE, ONCE, SIMPLER, SURER
 
 ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
 
 
-def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
+def replace_effects(
+    data: SelectionData, done: list[SelectionRound], log: Log
+) -> list[SelectionRound]:
     """Replace an earlier effect by another where that is likelier now."""
     problem, last = data.problem, done[-1]
     for place in range(1, len(done) - 1):
@@ -41,7 +44,7 @@ def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[Sel
                 continue
             best = replace(reduced, effect=last.candidate.effect)
             return [*done[:place], *done[place + 1 : -1], replace(last, candidate=best, gap=gap)]
-        evidence = data.voltage_residual(reduced.estimate)
+        evidence = voltage_residual_at(log, reduced.estimate)
         found = rank_candidates(problem, reduced.estimate, evidence, only=others, seeds=last.seeds)
         if not found or score_improvement(last.candidate, found[0]) < _required_advantage(
             effect, found[0].effect
@@ -60,7 +63,9 @@ def _required_advantage(effect: str, other: str) -> float:
     return ONCE if passing else CLOSE
 
 
-def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
+def simplify_effects(
+    data: SelectionData, done: list[SelectionRound], log: Log
+) -> list[SelectionRound]:
     """Replace effects by their simpler forms where these explain as much.
 
     What an effect had to explain before all was found may have needed its further parameters.
@@ -71,7 +76,7 @@ def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[Se
         point = last.candidate.estimate
         had = point.structure.effects  # those that nobody names among them
         names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []
-        evidence = data.voltage_residual(point)
+        evidence = voltage_residual_at(log, point)
         begun = simplify_effect(problem, point, names, evidence, effect=effect)
         if begun is None or not math.isfinite(begun.cost):
             continue

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from sim.core.log import Log
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import ENOUGH
 from sim.physics.effects import EFFECTS
@@ -47,31 +48,38 @@ SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
 BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
 
 
-def select_effects(data: SelectionData, base: Estimate) -> list[SelectionRound]:
+def select_effects(data: SelectionData, base: Estimate, log: Log) -> list[SelectionRound]:
     """The base model, then one round for each effect that was added.
 
     Args:
         data: the measurements.
         base: the best point without effects.
+        log: the runs of the problem.
     """
     gap = validation_gap(data.problem, base, data.folds)
-    done = _continue_search(data, [SelectionRound(score_estimate(data.problem, base), gap, gap)])
-    done = simplify_effects(data, choose_path(data, add_pair(data, done)))
+    done = _continue_search(
+        data, [SelectionRound(score_estimate(data.problem, base), gap, gap)], log
+    )
+    done = add_pair(data, done, log)
+    done = choose_path(data, done, log)
+    done = simplify_effects(data, done, log)
     return measure_removals(data, done)
 
 
-def _continue_search(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
+def _continue_search(
+    data: SelectionData, done: list[SelectionRound], log: Log
+) -> list[SelectionRound]:
     """The same, gone on until nothing is to be added and no earlier effect gives way."""
     for _ in range(SECOND_THOUGHTS + 1):
-        done = _add_effects(data, done)
-        thought = replace_effects(data, done) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
+        done = _add_effects(data, done, log)
+        thought = replace_effects(data, done, log) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
         if thought is done:
             break
         done = thought
     return done
 
 
-def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
+def add_pair(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
     """Add two effects where one alone is likelier and yet widens the gap.
 
     What a spring gives back may be hidden by a limit that nobody has named, and misses more than no
@@ -81,21 +89,21 @@ def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionR
     found = list_blocked(now.candidates)
     if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
         return done
-    path = _continue_search(_on_another_path(data), [*done, _next_round(now, found[0])])
+    path = _continue_search(_on_another_path(data), [*done, _next_round(now, found[0])], log)
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
     narrows = closes and rejection_reason(path[-1].gap, now.gap, SURER) != WIDENS
     new = {other.candidate.effect for other in path} - {other.candidate.effect for other in done}
     return path if narrows and len(new) > 1 else done  # what was there may have become needless
 
 
-def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
+def choose_path(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
     """Try alternative paths where the greedy one led astray; the best is returned."""
     best, problem = done, data.problem
     if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
         return best
     for place, other in alternative_paths(done, lost=_is_dead_end(problem, done))[:PATHS]:
         path = [*done[: place + 1], _next_round(done[place], other)]
-        path = _continue_search(_on_another_path(data), path)
+        path = _continue_search(_on_another_path(data), path, log)
         likelier = score_improvement(best[-1].candidate, path[-1].candidate) >= CLOSE
         if likelier and rejection_reason(path[-1].gap, best[-1].gap, SURER) != WIDENS:
             best = path
@@ -130,13 +138,13 @@ def alternative_paths(
     return found
 
 
-def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
+def _add_effects(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
     """The same, and a round for each effect that narrows the gap."""
     done = list(done)
     while len(done) <= MOST and not _is_dead_end(data.problem, done):
         data.progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
         now = done[-1]
-        weighed = weigh_candidates(data, now)
+        weighed = weigh_candidates(data, now, log)
         tried = tuple(one.report for one in weighed)
         seeds = {**now.seeds, **_collect_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))

@@ -3,10 +3,11 @@
 import math
 from collections.abc import Mapping, Sequence
 
+from sim.core.log import Log
 from sim.physics.effects import EFFECTS
 from sim.reconcile.candidates import Candidate, rank_candidates
 from sim.reconcile.cross_validation import Gap, validation_gap
-from sim.reconcile.selection_data import SelectionData
+from sim.reconcile.selection_data import SelectionData, voltage_residual_at
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
@@ -29,11 +30,11 @@ HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
 TINY = 1e-300  # no gap at all
 
 
-def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCandidate]:
+def weigh_candidates(data: SelectionData, now: SelectionRound, log: Log) -> list[WeighedCandidate]:
     """All candidates of a round with their cross-validated gaps, likeliest first."""
     point = now.candidate.estimate
     found = []
-    evidence = data.voltage_residual(point)
+    evidence = voltage_residual_at(log, point)
     for candidate in rank_candidates(data.problem, point, evidence, seeds=now.seeds):
         score = now.candidate.score - candidate.score
         if score < required_improvement(candidate.effect):

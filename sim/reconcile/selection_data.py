@@ -1,4 +1,4 @@
-"""What every step of the selection works on: the measurements, the runs and the folds."""
+"""What every step of the selection works on: the measurements, and which runs predict which."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -15,17 +15,16 @@ class SelectionData:
 
     Args:
         problem: the measurements of all that may be fitted.
-        log: the runs of the problem.
         folds: which runs predict which.
         progress: told what is done, and the share of it [1].
     """
 
     problem: PredictionErrorProblem
-    log: Log
     folds: Sequence[Fold]
     progress: Callable[[str, float], None] = lambda _, __: None
 
-    def voltage_residual(self, point: Estimate) -> VoltageResidual:
-        """The voltage residual of the log under an estimate's base model."""
-        gains = point.structure.model(point.values).gains
-        return compute_voltage_residual(self.log, dict(gains), type=point.structure.type)
+
+def voltage_residual_at(log: Log, point: Estimate) -> VoltageResidual:
+    """The voltage residual of a log under an estimate's base model."""
+    gains = point.structure.model(point.values).gains
+    return compute_voltage_residual(log, dict(gains), type=point.structure.type)
