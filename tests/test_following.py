@@ -49,7 +49,7 @@ def test_the_steady_speed_is_in_proportion_to_kv(factor):
     one = followed(
         "simple", wanted=make_brisk_profile(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"]
     )
-    place = one.target.cruise
+    place = one.target.cruise_end
 
     free = follow_profile(
         Plant("simple", DRIVE), Plant("simple", {**DRIVE, "kV": factor * DRIVE["kV"]}), one.target,

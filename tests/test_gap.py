@@ -127,7 +127,7 @@ def test_sorted_by_noisy_measurements_rest_would_show_what_is_not_there():
 @pytest.mark.parametrize("unit", [0.0254, 100.0], ids=["inches", "a hundredth"])
 def test_the_places_do_not_depend_on_the_unit(unit):
     runs = runs_of(plant=lambda at: 3.0 * (at.v > 0.5))
-    scaled = [replace(r, predicted=r.predicted / unit, missed=r.missed / unit) for r in runs]
+    scaled = [replace(r, predicted=r.predicted / unit, error=r.error / unit) for r in runs]
     small = replace(NOISE, position=NOISE.position / unit, velocity=NOISE.velocity / unit)
 
     mine, other = (
@@ -145,7 +145,7 @@ def test_what_wanders_is_less_sure_than_what_stands_alone():
     wander = np.zeros(400)
     for i in range(1, 400):
         wander[i] = 0.97 * wander[i - 1] + noise[i]
-    wandering = replace(run, missed=NOISE.velocity * np.column_stack([np.zeros(400), wander]))
+    wandering = replace(run, error=NOISE.velocity * np.column_stack([np.zeros(400), wander]))
 
     sure = np.abs(map_gap([wandering], noise=NOISE).by_run.significance[VELOCITY])
     naive = np.abs(map_gap([wandering], noise=NOISE).by_run.mean[VELOCITY]) * np.sqrt(400 / 12)

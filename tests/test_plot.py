@@ -268,7 +268,7 @@ def test_matplotlib_is_used_here_and_nowhere_else(root):
 def test_drawing_needs_no_backend_and_keeps_no_figure(root):
     code = (
         "import sys, sim.plot\n"
-        "sim.plot.choices({'a': 1.0}, truth=1.0, name='kA').svg\n"
+        "sim.plot.plot_choices({'a': 1.0}, truth=1.0, name='kA').svg\n"
         "assert 'matplotlib.pyplot' not in sys.modules\n"
     )
     subprocess.run(

@@ -88,10 +88,10 @@ def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, 
 def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, softness, verdict):
     done = rounds(problem, 2.0)
     values = {"compliance.softness": softness, "compliance.share": 0.2}
-    point = replace(done[0].candidate.point, values=values)
+    point = replace(done[0].candidate.estimate, values=values)
     tried = TriedCandidate("compliance", score, 1.6, admitted=False, why=WIDENS)
     other = WeighedCandidate(
-        replace(done[0].candidate, effect="compliance", point=point), done[0].gap, tried
+        replace(done[0].candidate, effect="compliance", estimate=point), done[0].gap, tried
     )
     done = [replace(done[0], candidates=(other,))]
 
@@ -222,8 +222,8 @@ def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, n
 def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, beside, named):
     values = {**GAINS, "drag.drag": 0.001, "spring.rate": 0.1, "spring.preload": 0.1}
     done = added(problem, ("spring", beside, 2.0), ("drag", 0.95 * beside, beside), values=values)
-    done[1:] = [replace(done[1], lost=70.0), replace(done[2], lost=score)]
-    done[1:] = [replace(one, bare=one.before) for one in done[1:]]
+    done[1:] = [replace(done[1], removal_cost=70.0), replace(done[2], removal_cost=score)]
+    done[1:] = [replace(one, gap_without=one.gap_before) for one in done[1:]]
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
     found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
@@ -269,7 +269,7 @@ def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score
     tried = tuple(
         TriedCandidate(name, each, 1.0, admitted=False, why="") for name, each in scores.items()
     )
-    done = [replace(base, tried=tried), replace(one, lost=score)]
+    done = [replace(base, tried=tried), replace(one, removal_cost=score)]
     chapters = [SimpleNamespace(gap=each.gap.velocity) for each in done]
 
     found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
