@@ -59,6 +59,12 @@ def simulate(
 
     Raises:
         BadRequest: a period no robot has, or a test that is over before it has moved.
+
+    Examples:
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> log = simulate(MECHANISMS["elevator"], Routine(), rng=np.random.default_rng(0))
+        >>> [run.test for run in log.runs][:2]
+        ['quasistatic-forward', 'quasistatic-reverse']
     """
     _check_period(period)
     model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)

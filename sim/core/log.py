@@ -50,6 +50,12 @@ class Run:
     Raises:
         BadRequest: ``test`` is not the name of a test.
         BadSample: lengths differ, a value is not finite or is absurd, or time stands still.
+
+    Examples:
+        >>> run = Run("dynamic-forward", time=[0.0, 0.02], voltage=[7.0, 7.0],
+        ...           position=[0.0, 0.01], velocity=[0.0, 1.0])
+        >>> run.kind, run.direction, len(run)
+        ('dynamic', 'forward', 2)
     """
 
     test: str
@@ -124,6 +130,12 @@ class Log:
         type: ``simple``, ``elevator`` or ``arm`` where the source says it, else empty.
         source: the file it was read from, for messages; empty if none.
         doubts: what was odd about the source.
+
+    Examples:
+        >>> run = Run("quasistatic-reverse", [0.0], [0.0], [0.0], [0.0])
+        >>> log = Log((run,), units="rotations", type="simple")
+        >>> log.units, len(log.runs_of_test("quasistatic-reverse"))
+        ('rotations', 1)
     """
 
     runs: tuple[Run, ...]

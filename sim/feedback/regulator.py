@@ -65,7 +65,12 @@ class Feedback:
 
 
 def allowed_velocity_error(*, ks: float, kv: float) -> float:
-    """SysId's default allowed velocity error, a quarter of the free speed at 12 V [unit/s]."""
+    """SysId's default allowed velocity error, a quarter of the free speed at 12 V [unit/s].
+
+    Args:
+        ks: [V].
+        kv: [V·s/unit].
+    """
     return SPEED_SHARE * (12.0 - ks) / kv if kv else VELOCITY_ERROR
 
 
@@ -92,6 +97,10 @@ def design_velocity_loop(
 
     Raises:
         BadRequest: kV is negative, kA negative, or an allowance is not positive.
+
+    Examples:
+        >>> round(design_velocity_loop(kv=2.5, ka=0.4).kp, 2)
+        2.44
     """
     _check(kv=kv, ka=ka, errors=(velocity_error, volts))
     if ka < MASSLESS:

@@ -112,6 +112,13 @@ def simulate_step_response(
 
     Raises:
         BadRequest: an unknown loop, or numbers that nothing can be simulated with.
+
+    Examples:
+        >>> plant = Plant("simple", {"kS": 0.1, "kV": 2.5, "kA": 0.4})
+        >>> own = Feedback(2.0, 0.0)
+        >>> took = simulate_step_response(plant, loop="velocity", feedback=own, target=2.0)
+        >>> round(took.value[-1], 2)  # [m/s]
+        2.0
     """
     wait = preset.delay if delay is None else max(0.0, delay)
     _check(plant, loop=loop, numbers=(feedback.kp, feedback.kd, target, wait))

@@ -33,6 +33,16 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
     Raises:
         BadRequest: an unknown type or method, or an arm whose position is no angle.
         NotIdentifiable: the log cannot tell these gains; the message says what would.
+
+    Examples:
+        >>> import numpy as np
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> from sim.bench.routine import Routine
+        >>> from sim.bench.simulate import simulate
+        >>> log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(0))
+        >>> found = fit(log)
+        >>> round(found.gains["kV"], 2)  # [V·s/m]
+        2.52
     """
     chosen = type or log.type or "simple"
     if chosen not in TYPES:

@@ -77,6 +77,14 @@ def compute_information(rows: Mapping[str, Rows], *, type: str, noise: float) ->
 
     Raises:
         BadRequest: no rows, an unknown type, or a noise that is not above zero.
+
+    Examples:
+        >>> from sim.fit.sysid_rows import Rows
+        >>> one = np.ones(3)
+        >>> rows = Rows(one, one, one, one, np.arange(3.0), np.array([2.0, 0.0, 1.0]))
+        >>> found = compute_information({"dynamic-forward": rows}, type="simple", noise=0.1)
+        >>> found.information.shape
+        (3, 3)
     """
     if type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")

@@ -88,6 +88,15 @@ def contaminate(
     Raises:
         BadRequest: no such fault, test or time; a severity out of range; a test or a mechanism
             this fault cannot strike; a run too short for it, or too still for it to show.
+
+    Examples:
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> from sim.bench.routine import Routine
+        >>> from sim.bench.simulate import simulate
+        >>> rng = np.random.default_rng(0)
+        >>> log = simulate(MECHANISMS["drivetrain"], Routine(), rng=rng)
+        >>> contaminate(log, "encoder-slip", test="dynamic-forward", rng=rng).where[0].test
+        'dynamic-forward'
     """
     fault = find(name)
     if not 0.0 <= severity <= MOST:

@@ -72,6 +72,15 @@ def inspect(log: Log) -> Inspection:
         What was found. A confidence is 0 to 1: the share of what is odd in that stretch which this
         fault alone would explain, less where the same could be an accident. Above 0.5 it is
         likelier than not.
+
+    Examples:
+        >>> import numpy as np
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> from sim.bench.routine import Routine
+        >>> from sim.bench.simulate import simulate
+        >>> log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(0))
+        >>> inspect(log).is_clean
+        True
     """
     features = LogFeatures(log)
     if features.period < FASTEST or features.period > SLOWEST:

@@ -148,7 +148,12 @@ def rescale_motion(run: Run, pace: Array) -> Run:
 
 
 def select_samples(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
-    """The samples of a run that a mask or a slice keeps."""
+    """The samples of a run that a mask or a slice keeps.
+
+    Args:
+        run: as it was.
+        keep: (n,) a mask, or a slice.
+    """
     return replace(
         run,
         time=run.time[keep],

@@ -179,6 +179,16 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
     Raises:
         BadRequest: no format with this suffix can be written, the file cannot be, or the log
             holds what the format cannot.
+
+    Examples:
+        >>> import tempfile
+        >>> from sim.core.log import Log, Run
+        >>> folder = tempfile.TemporaryDirectory()
+        >>> run = Run("dynamic-forward", [0.0, 0.02], [7.0, 7.0], [0.0, 0.0], [0.0, 1.0])
+        >>> write(Log((run,)), f"{folder.name}/log.csv")
+        >>> read(f"{folder.name}/log.csv").runs[0].velocity
+        array([0., 1.])
+        >>> folder.cleanup()
     """
     given = os.fspath(path)
     if "\0" in given:

@@ -68,6 +68,12 @@ class Model:
         gains: kS [V], kV, kA, and kG [V] (with ``offset_rad`` for an arm) where there is gravity.
         parts: the effects on top; each at most once.
         travel: [m or rad] the lower and the upper stop; None has none.
+
+    Examples:
+        >>> plain = Model("simple", {"kS": 0.1, "kV": 2.5, "kA": 0.4})
+        >>> model = plain + Part("drag", {"drag": 0.02})
+        >>> [part.effect for part in model.parts]
+        ['drag']
     """
 
     type: str

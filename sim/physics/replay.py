@@ -18,6 +18,13 @@ def replay_log(model: Model, log: Log, *, step: float | None = None) -> tuple[Tr
 
     Returns:
         One track for each run.
+
+    Examples:
+        >>> from sim.core.log import Run
+        >>> run = Run("dynamic-forward", [0.0, 1.0, 2.0], [4.2] * 3, [0.0] * 3, [0.0] * 3)
+        >>> (track,) = replay_log(Model("simple", {"kS": 0.2, "kV": 2.0, "kA": 0.1}), Log((run,)))
+        >>> track.velocity.round(3)
+        array([0., 2., 2.])
     """
     state, tracks = State(), []
     for run, clock in zip(log.runs, run_start_times(log).tolist(), strict=True):

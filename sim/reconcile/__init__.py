@@ -69,6 +69,18 @@ def reconcile(
     Raises:
         BadRequest: a log of another mechanism, or positions beyond the travel.
         NotIdentifiable: nothing moves, or too little was recorded; the message says what to record.
+
+    Examples:
+        >>> import numpy as np
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> from sim.bench.routine import Routine
+        >>> from sim.bench.simulate import simulate
+        >>> robot = MECHANISMS["drivetrain"].hide("velocity-filter", 2.0)
+        >>> routine = Routine(ramp=2.0, step=5.0, timeout=2.0)
+        >>> log = simulate(robot, routine, rng=np.random.default_rng(0))
+        >>> story = reconcile(log, type="simple")
+        >>> story.findings[0].effect
+        'velocity-filter'
     """
     check_logs(log, validation, held_out, type=type, travel=travel)
     aside = judge_damage(damages or {})

@@ -18,6 +18,10 @@ def find_effect(name: str) -> Effect:
 
     Raises:
         BadRequest: no such effect; the message lists those there are.
+
+    Examples:
+        >>> find_effect("drag").names
+        ('drag',)
     """
     if name not in EFFECTS:
         raise BadRequest(f"unknown effect {name!r}", advice=f"Choose one of: {', '.join(EFFECTS)}.")

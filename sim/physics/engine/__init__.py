@@ -156,6 +156,13 @@ def simulate_run(
         measured: (n, 2) position and velocity that correct the motion as it goes, nan where there
             is none; none goes its way.
         trust: (2, 2) by how much: from both deviations to the corrections of both.
+
+    Examples:
+        >>> time = np.linspace(0.0, 5.0, 251)
+        >>> model = Model("simple", {"kS": 0.2, "kV": 2.0, "kA": 0.5})
+        >>> track = simulate_run(model, time=time, voltage=np.full(251, 6.2), state=State())
+        >>> float(track.velocity[-1].round(3))  # (6.2 V - kS)/kV [m/s]
+        3.0
     """
     on, parameters = effect_arrays(model)
     out = allocate_output(time.size)
