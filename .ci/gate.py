@@ -1,4 +1,4 @@
-"""The gate: the README's two commands as printed there, then slow tests, lint, types, contracts, pages.
+"""The gate: the README's two commands as printed, then slow tests, lint, types, contracts, pages.
 
 Everything runs in a virtual environment made for this run, so nothing that happens to be installed
 on the machine can help.

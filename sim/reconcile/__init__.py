@@ -16,7 +16,7 @@ from dataclasses import replace
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
-from sim.core.units import find_unit
+from sim.core.units import Unit, find_unit
 from sim.estimation.initial_guess import clamp_to_physical, guess_gains
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
@@ -33,6 +33,7 @@ from sim.reconcile.input_checks import check_logs
 from sim.reconcile.local_minimum import minimize, minimize_fully, scan_process_noise
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_data import SelectionData
+from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.slip_detection import detect_slips
 from sim.reconcile.story import Story
 from sim.reconcile.thresholds import LOST, MAJOR, WANDERS
@@ -99,13 +100,23 @@ def reconcile(
     done = select_effects(SelectionData(problem, folds, progress), base, both)
     progress("what remains", 0.9)
     shown = HeldOutLog.choose({"log": log, "validation": validation, "held_out": held_out}, aside)
+    faults = _one_per_fault(slipped, aside.reported)
+    return _make_story(problem, done, shown, faults, per=find_unit(log.units))
+
+
+def _make_story(
+    problem: PredictionErrorProblem,
+    done: Sequence[SelectionRound],
+    shown: HeldOutLog,
+    faults: tuple[DamagedInterval, ...],
+    *,
+    per: Unit,
+) -> Story:
+    """The story of a selection, shown on the held-out log."""
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
-    per = find_unit(log.units)
-    findings = make_findings(
-        problem, done, _one_per_fault(slipped, aside.reported), chapters, left=left, per=per
-    )
+    findings = make_findings(problem, done, faults, chapters, left=left, per=per)
     verdict, remainder, remains = reach_verdict(findings, done, problem, left=left, per=per)
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,

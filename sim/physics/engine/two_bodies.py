@@ -123,10 +123,8 @@ def step_in_contact(
 
     which = STANDS if stands else MOVES
     prepare_series(ways, which, c[KV], own, HUGE * ka if stands else other, stiff, damp)
-    half, full = (
-        make_table(ways, which, whole, level + 1),
-        make_table_from_half(ways, which, whole, level),
-    )
+    half = make_table(ways, which, whole, level + 1)
+    full = make_table_from_half(ways, which, whole, level)
     way, toward = math.copysign(1.0, v), math.copysign(1.0, z)
     b = u - way * part * sliding_friction(c, on, p, v, way)
     r = 0.0 if stands else r - toward * rest * sliding_friction(c, on, p, z, toward)
@@ -142,7 +140,6 @@ def step_in_contact(
     v_end = apply_row(ways, full + ROW, d, v, z, b, r)
     z_end = apply_row(ways, full + 2 * ROW, d, v, z, b, r)
     y_end = y + apply_row(ways, full + 3 * ROW, d, v, z, b, r)
-
     slowest = min(v * way, v_half * way, v_end * way)
     if stands:
         y_end, z_end = y, 0.0
