@@ -11,13 +11,13 @@ from sim.estimation.run_records import run_records
 from sim.inspect.fault import rescale_motion
 from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
-from sim.reconcile.slip_detection import SLOW, detect_slips
+from sim.reconcile.slip_detection import SHARP_SLOW, detect_slips
 
 PERIOD = 0.02  # [s]
 NOISE = (1e-4, 0.01)  # [m] and [m/s]
 STEP, RAMP = 6.0, 1.0  # [V] and [V/s]
 BASE = ModelStructure("simple")
-LIGHT = 1.05 * SLOW * PERIOD  # [s] the shortest time scale that is asked
+LIGHT = 1.05 * SHARP_SLOW * PERIOD  # [s] the shortest time scale that is asked
 HEAVY = 0.3  # [s]
 
 

@@ -21,9 +21,7 @@ from sim.reconcile.model_selection import (
 )
 from sim.reconcile.selection_data import SelectionData, voltage_residual_at
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import CLOSE, ONCE, SIMPLER, SURER
-
-ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
+from sim.reconcile.thresholds import CLOSE, LOOKED_ALIKE, ONCE, SIMPLER, SURER
 
 
 def replace_effects(
@@ -94,7 +92,7 @@ def _look_alikes(done: Sequence[SelectionRound], place: int) -> list[str]:
     had = {one.candidate.effect for one in done}
     tried = done[place - 1].tried
     best = max((one.score for one in tried), default=0.0)
-    alike = [one.effect for one in tried if one.score > ALIKE * best]
+    alike = [one.effect for one in tried if one.score > LOOKED_ALIKE * best]
     return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
 
 

@@ -12,9 +12,9 @@ from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.random_friction import LEAST_KS
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import Track
+from sim.reconcile.thresholds import MOST_VARIED
 
 REFIT = 4  # steps
-MOST_VARIED = 0.12  # [of kS] by which a run's friction may differ
 EASED = (-1.0, -2 / 3, -1 / 3, 0.0, 1 / 3, 2 / 3, 1.0)
 """[1] of the most that friction varies."""
 

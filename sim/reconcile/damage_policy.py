@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from sim.estimation.run_records import ExcludedInterval
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.thresholds import SLIPPED, SPOILT
+from sim.reconcile.thresholds import LONGEST_SLIP, SLIPPED, SPOILT
 
 FOR_GOOD = ("hard-stop",)
 """Faults after which a run tells nothing more: it leans on a stop."""
@@ -22,9 +22,6 @@ physics that is missing (a soft joint shakes as a slipping wheel does): the fit 
 
 WHOLE = ("sign-flip",)
 """Faults of a whole run. Two such runs are no fault: voltage and motion do not belong together."""
-
-LONGEST = 0.3
-"""[s] of an encoder's slip, which is over in a moment: what takes longer is a start that sticks."""
 
 
 @dataclass(frozen=True)
@@ -69,4 +66,4 @@ def _is_damage_to_record(one: DamagedInterval) -> bool:
     """Whether it is damage to the record beyond doubt, and no physics."""
     if one.confidence < OF_THE_RECORD.get(one.fault, 2.0):
         return False
-    return one.fault != "encoder-slip" or one.end - one.start <= LONGEST
+    return one.fault != "encoder-slip" or one.end - one.start <= LONGEST_SLIP

@@ -37,6 +37,7 @@ from sim.reconcile.thresholds import (
     NEAR,
     PART,
     PATHS,
+    SECOND_THOUGHTS,
     STRAYS,
     SURE,
     SURER,
@@ -44,7 +45,6 @@ from sim.reconcile.thresholds import (
     USUAL,
 )
 
-SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
 BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
 
 

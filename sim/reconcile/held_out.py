@@ -21,10 +21,10 @@ from sim.reconcile.input_checks import count_repeated_runs
 from sim.reconcile.residual_map import map_residuals
 from sim.reconcile.selection_round import SelectionRound, reported_estimate
 from sim.reconcile.story import Chapter
+from sim.reconcile.thresholds import OTHER_MATTER
 
 TOLD = 5  # places
 LOOKS = 3  # at where in its free play a run began, each nearer
-FAR = 5.0  # [of the gap on runs that were fitted] from which a held-out log is another matter
 HOW: Mapping[str, str] = {
     "held_out": "The gap is shown on a log that nothing was fitted to.",
     "validation": "No held-out log was given: the gap is shown on the validation's, by which the "
@@ -90,7 +90,7 @@ class HeldOutLog:
         """
         gap = last.gap * find_unit(self.log.units).si
         said = (*self.doubts, *((MESHED,) if _has_backlash(last) else ()))
-        if not self.held_out or gap <= FAR * max(fitted, self.problem.noise.velocity):
+        if not self.held_out or gap <= OTHER_MATTER * max(fitted, self.problem.noise.velocity):
             return said
         far = (
             f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times what "

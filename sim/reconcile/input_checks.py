@@ -10,20 +10,17 @@ from sim.core.units import find_unit
 from sim.estimation.initial_guess import guess_gains
 from sim.estimation.model_structure import ModelStructure
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
-
-FEWEST_RUNS, FEWEST_SAMPLES = 2, 60
-SHORTEST = 4  # samples of a run that says anything, as ``see`` has it
-BEYOND = 1.1  # [of the travel] that positions may span
-OTHER = 1.8
-"""[factor] between what a speed costs in two logs of one mechanism, once the first one's kS, kA and
-gravity are paid. Among 256 pairs it was 0.72 to 1.23, whatever was hidden in them; a foot taken for
-a meter makes it 3.3, a rotation for a radian 6.3."""
-TENTH = 0.1  # [1] a smaller factor is told in words
-OBEYS, LEAST_KS = 0.35, -0.1
-"""[of the voltage's size] that a first guess may miss, and [of the largest voltage] friction, of a
-log that is a mechanism's at all: only such a log has a price of a speed that others can be held
-against. Of 512 logs with voltages of other moments none is, of 256 others 254 are."""
-HARDLY = 0.03  # [of the first log's top speed] slower than which nothing moves
+from sim.reconcile.thresholds import (
+    BEYOND_TRAVEL,
+    FEWEST_RUNS,
+    FEWEST_SAMPLES,
+    HARDLY_MOVES,
+    LEAST_KS,
+    OBEYS_VOLTAGE,
+    OTHER_VOLTAGES,
+    SHORTEST_RUN,
+    TENTH,
+)
 
 
 def check_logs(
@@ -73,7 +70,7 @@ def _is_same_run(one: Run, other: Run) -> bool:
 
 
 def _check_size(log: Log) -> None:
-    long = [run for run in log.runs if len(run) >= SHORTEST]
+    long = [run for run in log.runs if len(run) >= SHORTEST_RUN]
     count = sum(map(len, long))
     if len(long) >= FEWEST_RUNS and count >= FEWEST_SAMPLES:
         return
@@ -116,7 +113,7 @@ def _check_units(log: Log, other: Log) -> None:
 
 
 def _check_moves(log: Log, *, than: float) -> None:
-    if not _top_speed(log) > HARDLY * than:
+    if not _top_speed(log) > HARDLY_MOVES * than:
         raise NotIdentifiable(
             "the mechanism hardly moves in this log",
             where=log.source,
@@ -126,7 +123,7 @@ def _check_moves(log: Log, *, than: float) -> None:
 
 def _top_speed(log: Log) -> float:
     """[m/s or rad/s] the fastest but for single samples."""
-    long = [np.abs(run.velocity) for run in log.runs if len(run) >= SHORTEST]
+    long = [np.abs(run.velocity) for run in log.runs if len(run) >= SHORTEST_RUN]
     return max((float(np.quantile(one, 0.98)) for one in long), default=0.0)
 
 
@@ -141,7 +138,7 @@ def _check_same(log: Log, other: Log, guess: dict[str, float], *, type: str) -> 
         )
     costs = guess["kV"] + float(seen.missing @ seen.velocity) / square
     factor = costs / guess["kV"]
-    if not 1.0 / OTHER < factor < OTHER:
+    if not 1.0 / OTHER_VOLTAGES < factor < OTHER_VOLTAGES:
         raise BadRequest(
             _describe_difference(factor, log.source or "the first log"),
             where=other.source,
@@ -151,7 +148,7 @@ def _check_same(log: Log, other: Log, guess: dict[str, float], *, type: str) -> 
 
 def _describe_difference(factor: float, first: str) -> str:
     """How a log's voltages are not those of another."""
-    if factor < -1.0 / OTHER:
+    if factor < -1.0 / OTHER_VOLTAGES:
         return f"it goes the other way than {first} at the same voltage"
     times = f"{factor:.2g} times" if factor > TENTH else "less than a tenth of"
     return f"a speed takes {times} the voltage that it takes in {first}"
@@ -164,7 +161,7 @@ def _follows_voltage(log: Log, guess: dict[str, float], *, type: str) -> bool:  
     if guess["kV"] <= 0.0 or guess["kA"] <= 0.0 or guess["kS"] < LEAST_KS * most:
         return False
     missed, whole = float(seen.missing @ seen.missing), float(seen.voltage @ seen.voltage)
-    return missed < OBEYS**2 * whole
+    return missed < OBEYS_VOLTAGE**2 * whole
 
 
 def _refuse_difference(log: Log, guess: dict[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - as above
@@ -174,7 +171,7 @@ def _refuse_difference(log: Log, guess: dict[str, float], *, type: str) -> Volta
 def _check_travel(log: Log, travel: float) -> None:
     spans = [run.position for run in log.runs if len(run)]
     way = float(max(map(np.max, spans)) - min(map(np.min, spans))) / find_unit(log.units).si
-    if not travel > 0.0 or way > BEYOND * travel:
+    if not travel > 0.0 or way > BEYOND_TRAVEL * travel:
         raise BadRequest(
             f"positions span {way:.3g} {find_unit(log.units).symbol}, and the travel is {travel:g}",
             where=log.source,

@@ -16,11 +16,7 @@ import numpy as np
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import smooth_innovations
-
-FASTEST = 5.0  # [Hz] faster is a joint that swings, or a wave along the way
-TURNS = 2.0  # that a run has to last
-FINER = 0.5  # [1] of the steps that the longest run can tell apart
-SHORTEST = 20  # samples of a run
+from sim.reconcile.thresholds import FASTEST_PEAK, FEWEST_TURNS, PEAK_FINER, SHORTEST_FOR_PEAK
 
 
 @dataclass(frozen=True)
@@ -49,10 +45,10 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
         return SpectralPeak()
     mean = squares / sum(push.size for _, push in runs)
     lasts = [float(np.ptp(time)) for time, _ in runs]
-    rates: Array = np.arange(TURNS / max(lasts), FASTEST, FINER / max(lasts))
+    rates: Array = np.arange(FEWEST_TURNS / max(lasts), FASTEST_PEAK, PEAK_FINER / max(lasts))
     power, count = np.zeros(rates.size), np.zeros(rates.size)
     for (time, push), lasting in zip(runs, lasts, strict=True):
-        told = np.flatnonzero(rates * lasting >= TURNS)
+        told = np.flatnonzero(rates * lasting >= FEWEST_TURNS)
         waves = np.exp(-2j * np.pi * rates[told, None] * time)
         power[told] += np.abs(waves @ push) ** 2 / (push.size * mean)
         count[told] += 1.0
@@ -74,7 +70,7 @@ def _disturbances_by_run(
     ):
         mine = told[first:last]
         push = every[first:last][mine]
-        if push.size >= SHORTEST:
+        if push.size >= SHORTEST_FOR_PEAK:
             yield record.measurements.time[mine], push - np.mean(push)
 
 

@@ -14,12 +14,15 @@ from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST
 from sim.estimation.run_records import RunRecord
+from sim.reconcile.thresholds import (
+    CLOCK_PART,
+    FEWEST_WINDOWS,
+    LEAST_SPREAD,
+    SOON_AFTER_STEP,
+    STEP_JUMP,
+    WINDOWS,
+)
 
-WINDOWS = (0.1, 0.2, 0.4)  # [s]
-JUMP, SOON = 1.0, 0.15  # [V] of a step, and [s] after it
-FEWEST = 20  # windows that tell what is ordinary
-LEAST = 0.5  # [1] of what independent innovations would add up to
-PART = 0.5  # of a sample, by which a run may be late or early
 DELAY, LAG = "delay", "delay.lag"
 
 
@@ -71,10 +74,10 @@ def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> 
     """Which run -> (windows,) their sums, in what is ordinary."""
     sums = {record: one for record, one in _window_sums(problem, white, count) if one.size}
     every = np.concatenate([*sums.values(), np.zeros(0)])
-    if every.size < FEWEST:
+    if every.size < FEWEST_WINDOWS:
         return {record: np.zeros(one.size) for record, one in sums.items()}
     spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
-    spread = max(spread, LEAST * count**0.5)
+    spread = max(spread, LEAST_SPREAD * count**0.5)
     return {
         record: one / (spread * _ordinary_size(problem.records[record])[: one.size])
         for record, one in sums.items()
@@ -90,7 +93,7 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
     delayed = point.structure
     if DELAY not in delayed.effects:
         delayed = delayed + DELAY
-    late = PART * problem.period
+    late = CLOCK_PART * problem.period
     values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
     more = problem.predict_errors(delayed.model(values), point.nuisance, point.kalman_gain)
     white = point.innovations @ point.whitening.T
@@ -110,10 +113,10 @@ def _ordinary_size(record: RunRecord) -> Array:
     battery that gives way and recovers, adds up to twice as much.
     """
     time = record.measurements.time
-    jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > JUMP]
+    jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > STEP_JUMP]
     last = np.searchsorted(jumps, time, side="right") - 1
     since = time - np.concatenate((jumps, [-np.inf]))[last]
-    return np.where(since <= SOON, 2.0, 1.0)
+    return np.where(since <= SOON_AFTER_STEP, 2.0, 1.0)
 
 
 def _window_sums(
