@@ -601,7 +601,7 @@ rows = []
 for seconds in (0.2, 0.5, 1.0, 2.0, 7.0):
     cut = replace(hall, runs=tuple(first_seconds(run, seconds) for run in hall.runs))
     found = fit(cut, method="sysid")
-    step = cut.of("dynamic-forward")[0]
+    step = cut.runs_of_test("dynamic-forward")[0]
     used = found.samples_used["dynamic-forward"]
     rows.append((f"{seconds:g} s", len(step), used, found.gains["kA"], float(step.position[-1])))
 Table(

@@ -623,8 +623,8 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 # %%
 CHECKS = {
     "signs": lambda case: min(case.fit.gains.values()) < 0,
-    "kV": lambda case: abs(case.off("kV")) > 0.10,
-    "kA": lambda case: abs(case.off("kA")) > 0.25,
+    "kV": lambda case: abs(case.gain_error("kV")) > 0.10,
+    "kA": lambda case: abs(case.gain_error("kA")) > 0.25,
     "acceleration R²": lambda case: case.fit.acceleration_r2 < 0.2,
     "looked": lambda case: bool(inspect(case.log).damages),
 }

@@ -23,7 +23,7 @@ def lines_of(parts, per):
     return "".join(
         f'"{part.effect}".{name} = "{one["value"]:.6g} {one["unit"]}"\n'
         for part in parts
-        for name, one in part.said(per).items()
+        for name, one in part.to_json(per).items()
     )
 
 

@@ -161,7 +161,10 @@ def test_a_sign_is_missed_in_the_runs_that_have_it_wrong(name, change, runs):
 def test_a_weight_that_beats_the_voltage_has_no_sign_wrong():
     # an elevator that 0.5 V cannot lift: it sinks, in the forward test as in the reverse one
     log = made("elevator")
-    forward, reverse = log.runs_of_test("dynamic-forward")[0], log.of("dynamic-reverse")[0]
+    forward, reverse = (
+        log.runs_of_test("dynamic-forward")[0],
+        log.runs_of_test("dynamic-reverse")[0],
+    )
     sinks = replace(reverse, test="dynamic-forward", velocity=reverse.velocity * 0.2)
     sinks = replace(
         sinks,

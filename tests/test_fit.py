@@ -219,7 +219,13 @@ def test_an_inverted_sensor_is_a_grave_doubt(drive):
 )
 def test_a_ramp_without_motion_says_what_to_check(drive, signals, said):
     with pytest.raises(NotIdentifiable, match=said):
-        fit(change(drive, "quasistatic-forward", **signals(drive.of("quasistatic-forward")[0])))
+        fit(
+            change(
+                drive,
+                "quasistatic-forward",
+                **signals(drive.runs_of_test("quasistatic-forward")[0]),
+            )
+        )
 
 
 def test_a_step_without_voltage_is_refused_where_sysid_reads_a_negative_ka(drive):

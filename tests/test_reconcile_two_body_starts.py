@@ -68,7 +68,7 @@ def test_valleys_explain_the_lively_runs_and_are_not_one():
 
     assert 0 < len(found) <= VALLEYS
     for one in found:
-        there = lively.problem.at(
+        there = lively.problem.evaluate(
             SOFT, {**lively.point.values, **one}, lively.point.nuisance, lively.point.process_noise
         )
         assert levenberg_marquardt(lively.problem, there, steps=STEPS).cost < lively.point.cost
@@ -81,7 +81,7 @@ def test_the_start_nearest_to_what_is_there_need_not_promise_most():
     values = {**lively.point.values, "compliance.softness": 0.02}
     nuisance, q = lively.point.nuisance, lively.point.process_noise
     heavy, light = (
-        lively.problem.at(SOFT, {**values, "compliance.share": share}, nuisance, q)
+        lively.problem.evaluate(SOFT, {**values, "compliance.share": share}, nuisance, q)
         for share in (0.5, 0.15)
     )
 

@@ -34,7 +34,7 @@ def main() -> int:
     student = asked.student or load_progress(course)[0].student
     exercise.prepare(student, say=_say)
     room = exercise.module
-    data = room.HERE / "data" / room.folder_name(student)
+    data = room.HERE / "data" / room.make_folder_name(student)
     logs = {name: read(data / f"{name}.wpilog") for name in ("log", "validation", "held-out")}
     names = room.names_of(asked.effects) if asked.effects else ()
     model = room.with_effects(logs["log"], names)
@@ -42,7 +42,7 @@ def main() -> int:
     gains = gains_per(model.gains, factor=per.si)
     _say(", ".join(f"{name} = {value:.4g}" for name, value in gains.items()))
     for part in model.parts:
-        for name, one in part.said(per).items():
+        for name, one in part.to_json(per).items():
             _say(f"{part.effect}.{name} = {one['value']:.5g}  # [{one['unit']}]")
     for name, log in logs.items():
         if name != "held-out" or asked.held_out:
