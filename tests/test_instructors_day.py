@@ -25,7 +25,7 @@ from authored import authored_answer, mistakes_of
 
 from grader.exercise import exercises
 from grader.serve.student_folders import can_separate, prepare_separation
-from grader.variant import class_secret, folder_name
+from grader.variant import class_secret, make_folder_name
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -150,7 +150,7 @@ def at_home(course, packages):
 
     def answered(student: Student) -> Path:
         place = course.parent / "homes of students" / student.github
-        for name in ("course.zip", f"students/{folder_name(student.name)}.zip"):
+        for name in ("course.zip", f"students/{make_folder_name(student.name)}.zip"):
             with zipfile.ZipFile(packages / name) as archive:
                 archive.extractall(place)
         mine = place / "course"
@@ -159,8 +159,8 @@ def at_home(course, packages):
         for one in exercises(mine):
             data = one.folder / "data"
             folders = [path.name for path in data.iterdir()] if data.is_dir() else []
-            assert folders in ([], [folder_name(student.name)]), "somebody else's numbers"
-            texts = authored_answer(one, data / folder_name(student.name))
+            assert folders in ([], [make_folder_name(student.name)]), "somebody else's numbers"
+            texts = authored_answer(one, data / make_folder_name(student.name))
             for name, text in texts.items():
                 (one.folder / name).write_text(text, encoding="utf-8")
         return mine

@@ -15,7 +15,7 @@ from sim.bench.simulate import move_gains_only, simulate
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.fit import fit
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model, Part
 
 GENTLE = Routine(ramp=0.5, step=3.5)
@@ -135,7 +135,7 @@ def test_repeated_runs_are_all_used_and_make_the_errors_smaller():
 
 @pytest.mark.parametrize("kind", ["drivetrain", "elevator", "arm", "turret"])
 def test_a_late_and_averaged_velocity_is_allowed_for_and_told(kind):
-    mechanism = MECHANISMS[kind].hiding("velocity-filter").hiding("delay", 0.7)
+    mechanism = MECHANISMS[kind].hide("velocity-filter").hide("delay", 0.7)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(2)), type=mechanism.type)
 
@@ -225,9 +225,9 @@ def held_back(run, mechanism, *, volts):
     leaves = run.voltage[int(np.argmax(np.abs(run.velocity) > 0.05))]
     off = int(np.argmax(run.voltage > leaves + volts))
     creeps = np.linspace(run.position[0], run.position[0] + 0.03, off)
-    track = move(
+    track = simulate_run(
         Model(mechanism.type, mechanism.gains), time=run.time[off:], voltage=run.voltage[off:],
-        state=State.at(float(creeps[-1])),
+        state=State.cold_at(float(creeps[-1])),
     )  # fmt: skip
     end = int(np.argmax(track.position > run.position[-1])) or track.position.size
     velocity = np.concatenate((np.gradient(creeps, run.time[:off]), track.velocity[:end]))
@@ -265,7 +265,7 @@ def test_when_it_came_off_a_stop_that_yields_says_nothing_about_friction():
     ],
 )
 def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect, code):
-    mechanism = MECHANISMS["drivetrain"].hiding(effect, 2.0)
+    mechanism = MECHANISMS["drivetrain"].hide(effect, 2.0)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
 
@@ -276,7 +276,7 @@ def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect, cod
 
 def test_gains_of_a_model_that_strays_are_those_that_simulate_best():
     # the likeliest innovations are those of twice to twentyfold the inertia
-    mechanism = MECHANISMS["drivetrain"].hiding("asymmetric-back-emf", 2.0)
+    mechanism = MECHANISMS["drivetrain"].hide("asymmetric-back-emf", 2.0)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
 
@@ -298,7 +298,7 @@ def test_gains_of_a_model_that_strays_are_those_that_simulate_best():
 def test_small_effects_are_fitted_beside_the_gains_and_do_not_shift_them(effect, size):
     # charged to the gains, a Stribeck friction of 75 mV leaves kS and kV 15 errors off, and a drag
     # of half a volt makes kV a tenth larger
-    mechanism = MECHANISMS["drivetrain"].hiding(effect, size)
+    mechanism = MECHANISMS["drivetrain"].hide(effect, size)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
 
@@ -311,7 +311,7 @@ def test_small_effects_are_fitted_beside_the_gains_and_do_not_shift_them(effect,
 
 @pytest.mark.parametrize(("effect", "grave"), [("constant-load", True), ("spring", False)])
 def test_a_model_that_strays_far_cannot_be_right(effect, grave):
-    found = fit(simulate(MECHANISMS["drivetrain"].hiding(effect, 2.0), GENTLE, rng=rng(1)))
+    found = fit(simulate(MECHANISMS["drivetrain"].hide(effect, 2.0), GENTLE, rng=rng(1)))
 
     assert [doubt.grave for doubt in found.doubts if doubt.code == "model-strays"] == [grave]
 
@@ -331,7 +331,7 @@ def test_gravity_that_the_type_leaves_out_is_suggested(kind, seed):
 
 @pytest.mark.parametrize("effect", ["drag", "stribeck", "cogging", "spring", "asymmetric-back-emf"])
 def test_gravity_is_not_suggested_where_something_else_is_missing(effect):
-    log = simulate(MECHANISMS["turret"].hiding(effect, 2.0), GENTLE, rng=rng(1))
+    log = simulate(MECHANISMS["turret"].hide(effect, 2.0), GENTLE, rng=rng(1))
 
     said = [doubt.message for doubt in fit(log).doubts if "sysid reconcile" in doubt.message]
 

@@ -9,7 +9,7 @@ import pytest
 
 from grader.exercise import Exercise, find_exercise
 from grader.mistake import put, scaled
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
@@ -190,7 +190,7 @@ def test_the_learner_gets_a_log_and_its_parts(tmp_path):
     Exercise("practice", copy).prepare("zoë", say=said.append)
 
     assert len(said) == 1
-    assert {one.name for one in (copy / "data" / folder_name("zoë")).iterdir()} == {
+    assert {one.name for one in (copy / "data" / make_folder_name("zoë")).iterdir()} == {
         "given.toml",
         "log.wpilog",
     }

@@ -11,7 +11,7 @@ from grader.answer import Asked, Band, read_answer_number
 from grader.check import NotReached, Wrong, check
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 
 from .drawn import Variant, draw
 from .gap import compared, gap, noise, with_effects, with_gains
@@ -24,7 +24,14 @@ if TYPE_CHECKING:
     from sim.physics.model import Model, Part
 
 __all__ = [  # what try_it.py uses, too
-    "compared", "draw", "folder_name", "gap", "names_of", "noise", "with_effects", "with_gains",
+    "compared",
+    "draw",
+    "gap",
+    "make_folder_name",
+    "names_of",
+    "noise",
+    "with_effects",
+    "with_gains",
 ]  # fmt: skip
 
 FILES = ("answers.toml",)
@@ -55,9 +62,9 @@ class Answers:
     @property
     def parts(self) -> "list[Part]":
         """The effects with their parameters; raises Wrong."""
-        from sim.core.units import unit  # noqa: PLC0415 - numpy only where it is needed
+        from sim.core.units import find_unit  # noqa: PLC0415 - numpy only where it is needed
 
-        return parts_of(self.names, self.given, unit(self.variant.log.units))
+        return parts_of(self.names, self.given, find_unit(self.variant.log.units))
 
     def fitted(self, parts: "Sequence[Part]") -> "Model":
         """Some of the answer's effects, and gains fitted to the log: each selection once."""

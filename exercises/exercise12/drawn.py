@@ -71,7 +71,7 @@ def draw(student: str) -> Variant:
     kind, effects = HIDDEN[int(rng.integers(len(HIDDEN)))]
     mechanism = MECHANISMS[kind].draw(rng)
     for effect, size in effects:
-        mechanism = mechanism.hiding(effect, size * float(rng.uniform(*SIZES)))
+        mechanism = mechanism.hide(effect, size * float(rng.uniform(*SIZES)))
     (ramp, step), (other_ramp, other_step), held_out = TESTS[kind]
     routines = (
         Routine(ramp=ramp, step=step, kinds=FOUR),

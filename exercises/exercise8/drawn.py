@@ -81,7 +81,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
     from sim.core.errors import Refusal  # noqa: PLC0415 - the same
-    from sim.core.units import gains_per, unit  # noqa: PLC0415 - the same
+    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - the same
     from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
 
     mechanism = MECHANISMS[kind].draw(rng)
@@ -100,7 +100,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     spiky = tuple(
         spiked(run, valid[run.test], impacts.get(run.test), rng) for run in trembles.log.runs
     )
-    per = unit(mechanism.units)
+    per = find_unit(mechanism.units)
     return Variant(
         mechanism,
         replace(log, runs=spiky),

@@ -68,7 +68,7 @@ def _drawn(student: str, _seed: int) -> Variant:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.core.units import gains_per, unit  # noqa: PLC0415 - the same
+    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - the same
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
 
     for attempt in range(MOST_DRAWS):
@@ -78,7 +78,7 @@ def _drawn(student: str, _seed: int) -> Variant:
         routine = Routine(ramp=RAMP, step=STEPS.get(kind, USUAL_STEP), timeout=TIMEOUT)
         log = simulate(mechanism, routine, rng=rng, period=PERIOD)
         found = fit(log, type=mechanism.type, method="sysid").in_units(mechanism.units)
-        per = unit(mechanism.units)
+        per = find_unit(mechanism.units)
         gains = gains_per(mechanism.gains, factor=per.si)
         asked = gains_asked(gains, position=per.symbol)
         found_all = all(one.right(found.gains[name]) for name, one in asked.items())
@@ -130,10 +130,10 @@ def read(path: Path, *, student: str, run: bool = True) -> Answers:
 
 def consequence(answers: Answers) -> Consequence | None:
     """What the learner's gains would do on their mechanism."""
-    from sim.core.units import unit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.units import find_unit  # noqa: PLC0415 - numpy only where it is needed
 
     of = answers.variant.mechanism
-    symbol = unit(of.units).symbol
+    symbol = find_unit(of.units).symbol
     return outcome(answers.given, answers.key.asked, kind=of.name, symbol=symbol)
 
 
@@ -209,7 +209,7 @@ def _missed(answers: Answers) -> str:
     """How far the learner's model misses the voltage in the log, beside how far a good one does."""
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
-    from sim.core.units import unit  # noqa: PLC0415 - the same
+    from sim.core.units import find_unit  # noqa: PLC0415 - the same
 
     try:
         gains = [
@@ -217,7 +217,7 @@ def _missed(answers: Answers) -> str:
         ]
     except Wrong:
         return ""
-    known, voltage = columns(answers.variant.log, si=unit(answers.variant.mechanism.units).si)
+    known, voltage = columns(answers.variant.log, si=find_unit(answers.variant.mechanism.units).si)
     good = [answers.variant.fit.gains[name] for name in answers.key.asked]
     with np.errstate(over="ignore"):  # a number may be as large as a file can hold
         mine, best = (

@@ -69,7 +69,7 @@ def run_variation_covariance(
     sizes = _sizes(problem, point)
     runs = _run_information(problem, point, table, rest, sizes)
     known = problem.priors_of(point.structure)
-    names = point.structure.searched
+    names = point.structure.searched_names
     own = np.array([name not in known for name in names])
     guess = np.array([VARIES.get(name, FIXED) for name in names])
     square = guess**2
@@ -144,7 +144,9 @@ def _run_information(
     """The information of each run that is compared."""
     count, runs = sizes.size, []
     start = 1.0 / problem.start_sd**2
-    for number, (first, last) in enumerate(zip(problem.edges, problem.edges[1:], strict=False)):
+    for number, (first, last) in enumerate(
+        zip(problem.run_edges, problem.run_edges[1:], strict=False)
+    ):
         rows = slice(2 * int(first), 2 * int(last))
         columns = table[rows, :count] * sizes
         if not columns.any():
@@ -184,7 +186,7 @@ def _sizes(problem: PredictionErrorProblem, point: Estimate) -> Array:
         [
             known.get(name)
             or (max(abs(volts[name]), LEAST_VOLTS) if name in volts else 0.0)
-            or point.structure.size(name, values[name])
-            for name in point.structure.searched
+            or point.structure.parameter_scale(name, values[name])
+            for name in point.structure.searched_names
         ]
     )

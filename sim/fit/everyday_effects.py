@@ -39,7 +39,7 @@ def everyday_priors(
         problem: the measurements.
         values: the gains.
     """
-    friction, top = max(values["kS"], LEAST_KS), max(problem.top, 1e-12)
+    friction, top = max(values["kS"], LEAST_KS), max(problem.top_speed, 1e-12)
     return {
         "asymmetric-friction.lean": LEAN * friction,
         "stribeck.extra": BREAKAWAY * friction,
@@ -67,7 +67,7 @@ def with_everyday_effects(
         shape = known.neutral > 0.0  # how it looks, not how large it is
         values[name] = (FIRST if shape else first if known.least >= 0.0 else 0.0) * sd
     extended = replace(problem, priors=priors)
-    return extended, extended.at(structure, values, point.nuisance, point.process_noise)
+    return extended, extended.evaluate(structure, values, point.nuisance, point.process_noise)
 
 
 def fit_everyday_effects(
@@ -87,7 +87,7 @@ def fit_everyday_effects(
     size = problem.noise.velocity**2
     extended, begin = with_everyday_effects(problem, point, first=FIRST)
     q = min(point.process_noise, TRACKING * size)
-    begin = extended.at(begin.structure, begin.values, begin.nuisance, q)
+    begin = extended.evaluate(begin.structure, begin.values, begin.nuisance, q)
     begin = levenberg_marquardt(extended, begin, steps=STEPS, enough=ROUGHLY)
     found = fit_open_loop(extended, begin)
     return (extended, found) if found.cost < point.cost - WORTH else (problem, point)

@@ -63,7 +63,7 @@ def doubt_misfit(
         per: the unit of position of the log's owner.
         hint: which type would do better, if one does.
     """
-    share = alone.excess / alone.top if alone.top > 0.0 else 0.0
+    share = alone.excess / alone.top_speed if alone.top_speed > 0.0 else 0.0
     size = f"{alone.excess / per.si:.2g} {per.symbol}/s (RMS), {share:.1%} of its top speed"
     if share > NOTICED:
         return (
@@ -76,7 +76,7 @@ def doubt_misfit(
                 grave=share > FAR,
             ),
         )
-    if not followed.strays:
+    if not followed.has_misfit:
         return ()
     return (
         Doubt(

@@ -37,16 +37,16 @@ def gain_covariances(
     if not problem.priors:
         extended, wide = with_everyday_effects(problem, point)
     table, rest = append_prior_rows(extended, wide, fine=True)
-    count = len(wide.structure.searched)
+    count = len(wide.structure.searched_names)
     noise = invert_information(table)
     yield wide, noise[:count, :count] + _form_covariance(extended, wide, table)
     yield wide, run_variation_covariance(extended, wide, table, rest)
     lacks = point.process_noise > EXACT * problem.noise.velocity**2
-    if followed.strays or lacks:
+    if followed.has_misfit or lacks:
         yield wide, _sandwich(extended, table, rest, noise)[:count, :count]
-    if lacks and not followed.strays:
+    if lacks and not followed.has_misfit:
         q = OPEN_LOOP * problem.noise.velocity**2
-        left = extended.at(wide.structure, wide.values, wide.nuisance, q)
+        left = extended.evaluate(wide.structure, wide.values, wide.nuisance, q)
         table, rest = append_prior_rows(extended, left, fine=True)
         yield left, _sandwich(extended, table, rest, invert_information(table))[:count, :count]
 
@@ -62,7 +62,7 @@ def _form_covariance(problem: PredictionErrorProblem, point: Estimate, table: Ar
         point: the best estimate.
         table: (2 n + ..., searched + runs) Jacobian of the whitened innovations and priors.
     """
-    names, known = point.structure.searched, problem.priors_of(point.structure)
+    names, known = point.structure.searched_names, problem.priors_of(point.structure)
     count = len(names)
     effects = np.array([name in known for name in names])
     others = np.concatenate([~effects, np.ones(table.shape[1] - count, dtype=bool)])

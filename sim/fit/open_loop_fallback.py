@@ -32,18 +32,18 @@ class OpenLoopReplay:
         error: (n,) measured less simulated.
         moving: (n,) where either moves.
         noise: of the velocity, measured without a model.
-        astray: whether the likeliest gains strayed, and these only hide it better.
+        velocity_only: whether the likeliest gains strayed, and these only hide it better.
         change: (m,) [unit/s²] between two measured velocities, as long as it moves.
-        told: (m,) the same of the simulated ones.
+        simulated_change: (m,) the same of the simulated ones.
     """
 
     velocity: Array
     error: Array
     moving: NDArray[np.bool_]
     noise: float
-    astray: bool = False
+    velocity_only: bool = False
     change: Array = field(default_factory=lambda: np.empty(0))
-    told: Array = field(default_factory=lambda: np.empty(0))
+    simulated_change: Array = field(default_factory=lambda: np.empty(0))
 
     @property
     def rmse(self) -> float:
@@ -63,27 +63,27 @@ class OpenLoopReplay:
         return 1.0 - float(np.sum(self.error[self.moving] ** 2)) / max(spread, 1e-300)
 
     @property
-    def acceleration(self) -> tuple[float, float]:
+    def acceleration_scores(self) -> tuple[float, float]:
         """R² and RMSE [unit/s²] of the changes of velocity."""
         if not self.change.size:
             return 0.0, 0.0
-        left = float(np.mean((self.change - self.told) ** 2))
+        left = float(np.mean((self.change - self.simulated_change) ** 2))
         return 1.0 - left / max(float(np.var(self.change)), 1e-300), math.sqrt(left)
 
     @property
-    def top(self) -> float:
+    def top_speed(self) -> float:
         """[m/s or rad/s] speed that hardly any sample exceeds."""
         return float(np.quantile(np.abs(self.velocity), 0.98)) if self.velocity.size else 0.0
 
     @property
-    def strays(self) -> bool:
+    def has_misfit(self) -> bool:
         """Whether it leaves the log by more than noise, and by more than a little."""
-        small = 0.0 if self.astray else SMALL * self.top
+        small = 0.0 if self.velocity_only else SMALL * self.top_speed
         return self.rmse > max(STRAYS * self.noise, small)
 
 
 def replay_open_loop(
-    problem: PredictionErrorProblem, point: Estimate, *, astray: bool = False
+    problem: PredictionErrorProblem, point: Estimate, *, velocity_only: bool = False
 ) -> OpenLoopReplay:
     """Simulate every run from its first sample, without correction.
 
@@ -92,13 +92,13 @@ def replay_open_loop(
     Args:
         problem: measurements.
         point: the values.
-        astray: as of ``OpenLoopReplay``.
+        velocity_only: as of ``OpenLoopReplay``.
     """
-    track = problem.track(point.structure.model(point.values), problem.start)
+    track = problem.simulate(point.structure.model(point.values), problem.initial_nuisance)
     both = np.column_stack([problem.measured[:, 1], track.seen])
     fresh = ~np.isnan(both[:, 0])
     changes = []
-    for record, first in zip(problem.records, problem.edges, strict=False):
+    for record, first in zip(problem.records, problem.run_edges, strict=False):
         run = record.measurements
         going = np.flatnonzero(fresh[first : first + run.time.size] & run.moving)
         times = run.time[going]
@@ -107,7 +107,8 @@ def replay_open_loop(
     measured, simulated = both[fresh].T
     return OpenLoopReplay(
         measured, measured - simulated, (problem.moving | (track.velocity != 0.0))[fresh],
-        noise=problem.noise.velocity, astray=astray, change=change, told=told,
+        noise=problem.noise.velocity, velocity_only=velocity_only, change=change,
+        simulated_change=told,
     )  # fmt: skip
 
 
@@ -127,7 +128,7 @@ def fit_velocity_only(
         All as they were if the model holds, or if nothing comes closer; and if the likeliest point
         is pardoned next to nothing, for then it is a simulation already, of the position too.
     """
-    if point.process_noise <= TRACKING * problem.noise.velocity**2 or not before.strays:
+    if point.process_noise <= TRACKING * problem.noise.velocity**2 or not before.has_misfit:
         return problem, point, before
     records = []
     for record in problem.records:
@@ -136,10 +137,13 @@ def fit_velocity_only(
         run = replace(record.measurements, measured=measured)
         records.append(replace(record, measurements=run))
     blind = replace(problem, records=tuple(records))
-    structure = replace(point.structure, held=LAGS)
+    structure = replace(point.structure, fixed=LAGS)
     found = levenberg_marquardt(
-        blind, blind.at(structure, point.values, blind.start, 0.0), steps=STEPS, enough=0.01
+        blind,
+        blind.evaluate(structure, point.values, blind.initial_nuisance, 0.0),
+        steps=STEPS,
+        enough=0.01,
     )
-    after = replay_open_loop(problem, found, astray=True)
+    after = replay_open_loop(problem, found, velocity_only=True)
     # samples that were left out may weigh more than all that was gained
     return (blind, found, after) if after.rmse < before.rmse else (problem, point, before)
