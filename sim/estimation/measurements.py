@@ -26,6 +26,7 @@ MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at r
 AROUND = 5  # samples before a motion and after it that say when it began and ended
 MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
 TREMBLES = 0.3  # [of that speed] a velocity with more noise cannot tell a slow motion from a rest
+JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
 SURELY = 4.0  # [standard deviations] noise hardly ever goes so far
 
 
@@ -86,6 +87,28 @@ def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, 
     if noise is None or noise.velocity <= TREMBLES * MOVING * top:
         return seen
     return tuple(_measure_run(run, top=top, friction=friction, noise=noise) for run in runs)
+
+
+def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
+    """The same run without the samples at which no reading is fresh.
+
+    A logger that is faster than its sensor repeats readings, and simulating them tells nothing. Over
+    samples that are left out the voltage is averaged; where it jumps, a sample stays.
+    """
+    kept = ~np.isnan(seen.measured).all(axis=1)
+    kept[0] = kept[-1] = True
+    kept[1:] |= np.abs(np.diff(seen.voltage)) > JUMP
+    if kept.all():
+        return seen
+    lasts = np.diff(seen.time, append=seen.time[-1])
+    first = np.flatnonzero(kept)
+    share = np.add.reduceat(lasts, first)
+    volts = np.add.reduceat(seen.voltage * lasts, first) / np.where(share > 0.0, share, 1.0)
+    return RunMeasurements(
+        seen.time[kept], np.where(share > 0.0, volts, seen.voltage[kept]),
+        np.ascontiguousarray(seen.measured[kept]), seen.moving[kept], seen.informative[kept],
+        seen.at_rest[kept], seen.position, seen.velocity,
+    )  # fmt: skip
 
 
 def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:

@@ -62,6 +62,7 @@ An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
 """
 PAIRS = {"velocity-filter.window": (0.0, 1.0, 2.5, 5.0), "delay.lag": (0.3, 1.0, 2.0)}
 """[sample periods] from which a search of both begins."""
+GLANCE, HOPEFUL = 2, 3  # steps from each of these, and how many of them go on
 FASTEST, SLOWEST = 1e-4, 0.5  # [s] between samples; other clocks do not tell seconds
 HOLE = 10.0  # [s] in which anything might have happened
 
@@ -235,8 +236,10 @@ def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate
             if size > 0.0:
                 structure += name.partition(".")[0]
                 values[name] = size * problem.period
-        points.append(fit_tracking(problem, structure, values))
-    return min(points, key=lambda one: one.cost)
+        points.append(fit_tracking(problem, structure, values, steps=GLANCE))
+    points.sort(key=lambda one: one.cost)
+    best = (fit_tracking(problem, one.structure, one.values) for one in points[:HOPEFUL])
+    return min(best, key=lambda one: one.cost)
 
 
 def _add_lags(

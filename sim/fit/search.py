@@ -11,7 +11,7 @@ import numpy as np
 
 from sim.core.log import Array, Log
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.measurements import ROBUST, RunMeasurements
+from sim.estimation.measurements import ROBUST, RunMeasurements, merge_stale_samples
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import JointJacobian, levenberg_marquardt, tune_process_noise
 from sim.estimation.run_records import separate_records
@@ -37,23 +37,33 @@ def fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErro
         log: the runs.
         measured: of those with enough samples, the measurements.
     """
-    records = separate_records(log, measured)
+    records = separate_records(log, [merge_stale_samples(one) for one in measured])
     return PredictionErrorProblem.from_records(
         records, varying_friction=False, backlash_allowance=SLACK
     )
 
 
 def fit_tracking(
-    problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
+    problem: PredictionErrorProblem,
+    structure: ModelStructure,
+    values: Mapping[str, float],
+    *,
+    steps: int = STEPS,
 ) -> Estimate:
     """Fit from a first guess, with process noise as large as the sensor noise each second.
+
+    Args:
+        problem: the measurements.
+        structure: the parameters.
+        values: the guess.
+        steps: of the search, at most.
 
     Returns:
         The estimate; where nothing can be simulated from the guess, the guess, at an infinite cost.
     """
     q = TRACKING * problem.noise.velocity**2
     point = problem.evaluate(structure, values, problem.initial_nuisance, q)
-    return levenberg_marquardt(problem, point, steps=STEPS, enough=ROUGHLY)
+    return levenberg_marquardt(problem, point, steps=steps, enough=ROUGHLY)
 
 
 def fit_open_loop(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
