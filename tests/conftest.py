@@ -38,6 +38,7 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_robotcode_fuzz",
     "test_release",
     "test_workers",
+    "test_everyday_effects",
 )
 
 

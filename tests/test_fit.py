@@ -120,6 +120,7 @@ def test_the_json_has_the_keys_other_programs_read(drive):
         "samples_used",
         "feedback",
         "warnings",
+        "small_effects",
     ]
     assert set(data["feedback"]) == {"velocity", "position"}
     assert set(data["feedback"]["velocity"]) == {"kP", "kD"}

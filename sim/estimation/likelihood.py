@@ -15,7 +15,7 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
 
@@ -83,6 +83,7 @@ class PredictionErrorProblem:
         varying_friction: whether each run has a friction of its own.
         backlash_allowance: [unit] by which free play that no model here describes may shift a
             start.
+        priors: parameter of an effect -> standard deviation of its normal prior about zero.
     """
 
     records: tuple[RunRecord, ...]
@@ -90,6 +91,7 @@ class PredictionErrorProblem:
     max_process_noise: float = math.inf
     varying_friction: bool = True
     backlash_allowance: float = 0.0
+    priors: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
     def from_records(
@@ -194,6 +196,10 @@ class PredictionErrorProblem:
         """The runs as their first samples show them."""
         return RunNuisance.at_first_samples(len(self.records))
 
+    def priors_of(self, structure: ModelStructure) -> dict[str, float]:
+        """The priors of those parameters that a search of this structure moves."""
+        return {name: sd for name, sd in self.priors.items() if name in structure.searched_names}
+
     # -- simulate --------------------------------------------------------------------------------
 
     def simulate(
@@ -268,6 +274,7 @@ class PredictionErrorProblem:
             cov = self.covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
             cost = self._cost(cov) + own + friction_prior(values, nuisance)
+            cost += sum((values[name] / sd) ** 2 for name, sd in self.priors_of(structure).items())
         if not math.isfinite(cost):
             return nowhere
         return Estimate(structure, values, nuisance, process_noise, trust, innovations, cov, cost)
@@ -358,7 +365,8 @@ class PredictionErrorProblem:
         """Two values of a parameter whose simulations give the derivative by it."""
         structure, value = point.structure, point.values[name]
         coarse = name.partition(".")[2] in STEPWISE
-        step = (COARSE_STEP if coarse else STEP) * structure.parameter_scale(name, value)
+        size = max(structure.parameter_scale(name, value), self.priors.get(name, 0.0))
+        step = (COARSE_STEP if coarse else STEP) * size
         above, below = value + step, value - step
         may_rise = structure.clamp_value(name, above) == above
         may_fall = structure.clamp_value(name, below) == below

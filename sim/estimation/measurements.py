@@ -25,6 +25,8 @@ GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] h
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
 AROUND = 5  # samples before a motion and after it that say when it began and ended
 MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
+TREMBLES = 0.3  # [of that speed] a velocity with more noise cannot tell a slow motion from a rest
+SURELY = 4.0  # [standard deviations] noise hardly ever goes so far
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +80,12 @@ def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, 
             moves: then a run begins where friction alone would hold it. None keeps all.
     """
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
-    return tuple(_measure_run(run, top=top, friction=friction) for run in log.runs if len(run) > 3)  # noqa: PLR2004 - fewer have no third difference
+    runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
+    seen = tuple(_measure_run(run, top=top, friction=friction) for run in runs)
+    noise = estimate_noise(seen) if seen else None
+    if noise is None or noise.velocity <= TREMBLES * MOVING * top:
+        return seen
+    return tuple(_measure_run(run, top=top, friction=friction, noise=noise) for run in runs)
 
 
 def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
@@ -120,12 +127,19 @@ def third_differences(time: Array, values: Array) -> Array:
     return np.asarray(np.sum(weights * np.lib.stride_tricks.sliding_window_view(values, 4), axis=1))
 
 
-def _measure_run(run: Run, *, top: float, friction: float | None) -> RunMeasurements:
+def _measure_run(
+    run: Run, *, top: float, friction: float | None, noise: SensorNoise | None = None
+) -> RunMeasurements:
+    """The measurements of a run; ``noise`` is that of a velocity which trembles at rest."""
     measured = np.column_stack([run.position, run.velocity])
     fast = np.abs(run.velocity) > FAST * float(np.max(np.abs(run.velocity), initial=0.0))
     for column in (0, 1):
         measured[~_find_fresh_readings(measured[:, column], fast=fast), column] = np.nan
     moving = np.abs(run.velocity) > MOVING * top
+    least = MOVING * top
+    if noise is not None:
+        least += SURELY * noise.velocity
+        moving = (np.abs(run.velocity) > least) | _goes(run, speed=MOVING * top, noise=noise)
     first = 0
     if friction is not None and moving.any() and not moving[0]:
         go = _find_departure(run, moving)
@@ -136,12 +150,22 @@ def _measure_run(run: Run, *, top: float, friction: float | None) -> RunMeasurem
             first = go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0
             first = min(first, max(go - 1, 0))
     cut = slice(first, None)
-    start = float(run.velocity[first]) if moving[first] else 0.0
+    start = float(run.velocity[first])
+    start = start if abs(start) > least else 0.0
     return RunMeasurements(
         run.time[cut], run.voltage[cut], np.ascontiguousarray(measured[cut]), moving[cut],
         _find_informative(run, moving)[cut], _find_rest_readings(run, moving)[cut],
         float(run.position[first]), start,
     )  # fmt: skip
+
+
+def _goes(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:
+    """(n,) where the position goes on at that speed or faster, over two samples to each side."""
+    index = np.arange(len(run))
+    before, after = np.maximum(index - 2, 0), np.minimum(index + 2, len(run) - 1)
+    way = np.abs(run.position[after] - run.position[before])
+    least = speed * (run.time[after] - run.time[before]) + SURELY * noise.position
+    return np.asarray(way > least)
 
 
 def _find_fresh_readings(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[np.bool_]:

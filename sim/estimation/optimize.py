@@ -77,7 +77,12 @@ def append_prior_rows(
     prior = np.zeros((count, table.shape[1]))
     prior[:, -count:] = np.diag(np.repeat([1.0 / sd for sd in sds], runs))
     own = [offset / sd for offset, sd in zip(offsets, sds, strict=True)]
-    return np.vstack([table, prior]), np.concatenate([rest, *own])
+    known = problem.priors_of(point.structure)
+    rows = np.zeros((len(known), table.shape[1]))
+    for row, (name, sd) in enumerate(known.items()):
+        rows[row, point.structure.searched_names.index(name)] = 1.0 / sd
+    values = [point.values[name] / sd for name, sd in known.items()]
+    return np.vstack([table, prior, rows]), np.concatenate([rest, *own, values])
 
 
 def levenberg_marquardt(
@@ -190,10 +195,15 @@ def parameter_covariance(
         nuisance: whether to keep rows and columns of the nuisance parameters.
     """
     table, _ = append_prior_rows(problem, point, fine=True)
+    inverse = invert_information(table)
+    count = None if nuisance else len(point.structure.searched_names)
+    return np.asarray(inverse[:count, :count])
+
+
+def invert_information(table: Array) -> Array:
+    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), with huge errors where it is singular."""
     square = table.T @ table
     size = np.sqrt(np.maximum(np.diag(square), 1e-100))
     told, ways = np.linalg.eigh(square / np.outer(size, size))
     share = np.where(told > UNKNOWN, told, NO_INFORMATION)
-    inverse = (ways / share) @ ways.T / np.outer(size, size)
-    count = None if nuisance else len(point.structure.searched_names)
-    return np.asarray(inverse[:count, :count])
+    return np.asarray((ways / share) @ ways.T / np.outer(size, size))

@@ -6,7 +6,6 @@ What gains are for is to say a velocity ahead, so then the velocities of whole r
 """
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,16 +13,14 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.optimize import levenberg_marquardt, parameter_covariance
-from sim.fit.search import OPEN_LOOP, TRACKING
+from sim.estimation.optimize import levenberg_marquardt
+from sim.fit.search import TRACKING
 
 STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
 SMALL = 0.0125  # [share of the top speed] error that is small whatever the noise
 HOLDS = 0.05  # [1/s] q over the variance of a velocity: a model that needs more lacks something
-EXACT = 1e-5  # [1/s] the same, that noise alone never asks for: more, and errors come in whiles
 STEPS = 30  # of the search
 LAGS = ("velocity-filter.window", "delay.lag")
-TOGETHER = 0.5  # [s] for which what is missing errs one way
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +49,11 @@ class OpenLoopReplay:
     def rmse(self) -> float:
         """[m/s or rad/s] of what moves."""
         return float(np.sqrt(np.mean(self.error[self.moving] ** 2))) if self.moving.any() else 0.0
+
+    @property
+    def excess(self) -> float:
+        """[m/s or rad/s] of the error, what noise does not explain."""
+        return math.sqrt(max(self.rmse**2 - self.noise**2, 0.0))
 
     @property
     def r2(self) -> float:
@@ -145,59 +147,3 @@ def fit_velocity_only(
     after = replay_open_loop(problem, found, velocity_only=True)
     # samples that were left out may weigh more than all that was gained
     return (blind, found, after) if after.rmse < before.rmse else (problem, point, before)
-
-
-def needs_large_process_noise(
-    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
-) -> bool:
-    """Whether a fit needs more process noise than a model that holds."""
-    return not followed.has_misfit and point.process_noise > HOLDS * problem.noise.velocity**2
-
-
-def correlated_error_covariance(
-    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
-) -> Iterator[Array]:
-    """(values, values) covariance when errors are correlated in time.
-
-    None where a model holds. What it lacks may be too small to be seen beside noise, and still be
-    more than the errors that noise leaves: then it shows in what is pardoned, and in what a
-    simulation left to itself makes of it.
-
-    Args:
-        problem: what was searched.
-        point: the best estimate.
-        followed: how it follows.
-    """
-    lacks = point.process_noise > EXACT * problem.noise.velocity**2
-    if followed.has_misfit or lacks:
-        yield _sandwich_covariance(problem, point)
-    if lacks and not followed.has_misfit:
-        q = OPEN_LOOP * problem.noise.velocity**2
-        yield _sandwich_covariance(
-            problem, problem.evaluate(point.structure, point.values, point.nuisance, q)
-        )
-
-
-def _sandwich_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
-    """(values, values) covariance with scores summed over ``TOGETHER``.
-
-    Source: the sandwich of White (1980).
-    """
-    count = len(point.structure.searched_names)
-    table = problem.jacobian(point, fine=True)
-    rest = problem.whiten(point, point.innovations)
-    whiles = np.repeat(_number_intervals(problem), 2)  # two measurements to a sample
-    scores = np.zeros((int(whiles.max()) + 1, table.shape[1]))
-    np.add.at(scores, whiles, table * rest[:, None])
-    bread = parameter_covariance(problem, point, nuisance=True)
-    return np.asarray((bread @ (scores.T @ scores) @ bread)[:count, :count])
-
-
-def _number_intervals(problem: PredictionErrorProblem) -> NDArray[np.int_]:
-    """(n,) which while a sample lies in, counted through all runs."""
-    parts, first = [], 0
-    for record in problem.records:
-        time = record.measurements.time
-        parts.append(first + ((time - time[0]) // TOGETHER).astype(int))
-        first = int(parts[-1][-1]) + 1
-    return np.concatenate(parts)

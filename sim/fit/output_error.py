@@ -6,6 +6,7 @@ whole mechanism answers late, that is fitted along and told.
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from itertools import product
 
 import numpy as np
 
@@ -18,19 +19,30 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import RunMeasurements, measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import make_joint_jacobian, parameter_covariance
-from sim.fit.fit_doubts import doubt_lags, doubt_misfit, doubt_opposed_signs, doubt_small_misfit
+from sim.fit.everyday_effects import (
+    everyday_parts,
+    fit_everyday_effects,
+    without_everyday_effects,
+)
+from sim.fit.fit_doubts import (
+    doubt_lags,
+    doubt_misfit,
+    doubt_opposed_signs,
+    doubt_strong_effects,
+)
+from sim.fit.gain_covariance import gain_covariances
 from sim.fit.gravity_type_hint import hint_gravity_type
 from sim.fit.identifiability import moves_both_ways, refuse_unidentifiable, refuse_unrelated
 from sim.fit.open_loop_fallback import (
+    HOLDS,
     LAGS,
     OpenLoopReplay,
-    correlated_error_covariance,
     fit_velocity_only,
-    needs_large_process_noise,
     replay_open_loop,
 )
 from sim.fit.result import Fit
 from sim.fit.search import (
+    TRACKING,
     drop_outliers,
     fit_open_loop,
     fit_problem,
@@ -48,6 +60,8 @@ SHORT_LAGS = {"delay.lag": (0.05, 0.2)}
 
 An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
 """
+PAIRS = {"velocity-filter.window": (0.0, 1.0, 2.5, 5.0), "delay.lag": (0.3, 1.0, 2.0)}
+"""[sample periods] from which a search of both begins."""
 FASTEST, SLOWEST = 1e-4, 0.5  # [s] between samples; other clocks do not tell seconds
 HOLE = 10.0  # [s] in which anything might have happened
 
@@ -122,7 +136,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _refuse_times(log)
-    problem, likeliest, followed = _choose_lags(problem, plain)
+    problem, likeliest, followed = _with_everyday(*_choose_lags(problem, plain))
     searched, point, followed = fit_velocity_only(problem, likeliest, followed)
     gains, errors = _gains_with_errors(point, parameter_covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
@@ -136,12 +150,15 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     hint = hint_gravity_type(log, problem, followed, type=type)
     refuse_unidentifiable(gains, least, log=log, type=type, hint=hint)
     refuse_unrelated(followed, log=log, hint=hint)
-    for spread in correlated_error_covariance(searched, point, followed):
-        others = _gains_with_errors(point, spread, type=type)[1]
+    for wide, spread in gain_covariances(searched, point, followed):
+        others = _gains_with_errors(wide, spread, type=type)[1]
         errors = {name: max(error, others[name]) for name, error in errors.items()}
+    alone = followed
+    if everyday_parts(point):
+        alone = replay_open_loop(searched, without_everyday_effects(point))
     said = (
-        *doubt_misfit(followed, hint=hint),
-        *doubt_small_misfit(needs_large_process_noise(searched, point, followed)),
+        *doubt_misfit(followed, alone, per=find_unit(log.units), hint=hint),
+        *doubt_strong_effects(everyday_parts(point), searched.priors),
     )
     return _make_result(
         log, problem, point, way=way, gains=gains, errors=errors, followed=followed, said=said
@@ -170,6 +187,11 @@ def _choose_lags(
         without = open_loop(plain)
         found = found if found.cost < without.cost - WORTH else without
     followed = replay_open_loop(problem, found)
+    if followed.has_misfit or found.process_noise > HOLDS * problem.noise.velocity**2:
+        other = open_loop(_with_both_lags(problem, plain))
+        more = len(other.structure.effects) - len(found.structure.effects)
+        if other.cost < found.cost - WORTH * max(more, 0):
+            found, followed = other, replay_open_loop(problem, other)
     if followed.has_misfit:  # a millisecond is not what is wrong
         return problem, found, followed
 
@@ -181,6 +203,40 @@ def _choose_lags(
 
     best = _add_lags(problem, found, SHORT_LAGS, settle=settle)
     return problem, best, followed if best is found else replay_open_loop(problem, best)
+
+
+def _with_everyday(
+    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
+) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
+    """The same with the small effects of every mechanism, where they make the model hold."""
+    extended, found = fit_everyday_effects(problem, point)
+    if found is point:
+        return problem, point, followed
+    after = replay_open_loop(extended, found)
+    if after.has_misfit and found.process_noise > TRACKING * problem.noise.velocity**2:
+        return problem, point, followed  # something else is missing, and they stand in for it
+    return extended, found, after
+
+
+def _with_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate:
+    """The best point of those that begin with a window and a lag at once.
+
+    Where both act, the gains of a model that has neither are so far off that what one of them alone
+    promises is worth little.
+
+    Args:
+        problem: what is searched.
+        plain: the best estimate without either.
+    """
+    points = []
+    for window, lag in product(*PAIRS.values()):
+        structure, values = plain.structure, dict(plain.values)
+        for name, size in zip(PAIRS, (window, lag), strict=True):
+            if size > 0.0:
+                structure += name.partition(".")[0]
+                values[name] = size * problem.period
+        points.append(fit_tracking(problem, structure, values))
+    return min(points, key=lambda one: one.cost)
 
 
 def _add_lags(
@@ -270,6 +326,7 @@ def _make_result(
         velocity_delay=lag + 0.5 * window,
         velocity_threshold=0.0,
         step_duration=0.0,
+        parts=everyday_parts(point),
         doubts=(
             *log.doubts,
             *doubt_opposed_signs(way),

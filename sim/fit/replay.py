@@ -105,7 +105,7 @@ def _model(found: Fit) -> tuple[float, Model]:
             f"kA = {found.gains['kA']:.3g}",
             advice="Settle first why the fit finds a gain below zero.",
         )
-    return way, Model(found.type, gains, tuple(_sensor_lags(found)))
+    return way, Model(found.type, gains, (*_sensor_lags(found), *found.parts))
 
 
 def _sensor_lags(found: Fit) -> list[Part]:

@@ -15,6 +15,7 @@ from sim.feedback import (
     design_position_loop,
     design_velocity_loop,
 )
+from sim.physics.model import Part
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,8 @@ class Fit:
         velocity_delay: [s] the same, seen in the velocity.
         velocity_threshold: [unit/s] slower quasistatic samples were taken for standstill.
         step_duration: [s] how much of each dynamic test was used.
+        parts: small effects that were fitted beside the gains, in SI; a simulation needs them, a
+            feedforward leaves them out.
         doubts: what to know before trusting the numbers.
     """
 
@@ -55,6 +58,7 @@ class Fit:
     velocity_delay: float
     velocity_threshold: float
     step_duration: float
+    parts: tuple[Part, ...] = field(default=())
     doubts: tuple[Doubt, ...] = field(default=())
 
     def in_units(self, name: str) -> "Fit":
@@ -148,6 +152,9 @@ class Fit:
                 for loop, gains in self.feedback(preset).items()
             },
             "warnings": [{"code": d.code, "message": d.message} for d in self.all_doubts(preset)],
+            "small_effects": {
+                part.effect: part.to_json(find_unit(self.units)) for part in self.parts
+            },
         }
 
     def gain_unit(self, gain: str) -> str:
