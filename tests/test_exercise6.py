@@ -329,6 +329,15 @@ def test_a_number_may_be_written_in_many_ways(copy, written_as, status):
     assert graded(copy, **comma)["turret"].status == status
 
 
+@pytest.mark.parametrize("part", ["ramp", "step", "timeout", "release"])
+def test_a_part_of_a_plan_that_is_next_to_nothing_earns_nothing(copy, part):
+    plan = written("shooter", DRAWN.sound(OWN.module.draw("ann").machines["shooter"]))
+    found = graded(copy, **plan | {f"shooter_{part}": "1e-320"})["shooter"]
+
+    assert found.points == 0
+    assert "Choose a number above 0.001" in found.hint
+
+
 @pytest.mark.parametrize("extreme", ["1e-300", "1e-9", "1e4", "1e300"])
 def test_extreme_numbers_are_told_what_is_wrong(copy, extreme):
     plan = written("drivetrain", DRAWN.sound(OWN.module.draw("ann").machines["drivetrain"]))

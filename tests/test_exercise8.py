@@ -233,6 +233,16 @@ def test_a_window_with_a_word_that_is_none_is_refused(written):
         PREPARATION._window("quasistatic-forward", written)
 
 
-@pytest.mark.parametrize("written", ["0,4 to 5,2", "0.4 s - 5.2 s", [0.4, 5.2], "(0.4; 5.2)"])
+@pytest.mark.parametrize("written", ["1,5,5", "0,4,5,2", "from 1,5,5 s"])
+def test_commas_that_can_be_read_in_two_ways_are_refused(written):
+    with pytest.raises(Wrong) as refused:
+        PREPARATION._window("quasistatic-forward", written)
+
+    assert "can be read as two times in two ways" in refused.value.hint
+
+
+@pytest.mark.parametrize(
+    "written", ["0,4 to 5,2", "0,4, 5,2", "0.4,5.2", "0.4 s - 5.2 s", [0.4, 5.2], "(0.4; 5.2)"]
+)
 def test_a_window_may_be_written_with_units_or_brackets(written):
     assert PREPARATION._window("quasistatic-forward", written) == (0.4, 5.2)

@@ -155,6 +155,13 @@ def test_what_is_missing_is_told_and_no_crash(tmp_path, solved, changed, check, 
     assert says in f"{results[check].seen} {first.seen}"
 
 
+def test_an_r2_of_one_is_no_measurement(tmp_path, solved):
+    found = graded(tmp_path, solved, simulated_velocity_r2="1")["r2"]
+
+    assert (found.points, found.misconception) == (0, "M-R2")
+    assert "Write down the digits" in found.hint
+
+
 def test_files_may_have_names_of_their_own(tmp_path, solved):
     texts = {**solved, "Arm.java": solved["ExampleSubsystem.java"]}
     texts["ExampleSubsystem.java"] = "public class Empty {}\n"

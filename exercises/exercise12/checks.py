@@ -13,7 +13,7 @@ from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 from grader.variant import make_folder_name
 
-from .drawn import Variant, draw
+from .drawn import FLOOR, Variant, draw
 from .gap import compared, gap, noise, with_effects, with_gains
 from .patch import names_of, on_a_bound, parts_of
 
@@ -37,7 +37,6 @@ __all__ = [  # what try_it.py uses, too
 FILES = ("answers.toml",)
 HERE = Path(__file__).resolve().parent
 
-FLOOR = 1.3  # [of the gap that the truth leaves] for full marks
 SHRINK = 0.6  # [share of what can be shrunk] for partial marks
 WORSE = 1.05  # [of the base's gap] beyond it, effects do harm
 SURE = 20.0  # [BIC] odds of about twenty thousand to one

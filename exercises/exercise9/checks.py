@@ -33,6 +33,7 @@ REMEMBERED = 32  # learners whose logs are kept while this runs: it takes time t
 MOST_DRAWS = 100  # so many mechanisms in a row that cannot be fitted would be our fault
 
 METRICS = ("acceleration_r2", "simulated_velocity_r2")
+PERFECT = "An R² of 1 is a model without any error. Write down the digits that your fit prints."
 METRIC_BANDS = {"acceleration_r2": 0.05, "simulated_velocity_r2": 0.02}  # one way to compute each
 
 
@@ -176,6 +177,11 @@ def function(answers: Answers) -> str | None:
     return judge_function(answers.function, student=answers.student, points=5, run=answers.run)
 
 
+def is_measured_r2(value: float, asked: Asked) -> bool:
+    """Whether an R² is right: near the expected one, and 1 only where two digits make it 1."""
+    return asked.right(value) and (value < 1 or round(asked.expected, 2) >= 1)
+
+
 def _metric(name: str, answers: Answers) -> None:
     expected = {one: float(getattr(answers.variant.fit, one)) for one in METRICS}
     asked = {
@@ -183,11 +189,13 @@ def _metric(name: str, answers: Answers) -> None:
         for one in METRICS
     }
     value = read_answer_number(answers.given[name], asked[name])
-    if asked[name].right(value):
+    if is_measured_r2(value, asked[name]):
         return
     (other,) = set(METRICS) - {name}
     if value > 1:
         hint = "R² is at most 1: a share, not percent."
+    elif value == 1:
+        hint = PERFECT
     elif asked[other].right(value):
         hint = f"That is the {other}. Are the two swapped?"
     else:

@@ -139,7 +139,8 @@ def _measure_run(
     least = MOVING * top
     if noise is not None:
         least += SURELY * noise.velocity
-        moving = (np.abs(run.velocity) > least) | _goes(run, speed=MOVING * top, noise=noise)
+        progress = _find_progress(run, speed=MOVING * top, noise=noise)
+        moving = (np.abs(run.velocity) > least) | progress
     first = 0
     if friction is not None and moving.any() and not moving[0]:
         go = _find_departure(run, moving)
@@ -159,7 +160,7 @@ def _measure_run(
     )  # fmt: skip
 
 
-def _goes(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:
+def _find_progress(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:
     """(n,) where the position goes on at that speed or faster, over two samples to each side."""
     index = np.arange(len(run))
     before, after = np.maximum(index - 2, 0), np.minimum(index + 2, len(run) - 1)

@@ -182,9 +182,7 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
     return min(point, other, key=lambda one: one.cost)
 
 
-def parameter_covariance(
-    problem: PredictionErrorProblem, point: Estimate, *, nuisance: bool = False
-) -> Array:
+def parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(searched, searched) covariance of the parameters, the nuisance parameters marginalized.
 
     A combination of parameters that the log says nothing about has a huge error, not none.
@@ -192,11 +190,10 @@ def parameter_covariance(
     Args:
         problem: the measurements.
         point: the best estimate.
-        nuisance: whether to keep rows and columns of the nuisance parameters.
     """
     table, _ = append_prior_rows(problem, point, fine=True)
     inverse = invert_information(table)
-    count = None if nuisance else len(point.structure.searched_names)
+    count = len(point.structure.searched_names)
     return np.asarray(inverse[:count, :count])
 
 

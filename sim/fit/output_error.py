@@ -93,7 +93,7 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
     if found is None or not all(
         map(math.isfinite, (*found.gains.values(), *found.errors.values()))
     ):
-        raise _refuse_times(log)
+        raise _refuse_motion(log)
     return found
 
 
@@ -118,7 +118,7 @@ def _check_times(log: Log) -> None:
             )
 
 
-def _refuse_times(log: Log) -> NotIdentifiable:
+def _refuse_motion(log: Log) -> NotIdentifiable:
     return NotIdentifiable(
         "its motion does not go with its voltage",
         where=log.source,
@@ -135,8 +135,8 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     problem = fit_problem(log, seen)
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
-        raise _refuse_times(log)
-    problem, likeliest, followed = _with_everyday(*_choose_lags(problem, plain))
+        raise _refuse_motion(log)
+    problem, likeliest, followed = _add_everyday_effects(*_choose_lags(problem, plain))
     searched, point, followed = fit_velocity_only(problem, likeliest, followed)
     gains, errors = _gains_with_errors(point, parameter_covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
@@ -188,7 +188,7 @@ def _choose_lags(
         found = found if found.cost < without.cost - WORTH else without
     followed = replay_open_loop(problem, found)
     if followed.has_misfit or found.process_noise > HOLDS * problem.noise.velocity**2:
-        other = open_loop(_with_both_lags(problem, plain))
+        other = open_loop(_fit_both_lags(problem, plain))
         more = len(other.structure.effects) - len(found.structure.effects)
         if other.cost < found.cost - WORTH * max(more, 0):
             found, followed = other, replay_open_loop(problem, other)
@@ -205,7 +205,7 @@ def _choose_lags(
     return problem, best, followed if best is found else replay_open_loop(problem, best)
 
 
-def _with_everyday(
+def _add_everyday_effects(
     problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
     """The same with the small effects of every mechanism, where they make the model hold."""
@@ -218,7 +218,7 @@ def _with_everyday(
     return extended, found, after
 
 
-def _with_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate:
+def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate:
     """The best point of those that begin with a window and a lag at once.
 
     Where both act, the gains of a model that has neither are so far off that what one of them alone
