@@ -198,7 +198,7 @@ FAULT = Fault(
     name="gremlins",
     summary="they bite",
     ordinary="3 bites",
-    spoil=lambda log, blow, rng: Spoilt(log, ()),
+    spoil=lambda log, strike, rng: Spoilt(log, ()),
     detect=lambda features: (),
 )
 '''

@@ -26,39 +26,39 @@ class RunNuisance:
 
     @classmethod
     def at_first_samples(cls, runs: int) -> "RunNuisance":
-        """Just as the first samples say."""
+        """No offsets: each run starts where its first sample says."""
         return cls(np.zeros(runs), np.full(runs, np.nan), np.zeros(runs))
 
     def select_runs(self, chosen: Sequence[int]) -> "RunNuisance":
-        """That of some runs."""
+        """The nuisance parameters of some runs."""
         places = list(chosen)
         return RunNuisance(
             self.position_offset[places], self.backlash_phase[places], self.friction_offset[places]
         )
 
     def shift_positions(self, by: Array) -> "RunNuisance":
-        """The same; ``by`` (runs,) [unit] further."""
+        """The same, with positions shifted by ``by`` (runs,) [unit]."""
         return replace(self, position_offset=self.position_offset + by)
 
     def add_friction(self, by: Array) -> "RunNuisance":
-        """The same; each run with ``by`` (runs,) [V] more friction."""
+        """The same, with ``by`` (runs,) [V] more friction in each run."""
         return replace(self, friction_offset=self.friction_offset + by)
 
     @property
     def with_common_friction(self) -> "RunNuisance":
-        """The same, all runs with one friction."""
+        """The same, with one friction for all runs."""
         return replace(self, friction_offset=np.zeros_like(self.friction_offset))
 
-    def with_backlash_phase(self, meshed: Array) -> "RunNuisance":
-        """The same, with ``meshed`` (runs,)."""
-        return replace(self, backlash_phase=meshed)
+    def with_backlash_phase(self, phase: Array) -> "RunNuisance":
+        """The same, with these backlash phases (runs,)."""
+        return replace(self, backlash_phase=phase)
 
     @property
     def without_backlash_phase(self) -> "RunNuisance":
-        """The same; where in free play a run begins is left to the load's weight."""
+        """The same, where the load's weight decides on the backlash phase."""
         return self.with_backlash_phase(np.full_like(self.backlash_phase, np.nan))
 
     @property
     def has_backlash_phase(self) -> bool:
-        """Whether it is told of any run where in free play that begins."""
+        """Whether the backlash phase of any run is given."""
         return not bool(np.isnan(self.backlash_phase).all())

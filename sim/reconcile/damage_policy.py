@@ -37,7 +37,7 @@ class DamageDecision:
     reported: tuple[DamagedInterval, ...] = ()
 
     def excluded_from(self, name: str) -> tuple[ExcludedInterval, ...]:
-        """What is left out of a log."""
+        """The intervals of a log that are left out of the fit."""
         return self.excluded.get(name, ())
 
 

@@ -28,7 +28,7 @@ Told = Callable[[str, float], None]
 
 @contextmanager
 def show_progress() -> Iterator[Told]:
-    """A bar on the terminal, to be told a step's words and a share of the whole.
+    """A progress bar on the terminal; it takes a step's words and the share that is done.
 
     Where nobody watches it is not drawn.
     """

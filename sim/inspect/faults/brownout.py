@@ -42,18 +42,18 @@ SURE = 0.9  # [share explained] at the start of a run, where current limits look
 FASTEST = 1.2  # [times the usual speed] a cut can make what falls go, before the model is in doubt
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the mechanism go on without its motor for a moment."""
     features = LogFeatures(log)
-    run = log.runs[blow.run]
-    start = float(run.time[0]) + blow.start
-    lasts = CUT * blow.severity * rng.uniform(0.9, 1.1)
+    run = log.runs[strike.run]
+    start = float(run.time[0]) + strike.start
+    lasts = CUT * strike.severity * rng.uniform(0.9, 1.1)
     end = start + min(lasts, (float(run.time[-1]) - start) / 2.0)
     cut = (run.time >= start) & (run.time < end)
     if features.baseline is None or not cut.any():
         return DamagedLog(log, ())
     first = int(np.argmax(cut))
-    velocity = features.predicted_velocities[blow.run][first]
+    velocity = features.predicted_velocities[strike.run][first]
     as_it_was, without = (
         features.baseline.replay(run, voltage=volts, first=first, last=len(run), velocity=velocity)
         for volts in (run.voltage, np.where(cut, 0.0, run.voltage))
@@ -68,7 +68,7 @@ def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
         bus = np.where(cut, np.minimum(run.bus_voltage, DIP), run.bus_voltage)
         spoilt = replace(spoilt, bus_voltage=bus)
     return DamagedLog(
-        replace_run(log, blow.run, spoilt), (LogInterval(blow.run, run.test, start, end),)
+        replace_run(log, strike.run, spoilt), (LogInterval(strike.run, run.test, start, end),)
     )
 
 

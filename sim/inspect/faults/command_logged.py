@@ -54,12 +54,12 @@ FLAT = 0.2  # [share] of the acceleration that must be lacking at first
 TRUE = 1.25  # [times] the baseline model's own speed is still the one it was found with
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
     """Clip the current while each dynamic test starts, and log the step as it was asked for."""
     features, where = LogFeatures(log), []
     for index, run in enumerate(features.log.runs):
-        if run.kind == log.runs[blow.run].kind:
-            spoilt = _clipped(features, index, keeps=float(KEEPS ** np.cbrt(blow.severity)))
+        if run.kind == log.runs[strike.run].kind:
+            spoilt = _clipped(features, index, keeps=float(KEEPS ** np.cbrt(strike.severity)))
             if spoilt is not None:
                 log = replace_run(log, index, spoilt)
                 where.append(_whole(index, run))

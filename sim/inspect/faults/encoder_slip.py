@@ -45,23 +45,23 @@ BELIEVED = 0.92  # [share explained] less is something else
 AT_END = 0.005  # [share of the travel] within which it stands, at the end of it
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the sensor read too little, or hop, for a moment."""
-    run = log.runs[blow.run]
-    start = float(run.time[0]) + blow.start
+    run = log.runs[strike.run]
+    start = float(run.time[0]) + strike.start
     left = float(run.time[-1]) - start
     if rng.random() < SKIPS:
         period = float(np.median(np.diff(run.time)))
         lasts = max(HOP, 4.0 * period)
-        pace = 1.0 - float(rng.choice((-1.0, 1.0))) * SKIP * blow.severity
+        pace = 1.0 - float(rng.choice((-1.0, 1.0))) * SKIP * strike.severity
     else:
-        lasts, pace = min(SLIP, left / 2.0), float(np.exp(-LOSS * blow.severity))
+        lasts, pace = min(SLIP, left / 2.0), float(np.exp(-LOSS * strike.severity))
     slips = (run.time > start) & (run.time <= start + lasts)
     if not np.any(run.velocity[slips]):
         return DamagedLog(log, ())
     spoilt = rescale_motion(run, np.where(slips, pace, 1.0))
-    where = LogInterval(blow.run, run.test, start, min(start + lasts, float(run.time[-1])))
-    return DamagedLog(replace_run(log, blow.run, spoilt), (where,))
+    where = LogInterval(strike.run, run.test, start, min(start + lasts, float(run.time[-1])))
+    return DamagedLog(replace_run(log, strike.run, spoilt), (where,))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:

@@ -48,13 +48,13 @@ LEANS = 0.7  # confidence: a chain that is pulled taut looks the same
 GIVES = 0.25  # [share of the way it would have gone] a stop that gives more is none
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Put a stop in the way, and let the voltage push on for a while."""
-    pressed = PRESSED * blow.severity * rng.uniform(0.9, 1.1)
-    run = log.runs[blow.run]
-    longer = _pushed_on(run, until=float(run.time[0]) + blow.start + pressed)
-    impact = int(np.searchsorted(longer.time, run.time[0] + blow.start, side="right"))
-    end = int(np.searchsorted(longer.time, run.time[0] + blow.start + pressed, side="right"))
+    pressed = PRESSED * strike.severity * rng.uniform(0.9, 1.1)
+    run = log.runs[strike.run]
+    longer = _pushed_on(run, until=float(run.time[0]) + strike.start + pressed)
+    impact = int(np.searchsorted(longer.time, run.time[0] + strike.start, side="right"))
+    end = int(np.searchsorted(longer.time, run.time[0] + strike.start + pressed, side="right"))
     if impact >= end - 1 or not np.any(longer.velocity[impact:end]):
         return DamagedLog(log, ())
     cut = select_samples(longer, slice(end))
@@ -62,12 +62,12 @@ def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     pace = np.where(since < 0.0, 1.0, -BOUNCE * np.exp(-since / FADES) * (since < 4.0 * FADES))
     spoilt = rescale_motion(cut, pace)
     late = float(spoilt.time[-1] - run.time[-1])
-    damaged = replace_run(log, blow.run, spoilt)
+    damaged = replace_run(log, strike.run, spoilt)
     if late > 0.0:  # what comes after this run comes that much later
-        for index in range(blow.run + 1, len(log.runs)):
+        for index in range(strike.run + 1, len(log.runs)):
             follows = log.runs[index]
             damaged = replace_run(damaged, index, replace(follows, time=follows.time + late))
-    where = LogInterval(blow.run, run.test, float(spoilt.time[impact]), float(spoilt.time[-1]))
+    where = LogInterval(strike.run, run.test, float(spoilt.time[impact]), float(spoilt.time[-1]))
     return DamagedLog(damaged, (where,))
 
 

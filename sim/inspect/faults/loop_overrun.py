@@ -36,16 +36,18 @@ TOGETHER = 1.0  # [s] stalls no further apart than this are one stretch of troub
 PROOF = 2.0  # [usual steps] lost in all: one might be a hiccup, ten are none
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Lose the samples of a few stalls."""
-    run = log.runs[blow.run]
-    start = float(run.time[0]) + blow.start
-    end = min(start + SPREAD * blow.severity, float(run.time[-1]))
+    run = log.runs[strike.run]
+    start = float(run.time[0]) + strike.start
+    end = min(start + SPREAD * strike.severity, float(run.time[-1]))
     keep = np.ones(len(run), dtype=bool)
     stalls = []
     moment = start
     while moment < end:
-        until = moment + rng.uniform(2.0 * SHORTEST, LONGEST * min(1.0, 0.5 + 0.25 * blow.severity))
+        until = moment + rng.uniform(
+            2.0 * SHORTEST, LONGEST * min(1.0, 0.5 + 0.25 * strike.severity)
+        )
         lost = (run.time > moment) & (run.time < until)
         lost[-1] = False  # the test ends when it ends, and its last sample says so
         if lost.any():
@@ -55,8 +57,8 @@ def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     if not stalls:
         return DamagedLog(log, ())
     first, last = run.time[stalls[0][0] - 1], run.time[stalls[-1][-1] + 1]
-    spoilt = replace_run(log, blow.run, select_samples(run, keep))
-    return DamagedLog(spoilt, (LogInterval(blow.run, run.test, float(first), float(last)),))
+    spoilt = replace_run(log, strike.run, select_samples(run, keep))
+    return DamagedLog(spoilt, (LogInterval(strike.run, run.test, float(first), float(last)),))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:

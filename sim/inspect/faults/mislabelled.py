@@ -23,16 +23,16 @@ ALL = 2.0  # [severity] from which no test keeps its name
 CONFIDENCE = 0.95  # a ramp cannot look like a step; a team's own forward may be another's reverse
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the struck run change names with another one; from severity 2 on, all of them move on."""
     runs = list(log.runs)
     names = [run.test for run in runs]
-    others = [i for i, run in enumerate(runs) if run.test in FOUR_TESTS and i != blow.run]
-    others = [i for i in others if names[i] != names[blow.run]]
-    if others and blow.severity < ALL:
-        moved = [blow.run, int(rng.choice(others))]
+    others = [i for i, run in enumerate(runs) if run.test in FOUR_TESTS and i != strike.run]
+    others = [i for i in others if names[i] != names[strike.run]]
+    if others and strike.severity < ALL:
+        moved = [strike.run, int(rng.choice(others))]
     else:
-        moved = [blow.run, *(int(i) for i in rng.permutation(others))]
+        moved = [strike.run, *(int(i) for i in rng.permutation(others))]
     for place, source in zip(moved, np.roll(moved, 1), strict=True):
         runs[place] = replace(runs[place], test=names[int(source)])
     where = [_whole(i, runs[i]) for i in sorted(moved) if runs[i].test != names[i]]

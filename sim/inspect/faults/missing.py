@@ -27,11 +27,11 @@ _COST = {
 }
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Lose the struck test, and beyond severity 1 others with it; one test always stays."""
-    struck = log.runs[blow.run].test
+    struck = log.runs[strike.run].test
     others = sorted({run.test for run in log.runs} - {struck})
-    further = rng.permutation(len(others))[: max(0, min(round(blow.severity), len(others)) - 1)]
+    further = rng.permutation(len(others))[: max(0, min(round(strike.severity), len(others)) - 1)]
     lost = {struck, *(others[index] for index in further)} if others else set()
     kept = tuple(run for run in log.runs if run.test not in lost)
     return DamagedLog(replace(log, runs=kept), tuple(_nowhere(test) for test in sorted(lost)))

@@ -29,7 +29,7 @@ HERE = 0.3  # [share of the log's noise at rest] that a run must have to be name
 SURE = 3.0  # [times LOUD] at which the confidence is 0.95
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the velocity tremble while the mechanism stands, in every quasistatic test."""
     ramps = [i for i, run in enumerate(log.runs) if run.kind == "quasistatic"]
     still = LogFeatures(log).rest_lengths
@@ -38,7 +38,7 @@ def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
         log = replace(log, runs=tuple(rested))
         still = LogFeatures(log).rest_lengths
     runs = list(log.runs)
-    size = ORDINARY * blow.severity * max(run.top_speed for run in runs)
+    size = ORDINARY * strike.severity * max(run.top_speed for run in runs)
     where = []
     for index in ramps:
         run = runs[index]

@@ -28,14 +28,14 @@ FEWEST = 5  # [samples] driven and moving; fewer prove nothing
 FALLS = 3.0  # [times] faster the other way with as much voltage: gravity decides, not a sign
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Turn a signal round: in one run, in one direction's runs, or in all."""
     signals = (("voltage",), ("position", "velocity"), ("velocity",))[int(rng.integers(3))]
-    struck = log.runs[blow.run]
+    struck = log.runs[strike.run]
     runs, where = list(log.runs), []
     for index, run in enumerate(log.runs):
-        alike = run.direction == struck.direction and blow.severity >= ONE_WAY
-        if index == blow.run or alike or blow.severity >= BOTH_WAYS:
+        alike = run.direction == struck.direction and strike.severity >= ONE_WAY
+        if index == strike.run or alike or strike.severity >= BOTH_WAYS:
             flipped = {name: -getattr(run, name) for name in signals}
             runs[index] = replace(run, **flipped)
             where.append(_whole(index, run))

@@ -27,9 +27,9 @@ FEWEST = 5  # [readings] with clear jumps; fewer prove nothing
 STALE = 2  # [samples] that the usual reading is held; a clean log repeats one only now and then
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let every reading of the sensor stand until the next frame arrives."""
-    held = max(STALE, 1 + round(ORDINARY * blow.severity))
+    held = max(STALE, 1 + round(ORDINARY * strike.severity))
     phases = rng.integers(held, size=len(log.runs))
     runs = [_hold(run, held, int(phase)) for run, phase in zip(log.runs, phases, strict=True)]
     return DamagedLog(

@@ -29,13 +29,13 @@ WENT = 0.4  # [share] of the way that two speeds promise, which the jump at the 
 AFTER = 3  # [samples] that tell how fast it went on
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
     """Freeze the reading of one moment; nothing happens where nothing moves."""
-    run = log.runs[blow.run]
-    left = float(run.time[-1] - run.time[0]) - blow.start
-    lasts = min(ORDINARY * blow.severity * float(np.ptp(run.time)), ROOM * left)
-    first = int(np.searchsorted(run.time, run.time[0] + blow.start))
-    last = int(np.searchsorted(run.time, run.time[0] + blow.start + lasts))
+    run = log.runs[strike.run]
+    left = float(run.time[-1] - run.time[0]) - strike.start
+    lasts = min(ORDINARY * strike.severity * float(np.ptp(run.time)), ROOM * left)
+    first = int(np.searchsorted(run.time, run.time[0] + strike.start))
+    last = int(np.searchsorted(run.time, run.time[0] + strike.start + lasts))
     last = max(min(last, len(run) - 2), min(first + FEWEST, len(run) - 1))
     frozen = np.arange(len(run))
     frozen[first : last + 1] = first
@@ -44,7 +44,7 @@ def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog: 
         return DamagedLog(log, ())
     stuck = replace(run, position=run.position[frozen], velocity=run.velocity[frozen])
     runs = tuple(stuck if other is run else other for other in log.runs)
-    return DamagedLog(replace(log, runs=runs), (_stretch(blow.run, run, first, last),))
+    return DamagedLog(replace(log, runs=runs), (_stretch(strike.run, run, first, last),))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:

@@ -41,9 +41,9 @@ KNOWN: Mapping[str, float] = {
 MILD, ORDINARY, GROSS = (TURN,), (60.0, 360.0 / TURN), (360.0, TURN * 60.0)  # by severity
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Count velocity in another unit, in every run; a harder blow takes a larger factor."""
-    factors = MILD if blow.severity < 0.7 else ORDINARY if blow.severity < 2.0 else GROSS  # noqa: PLR2004 - thirds of the scale
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+    """Count velocity in another unit, in every run; a harder strike takes a larger factor."""
+    factors = MILD if strike.severity < 0.7 else ORDINARY if strike.severity < 2.0 else GROSS  # noqa: PLR2004 - thirds of the scale
     factor = float(rng.choice(factors)) ** int(rng.choice((-1, 1)))
     runs = tuple(replace(run, velocity=run.velocity * factor) for run in log.runs)
     return DamagedLog(

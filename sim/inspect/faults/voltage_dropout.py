@@ -47,22 +47,24 @@ class _Drop:
     expected: float
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the voltage drop out at a rhythm, from the blow to the end of the run."""
-    run = log.runs[blow.run]
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+    """Let the voltage drop out at a rhythm, from the strike to the end of the run."""
+    run = log.runs[strike.run]
     voltage = run.voltage.copy()
     period = float(np.median(np.diff(run.time)))
-    width = max(1, round(LASTS * blow.severity / period))
+    width = max(1, round(LASTS * strike.severity / period))
     most = float(np.abs(run.voltage).max())
     drops = []
-    moment = float(run.time[0]) + blow.start
+    moment = float(run.time[0]) + strike.start
     while (first := int(np.searchsorted(run.time, moment))) + width < len(run) - 1:
         if first and abs(run.voltage[first]) > SEEN * most:
             drops.append(_Drop(first, first + width - 1, float(run.voltage[first])))
-            voltage[first : first + width] *= HALF if blow.severity < MILD else 0.0
+            voltage[first : first + width] *= HALF if strike.severity < MILD else 0.0
         moment += max(EVERY * rng.uniform(0.9, 1.1), 3.0 * width * period)
     runs = tuple(replace(r, voltage=voltage) if r is run else r for r in log.runs)
-    return DamagedLog(replace(log, runs=runs), tuple(s for s, _ in _stories(blow.run, run, drops)))
+    return DamagedLog(
+        replace(log, runs=runs), tuple(s for s, _ in _stories(strike.run, run, drops))
+    )
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:

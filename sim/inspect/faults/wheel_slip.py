@@ -60,11 +60,11 @@ CLEAR = 0.04  # [share of top speed] a plain rise misses by at least this much
 CAUTION = 0.8  # [share of the voltage that still held] for the next step
 
 
-def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the wheels of a step break loose; where the blow falls, the step decides."""
+def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
+    """Let the wheels of a step break loose; where the strike falls, the step decides."""
     features = LogFeatures(log)
-    run, baseline = log.runs[blow.run], features.baseline
-    held = HELD ** (blow.severity * rng.uniform(0.9, 1.1))
+    run, baseline = log.runs[strike.run], features.baseline
+    held = HELD ** (strike.severity * rng.uniform(0.9, 1.1))
     if baseline is None:
         return DamagedLog(log, ())
     first = _step(run)
@@ -103,8 +103,8 @@ def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
         more *= np.sign(run.voltage[first]) * ((since >= 0.0) & (since < lasts))
         spoilt = replace(spoilt, voltage=run.voltage + baseline.kv * more)
     start = float(run.time[first])
-    where = LogInterval(blow.run, run.test, start, min(start + grips, float(run.time[-1])))
-    return DamagedLog(replace_run(log, blow.run, spoilt), (where,))
+    where = LogInterval(strike.run, run.test, start, min(start + grips, float(run.time[-1])))
+    return DamagedLog(replace_run(log, strike.run, spoilt), (where,))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:

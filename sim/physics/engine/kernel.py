@@ -60,7 +60,7 @@ class Kernel:
         ways: Array, began: Array, steps: Array, plain: bool, measured: Array, trust: Array,
         out: Array,
     ) -> None:  # fmt: skip
-        """As ``step_runs`` in ``sim.physics.engine.stepping``.
+        """Simulate runs; the arguments are those of ``stepping.step_runs``.
 
         Raises:
             TypeError: an array does not lie in one piece, of the numbers that the machine code

@@ -50,7 +50,7 @@ def is_pure_delay(part: Part) -> bool:
 
 
 def model_constants(model: Model) -> Array:
-    """(8,) what the engine knows of the base model, in the order of ``one_body.py``."""
+    """(8,) constants of the base model, in the order of ``one_body.py``."""
     gains = model.gains
     level = gains.get("kG", 0.0)
     low, high = model.travel or (-math.inf, math.inf)

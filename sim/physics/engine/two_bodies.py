@@ -103,7 +103,7 @@ def step_in_contact(
     ways: Array, asked: float, off: bool, ka: float, whole: float, level: int, play: float,
     stiff: float, damp: float,
 ) -> float:  # fmt: skip
-    """The same of bodies that push each other, exactly but for what is not linear.
+    """One step of two bodies that push each other, exact but for what is not linear.
 
     The step is ``whole`` / 2^``level``. What is not linear is taken at its middle. Where one body
     turns, teeth part, or a load that stands begins to move, there is no step: nan is returned.
@@ -180,7 +180,7 @@ def step_in_backlash(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float, play: float, stiff: float, damp: float,
 ) -> float:  # fmt: skip
-    """The same of bodies between whose teeth there is room; nan, and no step, where they meet."""
+    """One step of two bodies within their backlash; nan, and no step, where the teeth meet."""
     part = motor_inertia_share(on, p)
     own, other = part * ka, (1.0 - part) * ka
     x, v, y, z = state[X], state[V], state[Y], state[W]
@@ -203,7 +203,7 @@ def step_through_contacts(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float,
 ) -> float:  # fmt: skip
-    """The same of whatever happens, in small steps.
+    """One step of two bodies through contacts, in small steps.
 
     A step in which teeth meet or part is taken in two, on both sides of that moment; and while they
     bounce, in several.
@@ -236,7 +236,7 @@ def step_by_midpoint(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float,
 ) -> float:  # fmt: skip
-    """One step of two bodies, as ``step_two_bodies``, whatever happens in it."""
+    """One step of two bodies by the midpoint rule, whatever happens in it."""
     part, play = motor_inertia_share(on, p), backlash_gap(on, p)
     own, other = part * ka, (1.0 - part) * ka
     stiff, damp = joint_stiffness(joint_compliance(on, p), part * other)

@@ -71,7 +71,7 @@ def prepare_series(
 
 
 def make_table(ways: Array, at: int, dt: float, level: int) -> int:
-    """Where the table of a part of a step is; it is made if it is not there."""
+    """Index of the table of a part of a step; it is made if it is not there."""
     step = at + FIRST + level * (1 + TABLE)
     if abs(ways[step] - dt) < SAME:
         return step + 1
@@ -87,7 +87,7 @@ def make_table(ways: Array, at: int, dt: float, level: int) -> int:
 
 
 def make_table_from_half(ways: Array, at: int, dt: float, level: int) -> int:
-    """The same, made of the table of its half."""
+    """Index of the table of a part of a step, made from the table of half of it."""
     step = at + FIRST + level * (1 + TABLE)
     if abs(ways[step] - dt) < SAME:
         return step + 1
@@ -124,7 +124,7 @@ def double_table(ways: Array, at: int, to: int) -> None:
 
 
 def apply_row(ways: Array, at: int, d: float, v: float, w: float, b: float, r: float) -> float:
-    """What a row of a table makes of a motion and of what pushes it."""
+    """A row of a table, applied to a motion and to the voltages that drive it."""
     return float(
         ways[at] * d + ways[at + 1] * v + ways[at + 2] * w + ways[at + 3] * b + ways[at + 4] * r
     )

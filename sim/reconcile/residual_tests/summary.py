@@ -45,7 +45,7 @@ class ResidualSummary:
 
     @classmethod
     def summarize(cls, problem: PredictionErrorProblem, point: Estimate) -> "ResidualSummary":
-        """What a point leaves of its problem."""
+        """The residual tests of an estimate's innovations."""
         return cls(
             find_worst_window(problem, point),
             find_repeated_residual(problem, point),

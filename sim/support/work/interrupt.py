@@ -9,7 +9,7 @@ from types import FrameType
 
 @contextmanager
 def interrupts_blocked_for_children() -> Iterator[None]:
-    """Processes that start in here never hear Ctrl+C: it is for the one that started them."""
+    """A context whose child processes never hear Ctrl+C: it is for the parent."""
     if not _is_heard():
         yield
         return
@@ -22,7 +22,7 @@ def interrupts_blocked_for_children() -> Iterator[None]:
 
 @contextmanager
 def deferred_interrupt() -> Iterator[Callable[[], None]]:
-    """In here the first Ctrl+C is only noted; a second one acts at once, as ever.
+    """A context in which the first Ctrl+C is only noted; a second one acts at once.
 
     Yields:
         What to call where stopping is safe: it raises KeyboardInterrupt if one was noted.
