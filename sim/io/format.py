@@ -4,9 +4,10 @@ A module offers
 
     SUFFIXES : tuple[str, ...]                 endings of its files, lower case: (".wpilog",)
     def knows(head: bytes) -> bool             whether a file that starts like this is its own
-    def read(path: Path, asked: Reading) -> Log
+    def read(path: Path, asked: ReadOptions) -> Log
     def write(log: Log, path: Path) -> None    optional: some formats are only read
     def entries(path: Path) -> list[Entry]     optional: where a log has entries with names
+    def read_motors(path, asked) -> dict[str, Log]    optional: where a log has several motors
 
 and is found by its place in the folder. Formats do not import one another.
 """
@@ -35,12 +36,14 @@ class ReadOptions:
         motor: which motor's signals, where the file has several (``left``); None combines them.
         entries: signal (``voltage``, ``position``, ``velocity``) -> the entry that holds it,
             for logs that do not use SysId's names.
+        ignore_velocity: the velocity need not be there; the position stands in for it.
     """
 
     units: str | None = None
     type: str | None = None
     motor: str | None = None
     entries: Mapping[str, str] = field(default_factory=dict)
+    ignore_velocity: bool = False
 
     @property
     def units_or_default(self) -> str:
@@ -60,14 +63,14 @@ class Format(Protocol):
         """Read a file."""
 
 
-def lone_motor(asked: ReadOptions, *, where: str) -> tuple[Doubt, ...]:
+def lone_motor(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
     """A doubt if a motor was asked for in a file that holds the signals of one only."""
-    if asked.motor is None:
+    if motor is None:
         return ()
     return (
         Doubt(
             "one-motor",
-            f"{where} holds one motor's signals and does not name it, so {asked.motor!r} made no "
+            f"{where} holds one motor's signals and does not name it, so {motor!r} made no "
             "difference.",
         ),
     )

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.against import against_physics, parts_of, taken_apart
-from sim.cli.fit.sides import sides_of
-from sim.cli.options import FILE, as_json, read_together, reading_options
+from sim.cli.fit.against import against_physics, compared_directions, parts_of
+from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
+from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -43,6 +43,7 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=FILE)
 @reading_options
+@velocity_options
 @click.option(
     "--method",
     type=click.Choice(METHODS),
@@ -92,6 +93,8 @@ def fit(  # noqa: PLR0917 - click passes options by name
     method: str,
     median: int,
     motor: str | None,
+    velocity_scale: float,
+    ignore_velocity: bool,  # noqa: FBT001 - click passes it by name
     preset: str,
     driven_by: str | None,
     count: int,
@@ -110,8 +113,9 @@ def fit(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Find kS, kV, kA (and kG) in the logs of one mechanism: .wpilog, .csv, or SysId's old .json.
 
-    Directions, and the two sides of a drivetrain, are also fitted apart and compared; not with
-    --json and --paste, which should be quick.
+    Files of one test each are joined. Sides of a drivetrain, modules and whole recordings are
+    fitted alone, compared, and their gains averaged. Directions are compared, too; not with --json
+    and --paste, which should be quick.
 
     For example: sysid fit drive.wpilog --html drive.html
     """
@@ -120,24 +124,29 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
-    parts = parts_of(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-
-    def read_one(side: str | None) -> "Log":
-        return read_together(files, units=units, type=type_, motor=side, entries=entries)
-
-    def find(log: "Log") -> "Fit":
-        return find_gains(log, type=type_ or "", method=method, median=median)
-
-    log = read_one(motor)
-    found = against_physics(find(log), log, parts=parts)
-    notes: tuple[str, ...] = ()
+    built = parts_of(driven_by, count=count, ratio=ratio, radius=radius, load=load)
+    parts = read_parts(
+        files,
+        units=units,
+        type=type_,
+        motor=motor,
+        entries=entries,
+        velocity=None if ignore_velocity else velocity_scale,
+    )
+    log = joined_log(parts)
+    pooled = fit_parts(
+        parts,
+        lambda log: find_gains(log, type=type_ or "", method=method, median=median),
+        kind=kind_of_parts(parts, len(files)),
+    )
+    found, notes = against_physics(pooled.found, log, parts=built), pooled.notes
     if not (as_json or paste):
-        pair = None if motor else sides_of(log, read_one)
-        found, notes = taken_apart(found, log, pair, find=find, patient=html is not None)
+        found, more = compared_directions(found, log, patient=html is not None)
+        notes = (*more, *notes)
     found = found.in_log_units()
     tried = try_feedback_gains(found, PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
-    told = _Told(files, found, log, preset, tried, notes)
+    told = _Told(files, found, log, preset, tried, notes, pooled.to_json())
     _write(told, html=html, plot=plot)
     told.echo(as_json=as_json, paste=paste, season=int(season))
     return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
@@ -153,6 +162,7 @@ class _Told:
     preset: str
     tried: "tuple[FeedbackTrial, ...]"
     notes: tuple[str, ...]
+    parts: dict[str, dict[str, object]]
 
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> None:
         """Print what was asked for: robot code, JSON, or text for people."""
@@ -166,7 +176,7 @@ class _Told:
             self.show()
 
     def to_json(self) -> dict[str, object]:
-        """Plain data; the learner's own gains only where they were given."""
+        """Plain data; the learner's own gains and those of parts only where there are any."""
         from sim.fit.feedback_trial import OWN  # noqa: PLC0415 - --help must not wait for it
 
         own = [
@@ -175,7 +185,8 @@ class _Told:
             if one.whose == OWN
         ]
         said = self.found.to_json(PRESETS[self.preset])
-        return said | ({"own_feedback": own[0]} if own else {})
+        said |= {"own_feedback": own[0]} if own else {}
+        return said | ({"parts": self.parts} if self.parts else {})
 
     def show(self) -> None:
         """Print it."""

@@ -7,15 +7,17 @@ a Log: ``state`` finds the tests, ``motors`` the signals, ``units`` what they ar
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
 from sim.core.units import UNITS
 from sim.io.entries.discovery import driven_interval, find_devices, test_in_name
 from sim.io.entries.entry import Entry
-from sim.io.entries.motors import motors_of
+from sim.io.entries.mirrored import turn_mirrored_motors
+from sim.io.entries.motors import MotorEntries, motors_of
 from sim.io.entries.names import quote_names, type_said
 from sim.io.entries.runs import cut_runs
 from sim.io.entries.state import RunInterval, StateEntry, run_intervals, state_entries
@@ -25,7 +27,7 @@ from sim.io.format import ReadOptions
 def log_of_entries(
     entries: Sequence[Entry], *, asked: ReadOptions, where: str
 ) -> tuple[Log, tuple[RunInterval, ...]]:
-    """The log of one mechanism, and the times of its runs.
+    """The log of one mechanism, several motors as their mean, and the times of its runs.
 
     Args:
         entries: of the whole log.
@@ -37,46 +39,83 @@ def log_of_entries(
         BadRequest: what was asked for is not in it, or it holds several mechanisms.
         BadSample: it holds a number that cannot be a measurement.
     """
+    found = _found(entries, asked=asked, where=where)
+    return _log(found, found.motors, where=where), found.intervals
+
+
+def motor_logs_of_entries(
+    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+) -> tuple[dict[str, Log], tuple[RunInterval, ...]]:
+    """The log of each motor of one mechanism by its name, and the times of the runs.
+
+    A motor that is mounted the other way round is turned, so that all run alike.
+
+    Args:
+        entries: of the whole log.
+        asked: what its reader knows: units, type, motor, and the names of entries.
+        where: the file, for messages.
+
+    Raises:
+        MissingSignal, BadRequest, BadSample: as ``log_of_entries``.
+    """
+    found = _found(entries, asked=asked, where=where)
+    logs = {motor.name: _log(found, (motor,), where=where) for motor in found.motors}
+    return turn_mirrored_motors(logs), found.intervals
+
+
+@dataclass(frozen=True, eq=False)
+class _Mechanism:
+    """What was found of one mechanism.
+
+    Args:
+        state: where its tests are named.
+        intervals: when they ran.
+        motors: its motors.
+        asked: what its reader knows, the type its name says included.
+        type_by_name: whether only the name says the type.
+        doubts: what was odd.
+    """
+
+    state: StateEntry
+    intervals: tuple[RunInterval, ...]
+    motors: tuple[MotorEntries, ...]
+    asked: ReadOptions
+    type_by_name: bool
+    doubts: tuple[Doubt, ...]
+
+
+def _found(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> _Mechanism:
+    """The mechanism that is to be read: its tests and its motors."""
     state = _state(entries, asked=asked, where=where)
-    if asked.type is None:
-        return _typed(entries, state, asked=asked, where=where)
-    return _of(state, entries, asked=asked, where=where)
+    by_name = asked.type is None
+    if by_name:
+        asked = replace(asked, type=type_said(state.mechanism) or None)
+    intervals, strange = run_intervals(state, where=where)
+    motors, doubts = motors_of(state, entries, intervals, asked=asked, where=where)
+    return _Mechanism(state, intervals, motors, asked, by_name, (*doubts, *strange))
 
 
-def _typed(
-    entries: Sequence[Entry], state: StateEntry, *, asked: ReadOptions, where: str
-) -> tuple[Log, tuple[RunInterval, ...]]:
-    """The log of a mechanism whose type nobody said; its name may."""
-    said = type_said(state.mechanism)
-    log, spans = _of(state, entries, asked=replace(asked, type=said or None), where=where)
-    if said == "arm" and not UNITS[log.units].angular:  # what moves in meters is no arm
-        log = replace(log, type="")
-    return log, spans
-
-
-def _of(
-    state: StateEntry, entries: Sequence[Entry], *, asked: ReadOptions, where: str
-) -> tuple[Log, tuple[RunInterval, ...]]:
-    """The log of one mechanism, as the tests that are named for it tell it."""
-    found, strange = run_intervals(state, where=where)
-    motors, doubts = motors_of(state, entries, found, asked=asked, where=where)
-    result = cut_runs(motors, found, asked=asked, where=where)
+def _log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str) -> Log:
+    """The log of some motors of a mechanism, as the tests that are named for it tell it."""
+    result = cut_runs(motors, found.intervals, asked=found.asked, where=where)
     if not result.runs:
         names = quote_names([entry.name for entry in motors[0].signals.values()])
         raise MissingSignal(
-            f"no run holds two samples of {names} while {state.entry.name!r} names its test",
+            f"no run holds two samples of {names} while {found.state.entry.name!r} names its test",
             where=where,
             advice="Log the signals in the routine's own log callback, and run the tests again.",
         )
-    log = Log(
+    said = found.asked.type or ""
+    if found.type_by_name and said == "arm" and not UNITS[result.units].angular:
+        said = ""  # what moves in meters is no arm
+    return Log(
         result.runs,
         units=result.units,
-        mechanism=state.mechanism,
-        type=asked.type or "",
+        mechanism=found.state.mechanism,
+        type=said,
         source=where,
-        doubts=(*doubts, *strange, *result.doubts),
+        doubts=(*found.doubts, *result.doubts),
     )
-    return log, found
 
 
 def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> StateEntry:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.core.log import TESTS
+from sim.core.log import TESTS, Array
 from sim.core.vocabulary import DIRECTIONS, KINDS
 from sim.io.entries.entry import NEEDED, NUMBERS, Entry, ValuesEntry
 from sim.io.entries.names import words_of
@@ -52,6 +52,7 @@ OTHERS = frozenset(
 """Words of entries that hold no measurement of the motor."""
 DRIVEN = 0.5  # [share of the voltage of the motor that is driven most] of a motor of the mechanism
 MOVES = 0.3  # [1] correlation of a velocity with the slope of its position, at least
+ALIKE = 0.9999  # [1] correlation of a velocity with its position, if it is the position
 ZERO = 0.02  # [V] a smaller voltage drives nothing
 PAUSE = 500_000  # [µs] without a voltage that ends a test
 _SAME = {"backward": "reverse", "backwards": "reverse", "forwards": "forward"}
@@ -73,6 +74,13 @@ class Device:
     def whole(self) -> bool:
         """Whether it has all that a fit needs."""
         return all(signal in self.signals for signal in NEEDED)
+
+    def without_velocity(self) -> "Device":
+        """The same, its position standing where its velocity would."""
+        position = self.signals.get("position")
+        if position is None:
+            return self
+        return Device(self.name, {**self.signals, "velocity": position})
 
 
 def find_devices(entries: Sequence[Entry]) -> list[Device]:
@@ -192,11 +200,19 @@ def _voltage_in(device: Device, tests: Sequence[RunInterval]) -> float:
 
 
 def _moves(device: Device, tests: Sequence[RunInterval]) -> bool:
-    """Whether its velocity goes with the slope of its position while tests run."""
+    """Whether its velocity goes with the slope of its position while tests run.
+
+    A position that was logged as the velocity passes, too: a fit takes its slope.
+    """
     position, velocity = device.signals["position"], device.signals["velocity"]
     x, v = position.numbers(), velocity.numbers()
+    parts = _within(velocity, tests)
+    if any(
+        _same_motion(v[part], np.interp(velocity.time[part], position.time, x)) for part in parts
+    ):
+        return True
     slopes, speeds = [], []
-    for part in _within(velocity, tests):
+    for part in parts:
         time = velocity.time[part]
         if time.size > 2:  # noqa: PLR2004 - a slope needs three
             slopes.append(np.gradient(np.interp(time, position.time, x), np.arange(time.size)))
@@ -206,6 +222,15 @@ def _moves(device: Device, tests: Sequence[RunInterval]) -> bool:
     slope, speed = np.concatenate(slopes), np.concatenate(speeds)
     size = float(np.linalg.norm(slope) * np.linalg.norm(speed))
     return size > 0.0 and float(slope @ speed) > MOVES * size
+
+
+def _same_motion(one: Array, other: Array) -> bool:
+    """Whether two signals are the same but for their unit and zero, and not at rest."""
+    if not one.size:
+        return False
+    one, other = one - np.mean(one), other - np.mean(other)
+    size = float(np.linalg.norm(one) * np.linalg.norm(other))
+    return size > 0.0 and float(one @ other) > ALIKE * size
 
 
 def _driven(voltage: Entry) -> Iterator[tuple[int, int]]:

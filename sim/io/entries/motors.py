@@ -90,9 +90,13 @@ def motors_of(
         for signal, name in asked.entries.items()
         if signal in NEEDED + OPTIONAL
     }
+    if asked.ignore_velocity and "position" in given:
+        given["velocity"] = given["position"]  # its slope is taken later
     if all(signal in given for signal in NEEDED):
         return (MotorEntries(asked.motor or "", given),), ()
     found = [MotorEntries(name, signals | given) for name, signals in _by_motor(search).items()]
+    if asked.ignore_velocity:
+        found = [_without_velocity(motor) for motor in found]
     noted: tuple[Doubt, ...] = ()
     if not given and not any(motor.whole for motor in found):
         other = _of_other_loggers(search, tests)
@@ -110,10 +114,20 @@ def motors_of(
 
 def _of_other_loggers(search: _Search, tests: Sequence[RunInterval]) -> list[MotorEntries]:
     """The motors that another logger recorded, and that the tests drove."""
-    driven = driven_devices(find_devices(search.entries), tests)
+    devices = find_devices(search.entries)
+    if search.asked.ignore_velocity:
+        devices = [one.without_velocity() for one in devices]
+    driven = driven_devices(devices, tests)
     words = set(words_of(search.state.mechanism))
     named = [one for one in driven if words & set(words_of(one.name))]
     return [MotorEntries(one.name, one.signals) for one in named or driven]
+
+
+def _without_velocity(motor: MotorEntries) -> MotorEntries:
+    """A motor whose position stands where its velocity would, so that none is asked for."""
+    if "position" not in motor.signals:
+        return motor
+    return MotorEntries(motor.name, {**motor.signals, "velocity": motor.signals["position"]})
 
 
 def _taken(motors: Sequence[MotorEntries], where: str) -> Doubt:

@@ -133,9 +133,11 @@ def scale_of(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str) ->
     Raises:
         BadRequest: its position is an angle and its velocity a length, or the other way round.
     """
-    texts = {signal: unit_text(signals[signal], signal) for signal in NEEDED}
+    stands_in = signals["velocity"] is signals["position"]  # only its slope will be used
+    needed = [signal for signal in NEEDED if not (stands_in and signal == "velocity")]
+    texts = {signal: unit_text(signals[signal], signal) for signal in needed}
     said = {signal: stated_unit(text, signal) for signal, text in texts.items()}
-    stated = [found.units for found in (said["position"], said["velocity"]) if found]
+    stated = [found.units for name in ("position", "velocity") if (found := said.get(name))]
     if asked.units is None and len({UNITS[units].angular for units in stated}) > 1:
         raise BadRequest(
             f"the position is in {texts['position']!r} and the velocity in {texts['velocity']!r}, "
@@ -153,6 +155,8 @@ def scale_of(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str) ->
             code, what = problem
             name = signals[signal].name
             doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}"))
+    if stands_in:
+        factors["velocity"] = factors["position"]
     return EntryScale(units, factors, tuple(doubts))
 
 

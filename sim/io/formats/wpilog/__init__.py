@@ -4,15 +4,17 @@ Bytes become records (``records``), records entries (``contents``), and these a 
 (``sim/io/entries``).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Protocol, TypeVar
 
 import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.errors import MissingSignal, UnreadableFile
 from sim.core.log import Log
-from sim.io.entries import log_of_entries
+from sim.io.entries import log_of_entries, motor_logs_of_entries
+from sim.io.entries.entry import Entry
 from sim.io.entries.state import FOREVER, RunInterval
 from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import FileDamage, contents_of
@@ -20,9 +22,19 @@ from sim.io.formats.wpilog.entry import FileEntry
 from sim.io.formats.wpilog.records import MAGIC, load_records
 from sim.io.formats.wpilog.writing import write
 
-__all__ = ["SUFFIXES", "entries", "knows", "read", "write"]
+__all__ = ["SUFFIXES", "entries", "knows", "read", "read_motors", "write"]
 
 SUFFIXES = (".wpilog",)
+Made_co = TypeVar("Made_co", covariant=True)
+
+
+class _Maker(Protocol[Made_co]):
+    """Makes logs of entries."""
+
+    def __call__(
+        self, entries: Sequence[Entry], *, asked: ReadOptions, where: str
+    ) -> tuple[Made_co, tuple[RunInterval, ...]]:
+        """What is made, and the times of its runs."""
 
 
 def knows(head: bytes) -> bool:
@@ -52,6 +64,28 @@ def read(path: Path, asked: ReadOptions) -> Log:
         BadRequest: what was asked for is not in it, or it holds several mechanisms.
         BadSample: it holds a number that cannot be a measurement.
     """
+    log, doubts = _read(path, asked, log_of_entries)
+    return log.with_doubts(*doubts)
+
+
+def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
+    """Read the runs of one mechanism, a log for each of its motors.
+
+    Args:
+        path: the file.
+        asked: what its reader knows: units, motor, and the names of entries.
+
+    Raises:
+        Refusal: as ``read``.
+    """
+    logs, doubts = _read(path, asked, motor_logs_of_entries)
+    return {name: log.with_doubts(*doubts) for name, log in logs.items()}
+
+
+def _read(
+    path: Path, asked: ReadOptions, make: _Maker[Made_co]
+) -> tuple[Made_co, tuple[Doubt, ...]]:
+    """What is made of a file's entries, and what is odd about the file."""
     where = str(path)
     records = load_records(path)
     found = contents_of(records)
@@ -61,16 +95,16 @@ def read(path: Path, asked: ReadOptions) -> Log:
         raise _unreadable(damage, records.end, where, "there is no record before it")
     try:
         with np.errstate(all="ignore"):  # what is not finite is refused where a run is made of it
-            log, spans = log_of_entries(found.entries, asked=asked, where=where)
+            made, spans = make(found.entries, asked=asked, where=where)
     except MissingSignal as missing:
         if damage is None:
             raise
         raise _unreadable(damage, records.end, where, missing.what) from None
     if damage is None:
-        return log.with_doubts(*lost, *_unfinished(spans[-1], where))
+        return made, (*lost, *_unfinished(spans[-1], where))
     if not damage.torn and spans[0].end == FOREVER:
         raise _unreadable(damage, records.end, where, "no run is whole before it")
-    return log.with_doubts(*lost, _partly(damage, where))
+    return made, (*lost, _partly(damage, where))
 
 
 def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> UnreadableFile:
