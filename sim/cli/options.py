@@ -46,8 +46,14 @@ def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def velocity_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options that put a velocity right that was logged wrongly."""
+    """The options that choose a mechanism, and put a velocity right that was logged wrongly."""
     options = (
+        click.option(
+            "--pick",
+            type=click.IntRange(min=1),
+            metavar="N",
+            help="Which mechanism, where the log has several: its number in the message.",
+        ),
         click.option(
             "--velocity-scale",
             metavar="X",
@@ -121,6 +127,7 @@ def read_parts(
     motor: str | None,
     entries: Mapping[str, str | None],
     velocity: float | None,
+    pick: int | None,
 ) -> "Mapping[str, Log]":
     """Read the files of one robot as logs of alike parts, by name.
 
@@ -131,6 +138,7 @@ def read_parts(
         motor: which one alone, where a file has several.
         entries: signal -> name of its entry; None looks for it.
         velocity: what the velocity is multiplied by; None takes the slope of the position.
+        pick: which of several mechanisms, counted from 1.
 
     Raises:
         Refusal: a file cannot be read, or one measures a length and another an angle.
@@ -144,7 +152,7 @@ def read_parts(
     for file in files:
         logs = read_motors(
             file, units=units, type=type, motor=motor, entries=named,
-            ignore_velocity=velocity is None,
+            ignore_velocity=velocity is None, pick=pick,
         )  # fmt: skip
         if velocity is not None:
             logs = {

@@ -141,6 +141,7 @@ def read_motors(
     motor: str | None = None,
     entries: Mapping[str, str] | None = None,
     ignore_velocity: bool = False,
+    pick: int | None = None,
 ) -> dict[str, Log]:
     """Read a log of any format, a log for each motor of its mechanism or side of its drivetrain.
 
@@ -152,6 +153,7 @@ def read_motors(
         entries: signal -> the entry or column that holds it, where the names are not SysId's.
         ignore_velocity: take the slope of the position for the velocity, which the file need not
             have then.
+        pick: which of several mechanisms, counted from 1.
 
     Returns:
         The name of each motor -> its log; a log with one motor that has no name is under ``""``.
@@ -160,7 +162,12 @@ def read_motors(
         Refusal: as ``read``.
     """
     asked = _asked(
-        units=units, type=type, motor=motor, entries=entries, ignore_velocity=ignore_velocity
+        units=units,
+        type=type,
+        motor=motor,
+        entries=entries,
+        ignore_velocity=ignore_velocity,
+        pick=pick,
     )
     given = os.fspath(path)
     with _named(given):
@@ -182,6 +189,7 @@ def _asked(
     motor: str | None,
     entries: Mapping[str, str] | None,
     ignore_velocity: bool = False,
+    pick: int | None = None,
 ) -> ReadOptions:
     """What a person asked for, checked."""
     if type is not None and type not in TYPES:
@@ -192,6 +200,7 @@ def _asked(
         motor=motor,
         entries=dict(entries or {}),
         ignore_velocity=ignore_velocity,
+        pick=pick,
     )
 
 

@@ -37,6 +37,8 @@ class ReadOptions:
         entries: signal (``voltage``, ``position``, ``velocity``) -> the entry that holds it,
             for logs that do not use SysId's names.
         ignore_velocity: the velocity need not be there; the position stands in for it.
+        pick: which of several mechanisms, counted from 1, in the order of the refusal that
+            lists them.
     """
 
     units: str | None = None
@@ -44,6 +46,7 @@ class ReadOptions:
     motor: str | None = None
     entries: Mapping[str, str] = field(default_factory=dict)
     ignore_velocity: bool = False
+    pick: int | None = None
 
     @property
     def units_or_default(self) -> str:

@@ -4,6 +4,7 @@ import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -93,6 +94,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     method: str,
     median: int,
     motor: str | None,
+    pick: int | None,
     velocity_scale: float,
     ignore_velocity: bool,  # noqa: FBT001 - click passes it by name
     preset: str,
@@ -125,20 +127,13 @@ def fit(  # noqa: PLR0917 - click passes options by name
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
     built = parts_of(driven_by, count=count, ratio=ratio, radius=radius, load=load)
+    velocity = None if ignore_velocity else velocity_scale
     parts = read_parts(
-        files,
-        units=units,
-        type=type_,
-        motor=motor,
-        entries=entries,
-        velocity=None if ignore_velocity else velocity_scale,
+        files, units=units, type=type_, motor=motor, entries=entries, velocity=velocity, pick=pick
     )
     log = joined_log(parts)
-    pooled = fit_parts(
-        parts,
-        lambda log: find_gains(log, type=type_ or "", method=method, median=median),
-        kind=kind_of_parts(parts, len(files)),
-    )
+    find = partial(find_gains, type=type_ or "", method=method, median=median)
+    pooled = fit_parts(parts, find, kind=kind_of_parts(parts, len(files)))
     found, notes = against_physics(pooled.found, log, parts=built), pooled.notes
     if not (as_json or paste):
         found, more = compared_directions(found, log, patient=html is not None)
@@ -194,7 +189,10 @@ class _Told:
 
         title = ", ".join(map(str, self.files))
         preset = PRESETS[self.preset]
-        show_fit(self.found, preset=preset, title=title, tried=self.tried, notes=self.notes)
+        show_fit(
+            self.found, preset=preset, title=title, log=self.log, tried=self.tried,
+            notes=self.notes,
+        )  # fmt: skip
 
 
 def _write(told: _Told, *, html: Path | None, plot: Path | None) -> None:

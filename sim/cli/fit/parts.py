@@ -43,7 +43,7 @@ def parts_of_files(logs: Sequence[tuple[Path, Parts]]) -> Parts:
     joined: dict[str, Log] = {}
     for _, motors in logs:
         for name, log in motors.items():
-            joined[name] = joined[name].and_also(log) if name in joined else log
+            joined[name] = _joined(joined[name], log) if name in joined else log
     return joined
 
 
@@ -58,8 +58,17 @@ def joined_log(parts: Parts) -> "Log":
     """All runs of all parts as one log, to show; what several parts say is said once."""
     first, *others = parts.values()
     for log in others:
-        first = first.and_also(log)
-    return replace(first, doubts=tuple(dict.fromkeys(first.doubts)))
+        first = _joined(first, log)
+    return first
+
+
+def _joined(first: "Log", other: "Log") -> "Log":
+    """The runs of two logs; what is said of both, but for the name of the file, is said once."""
+    said = {(one.code, one.message.replace(first.source, "")) for one in first.doubts}
+    new = tuple(
+        one for one in other.doubts if (one.code, one.message.replace(other.source, "")) not in said
+    )
+    return first.and_also(replace(other, doubts=new))
 
 
 @dataclass(frozen=True)
@@ -110,7 +119,8 @@ def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, kind: str) -> Poo
         except Refusal as refusal:
             refused[name] = refusal
     if not fits:
-        raise next(iter(refused.values()))
+        name = next(iter(refused))
+        raise _explained(refused[name], parts[name])
     found = pool_fits(fits)
     if len(parts) == 1:
         return PooledParts(found, fits)
@@ -123,6 +133,15 @@ def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, kind: str) -> Poo
     differ = compare_parts(fits, kind)
     found = replace(found, doubts=(*found.doubts, *differ, *left_out))
     return PooledParts(found, fits, () if differ else (_agree(fits, kind),))
+
+
+def _explained(refusal: Refusal, log: "Log") -> Refusal:
+    """The refusal of a log, with the advice about its velocity if that cannot be right."""
+    for doubt in log.doubts:
+        if doubt.code == "velocity-scale":
+            advice = doubt.message.removeprefix(f"{log.source}: ")
+            return refusal.__class__(refusal.what, where=refusal.where, advice=advice.capitalize())
+    return refusal
 
 
 def _whole(log: "Log") -> bool:

@@ -14,13 +14,19 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
 from sim.core.units import UNITS
-from sim.io.entries.discovery import driven_interval, find_devices, test_in_name
+from sim.io.entries.discovery import driven_interval, find_devices
 from sim.io.entries.entry import Entry
 from sim.io.entries.mirrored import turn_mirrored_motors
-from sim.io.entries.motors import MotorEntries, motors_of
-from sim.io.entries.names import quote_names, type_said
+from sim.io.entries.motors import EXPORT, MotorEntries, motors_of, no_motor
+from sim.io.entries.names import (
+    find_test_name,
+    number_names,
+    quote_names,
+    split_name,
+    type_said,
+)
 from sim.io.entries.runs import cut_runs
-from sim.io.entries.state import RunInterval, StateEntry, run_intervals, state_entries
+from sim.io.entries.state import WORD, RunInterval, StateEntry, run_intervals, state_entries
 from sim.io.format import ReadOptions
 
 
@@ -91,7 +97,7 @@ def _found(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> _Mech
     if by_name:
         asked = replace(asked, type=type_said(state.mechanism) or None)
     intervals, strange = run_intervals(state, where=where)
-    motors, doubts = motors_of(state, entries, intervals, asked=asked, where=where)
+    motors, doubts, intervals = motors_of(state, entries, intervals, asked=asked, where=where)
     return _Mechanism(state, intervals, motors, asked, by_name, (*doubts, *strange))
 
 
@@ -126,27 +132,37 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
     """
     try:
         found = state_entries(entries, asked=asked, where=where)
-    except MissingSignal:
+    except MissingSignal as missing:
         named = None if asked.entries else _state_of_file_name(Path(where), entries)
-        if named is None:
+        if named is not None:
+            return named
+        if asked.entries or any(split_name(entry.name, WORD) for entry in entries):
             raise
-        return named
+        if any(device.whole for device in find_devices(entries)):
+            raise
+        lacking = no_motor(entries, where=where)
+        raise MissingSignal(
+            f"{missing.what}; {lacking.what}", where=where, advice=f"{missing.advice} {EXPORT}"
+        ) from None
     if len(found) > 1 and asked.motor is not None:
         having = tuple(state for state in found if _has_motor(state, entries, asked))
         found = having if len(having) == 1 else found
     if len(found) == 1:
         return found[0]
-    names = [state.mechanism for state in found]
+    if asked.pick is not None and 1 <= asked.pick <= len(found):
+        return found[asked.pick - 1]
+    names = [state.mechanism or state.entry.name for state in found]
     raise BadRequest(
-        f"tests of several mechanisms are in it: {quote_names(names)}",
+        f"tests of several mechanisms are in it: {number_names(names)}",
         where=where,
-        advice=f"Say which with --state {found[0].entry.name}, and record one routine per log.",
+        advice=f"Choose one with --pick 1 to --pick {len(found)}, or with --state "
+        f"{found[0].entry.name}, and record one routine per log.",
     )
 
 
 def _state_of_file_name(path: Path, entries: Sequence[Entry]) -> StateEntry | None:
     """The one test of a file whose name tells it: the longest time that something is driven."""
-    test = test_in_name(path.stem)
+    test = find_test_name(path.stem)
     devices = find_devices(entries)
     interval = driven_interval(test, devices) if test else None
     if interval is None:

@@ -11,13 +11,13 @@ run are the mechanism's motors.
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
-from sim.core.log import TESTS, Array
-from sim.core.vocabulary import DIRECTIONS, KINDS
+from sim.core.log import Array
 from sim.io.entries.entry import NEEDED, NUMBERS, Entry, ValuesEntry
-from sim.io.entries.names import words_of
+from sim.io.entries.names import split_unit, words_of
 from sim.io.entries.state import RunInterval
 from sim.io.entries.units import said_unit, stated_unit
 
@@ -42,6 +42,7 @@ FILLERS = frozenset(
         "cycle",
         "stator",
         "sensor",
+        "encoder",
     }
 )
 OTHERS = frozenset(
@@ -50,12 +51,13 @@ OTHERS = frozenset(
     | {"offset", "min", "max", "latency", "analog"}
 )
 """Words of entries that hold no measurement of the motor."""
+SENSORS = frozenset({"analog", "absolute"})
+"""Words of folders of a sensor that is not the motor's own."""
 DRIVEN = 0.5  # [share of the voltage of the motor that is driven most] of a motor of the mechanism
 MOVES = 0.3  # [1] correlation of a velocity with the slope of its position, at least
 ALIKE = 0.9999  # [1] correlation of a velocity with its position, if it is the position
 ZERO = 0.02  # [V] a smaller voltage drives nothing
 PAUSE = 500_000  # [µs] without a voltage that ends a test
-_SAME = {"backward": "reverse", "backwards": "reverse", "forwards": "forward"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +85,9 @@ class Device:
         return Device(self.name, {**self.signals, "velocity": position})
 
 
+DeviceGroup: TypeAlias = tuple[list[Device], list[RunInterval]]  # motors of a mechanism, its tests
+
+
 def find_devices(entries: Sequence[Entry]) -> list[Device]:
     """The devices of a log, each with the signals that its entries' names and units tell."""
     found: dict[str, dict[str, Entry]] = {}
@@ -92,16 +97,45 @@ def find_devices(entries: Sequence[Entry]) -> list[Device]:
             own = found.setdefault(device, {})
             if signal not in own or len(entry) > len(own[signal]):
                 own[signal] = entry
-    return [Device(name, _with_voltage(signals)) for name, signals in found.items()]
+    return _completed([Device(name, _with_voltage(signals)) for name, signals in found.items()])
+
+
+def _completed(devices: Sequence[Device]) -> list[Device]:
+    """The devices; one that has a voltage only gets the motion that is logged beside it.
+
+    Two motors of an elevator have a voltage each, and one position: ``Lift/LeftVolts``,
+    ``Lift/RightVolts``, ``Lift/PositionMeters``.
+    """
+    motions = [
+        one
+        for one in devices
+        if "voltage" not in one.signals and {"position", "velocity"} <= one.signals.keys()
+    ]
+    completed = []
+    for device in devices:
+        if "voltage" in device.signals and not {"position", "velocity"} & device.signals.keys():
+            folder = re.split(r"[/:](?!.*[/:])", device.name)[0]
+            near = (
+                [one for one in motions if one.name == folder]
+                or [one for one in motions if one.name.startswith(f"{device.name}/")]
+                or [one for one in motions if re.split(r"[/:](?!.*[/:])", one.name)[0] == folder]
+            )
+            if len(near) == 1:
+                completed.append(Device(device.name, {**near[0].signals, **device.signals}))
+                continue
+        completed.append(device)
+    return completed
 
 
 def signal_of(entry: Entry) -> tuple[str, str] | None:
     """Device and signal of an entry; None if it is none of a motor's."""
-    path, last = re.fullmatch(r"(.*[/:])?(.*)", entry.name, re.DOTALL).groups("")  # type: ignore[union-attr]
+    name, unit = split_unit(entry.name)
+    path, last = re.fullmatch(r"(.*[/:])?(.*)", name, re.DOTALL).groups("")  # type: ignore[union-attr]
     words = words_of(last)
-    if OTHERS.intersection(words):
+    folder = words_of(re.split(r"[/:]", path.rstrip("/:"))[-1])
+    if OTHERS.intersection(words) or SENSORS.intersection(folder):
         return None
-    signal = _signal(words, said_unit(entry.metadata))
+    signal = _signal(words, said_unit(entry.metadata) or unit)
     if not signal:
         return None
     spent = {
@@ -126,14 +160,22 @@ def driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval]) -> l
     ]
 
 
-def test_in_name(stem: str) -> str:
-    """The test that a file's name tells; empty if it tells none, or several."""
-    words = [_SAME.get(word, word) for word in words_of(stem)]
-    kinds, ways = set(KINDS).intersection(words), set(DIRECTIONS).intersection(words)
-    if len(kinds) != 1 or len(ways) != 1:
-        return ""
-    test = f"{kinds.pop()}-{ways.pop()}"
-    return test if test in TESTS else ""
+def group_by_tests(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[DeviceGroup]:
+    """Devices that are driven in the same tests, and those tests: each group is a mechanism.
+
+    A robot whose program names the tests of all its mechanisms in one entry drives one mechanism
+    after another.
+    """
+    levels = np.array([[_voltage_in(one, [test]) for test in tests] for one in devices])
+    driven = (levels >= DRIVEN * levels.max(axis=0)) & (levels > ZERO)
+    groups: list[tuple[list[Device], set[int]]] = []
+    for device, own in zip(devices, driven, strict=True):
+        mine = ([device], set(np.flatnonzero(own).tolist()))
+        for group in [one for one in groups if one[1] & mine[1]]:
+            groups.remove(group)
+            mine = ([*group[0], *mine[0]], group[1] | mine[1])
+        groups.append(mine)
+    return [(some, [tests[n] for n in sorted(own)]) for some, own in groups]
 
 
 def driven_interval(test: str, devices: Sequence[Device]) -> RunInterval | None:

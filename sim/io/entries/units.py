@@ -16,7 +16,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.units import UNITS
 from sim.io.entries.entry import NEEDED, Entry
-from sim.io.entries.names import words_of
+from sim.io.entries.names import split_unit, words_of
 from sim.io.format import ReadOptions
 
 _WORDS = {  # unit of ours -> what others call it
@@ -45,6 +45,9 @@ VOLTAGES = {
     **dict.fromkeys(("volt", "volts", "v"), 1.0),
     **dict.fromkeys(("millivolt", "millivolts", "mv"), 1e-3),
 }
+PHOENIX = {"position": "rotations", "velocity": "rotations per second"}
+"""Units of CTRE's Phoenix 6, which an export as CSV does not keep."""
+_PHOENIX = re.compile(r"phoenix ?6|talonfxs?\b|cancoder", re.IGNORECASE)
 SHORT = {"rpm": "rotation per minute", "rps": "rotation per second"}
 
 
@@ -102,9 +105,13 @@ def unit_text(entry: Entry, signal: str) -> str:
     text = said_unit(entry.metadata)
     if text:
         return text
-    words = words_of(re.split(r"[/:]", entry.name)[-1])
+    name, unit = split_unit(entry.name)
+    if unit and stated_unit(unit, signal):
+        return unit
+    words = words_of(re.split(r"[/:]", name)[-1])
     ends = (" ".join(words[first:]) for first in range(len(words)))
-    return next((end for end in ends if stated_unit(end, signal)), "")
+    found = next((end for end in ends if stated_unit(end, signal)), "")
+    return found or (PHOENIX.get(signal, "") if _PHOENIX.search(entry.name) else "")
 
 
 def voltage_unit(text: str) -> StatedUnit | None:
