@@ -16,7 +16,7 @@ from typing import TypeAlias
 import numpy as np
 
 from sim.core.log import Array
-from sim.io.entries.entry import NEEDED, NUMBERS, Entry, ValuesEntry
+from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry, ValuesEntry
 from sim.io.entries.names import split_unit, words_of
 from sim.io.entries.state import RunInterval
 from sim.io.entries.units import said_unit, stated_unit
@@ -147,6 +147,13 @@ def signal_of(entry: Entry) -> tuple[str, str] | None:
     }
     rest = [word for word in words if word not in spent]
     return (path + "-".join(rest)).rstrip("/:"), signal
+
+
+def may_be_signal(name: str, metadata: str) -> bool:
+    """Whether an entry of numbers may hold a signal of a motor, or is near one for a message."""
+    if any(word[:4] in name.lower() for word in NEEDED + OPTIONAL):
+        return True
+    return signal_of(Entry(name, NUMBERS[0], metadata, np.zeros(0, dtype=np.int64))) is not None
 
 
 def driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[Device]:

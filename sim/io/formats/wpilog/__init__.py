@@ -1,10 +1,11 @@
 """WPILOG: the log a robot writes itself, with the entries SysIdRoutine adds to it.
 
-Bytes become records (``records``), records entries (``contents``), and these a Log
+Bytes become records (``records``, ``windows``), records entries (``contents``), and these a Log
 (``sim/io/entries``).
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Protocol, TypeVar
 
@@ -14,12 +15,15 @@ from sim.core.doubt import Doubt
 from sim.core.errors import MissingSignal, UnreadableFile
 from sim.core.log import Log
 from sim.io.entries import log_of_entries, motor_logs_of_entries
-from sim.io.entries.entry import Entry
+from sim.io.entries.discovery import may_be_signal
+from sim.io.entries.entry import NUMBERS, STRING, Entry
 from sim.io.entries.state import FOREVER, RunInterval
 from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import FileDamage, contents_of
+from sim.io.formats.wpilog.control import Start
 from sim.io.formats.wpilog.entry import FileEntry
 from sim.io.formats.wpilog.records import MAGIC, load_records
+from sim.io.formats.wpilog.windows import load_wanted_records
 from sim.io.formats.wpilog.writing import write
 
 __all__ = ["SUFFIXES", "entries", "knows", "read", "read_motors", "write"]
@@ -87,7 +91,8 @@ def _read(
 ) -> tuple[Made_co, tuple[Doubt, ...]]:
     """What is made of a file's entries, and what is odd about the file."""
     where = str(path)
-    records = load_records(path)
+    named = set(asked.entries.values())
+    records = load_wanted_records(path, partial(_is_wanted, named=named))
     found = contents_of(records)
     damage = found.damage
     lost = tuple(_orphaned(found.orphans, where))
@@ -105,6 +110,13 @@ def _read(
     if not damage.torn and spans[0].end == FOREVER:
         raise _unreadable(damage, records.end, where, "no run is whole before it")
     return made, (*lost, _partly(damage, where))
+
+
+def _is_wanted(entry: Start, *, named: Collection[str]) -> bool:
+    """Whether the values of an entry may be needed: any text may name tests."""
+    if entry.name in named or entry.type == STRING:
+        return True
+    return entry.type in NUMBERS and may_be_signal(entry.name, entry.metadata)
 
 
 def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> UnreadableFile:
