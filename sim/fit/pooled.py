@@ -115,7 +115,8 @@ def _merged(several: Mapping[str, list[Doubt]], *, whole: int) -> list[Doubt]:
     if len(kinds) == 1 and len(several) == whole:
         return list(next(iter(kinds)))
     worst = max(several.values(), key=lambda doubts: any(doubt.grave for doubt in doubts))
-    names = ", ".join(several)
+    first, *others = several
+    names = f"{first} and {len(others)} more" if len(others) > 1 else ", ".join(several)
     return [replace(doubt, message=f"{names}: {doubt.message}") for doubt in worst]
 
 
