@@ -13,7 +13,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
-from sim.support.command_line import run
+from sim.support.command_line import run_command
 
 SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
 DRIVE = MECHANISMS["drivetrain"]
@@ -51,7 +51,7 @@ def two_sided(folder, *, right=DRIVE, name="drive.json"):
     sides = [simulate(one, SHORT, rng=np.random.default_rng(4)) for one in (DRIVE, right)]
     document = {"test": "Drivetrain", "units": "Meters", "unitsPerRotation": 1.0, "sysid": True}
     for key, test in RUNS.items():
-        (a,), (b,) = (side.of(test) for side in sides)
+        (a,), (b,) = (side.runs_of_test(test) for side in sides)
         n = min(len(a), len(b))
         columns = (a.time, a.voltage, b.voltage, a.position, b.position, a.velocity, b.velocity)
         still = np.zeros(n)

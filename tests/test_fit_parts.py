@@ -18,7 +18,7 @@ from sim.cli import sysid
 from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.fit.pooled import pool_fits, pool_values
-from sim.support.command_line import run
+from sim.support.command_line import run_command
 
 ROUTINE = Routine(ramp=0.5, step=4.0, timeout=4.0)
 DRIVE = MECHANISMS["drivetrain"]
@@ -40,7 +40,7 @@ def old_file(path, left, right):
     """A drivetrain as SysId wrote it until 2023."""
     document = {"test": "Drivetrain", "units": "Meters", "unitsPerRotation": 1.0, "sysid": True}
     for key, test in RUNS.items():
-        (a,), (b,) = left.of(test), right.of(test)
+        (a,), (b,) = left.runs_of_test(test), right.runs_of_test(test)
         n = min(len(a), len(b))
         columns = (a.time, a.voltage, b.voltage, a.position, b.position, a.velocity, b.velocity)
         rows = [*(one[:n] for one in columns), np.zeros(n), np.zeros(n)]

@@ -13,7 +13,7 @@ from sim.cli import sysid
 from sim.core.doubt import Doubt
 from sim.fit import fit
 from sim.report.gain_verdicts import gain_verdict
-from sim.support.command_line import run
+from sim.support.command_line import run_command
 
 LOG = simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(2))
 FOUND = replace(

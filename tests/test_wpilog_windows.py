@@ -13,7 +13,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.io.formats.wpilog import windows
-from sim.io.formats.wpilog.contents import contents_of
+from sim.io.formats.wpilog.contents import read_contents
 from sim.io.formats.wpilog.records import load_records
 from sim.io.formats.wpilog.windows import load_wanted_records
 
@@ -65,9 +65,9 @@ def test_windows_change_nothing(tmp_path, several, cut, tail, name):
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(windows, "FIRST", 24)
         patched.setattr(windows, "LARGEST", 64)
-        parts = contents_of(load_wanted_records(path, wanted))
+        parts = read_contents(load_wanted_records(path, wanted))
 
-    whole, damage, orphans = shape(contents_of(load_records(path)), wanted)
+    whole, damage, orphans = shape(read_contents(load_records(path)), wanted)
     assert shape(parts, wanted)[:2] == (whole, damage)
     if not name:
         assert parts.orphans == orphans

@@ -19,7 +19,7 @@ from typing import NamedTuple, Protocol, cast
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal, UnreadableFile
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
 from sim.io import formats
 from sim.io.entries.entry import Entry
@@ -52,7 +52,7 @@ class _Writer(Format, Protocol):
         """Write the log as a file."""
 
 
-class _Foreign(NamedTuple):
+class _ForeignFormat(NamedTuple):
     """How to know a file that is of no format here, and what to tell its owner."""
 
     starts: tuple[bytes, ...]
@@ -63,35 +63,35 @@ class _Foreign(NamedTuple):
 
 _ROBOT_LOG = "Give the robot's own log: the .wpilog that DataLogManager writes."
 _FOREIGN = (
-    _Foreign(
+    _ForeignFormat(
         (),
         (".hoot",),
         "a log of CTRE's SignalLogger (.hoot), whose inside only CTRE's tools can read",
         "Convert it to WPILOG with Phoenix Tuner X (Log Extractor) or with owlet, and give that.",
     ),
-    _Foreign(
+    _ForeignFormat(
         (b"\x00\x00\x00\x04",),  # both kinds of the Driver Station's files open with their version
         (".dslog", ".dsevents"),
         "a log of the Driver Station, which holds no motor's voltage or position",
         _ROBOT_LOG,
     ),
-    _Foreign(
+    _ForeignFormat(
         (),
         (".revlog", ".rlog"),
         "a log of REV's or AdvantageKit's own format",
         "Open it in AdvantageScope, export it as WPILOG, and give that.",
     ),
-    _Foreign(
+    _ForeignFormat(
         (b"PK\x03\x04", b"PK\x05\x06"),
         (),
         "a zip archive or a workbook of a spreadsheet program",
         "Unpack it, or save the sheet as CSV.",
     ),
-    _Foreign((b"\x1f\x8b",), (), "packed with gzip", "Unpack it first."),
-    _Foreign((b"\x89PNG", b"\xff\xd8\xff", b"GIF8"), (), "a picture", _ROBOT_LOG),
-    _Foreign((b"%PDF",), (), "a PDF document", _ROBOT_LOG),
-    _Foreign((b"\xff\xfe", b"\xfe\xff"), (), "text in UTF-16", "Save it as UTF-8."),
-    _Foreign(
+    _ForeignFormat((b"\x1f\x8b",), (), "packed with gzip", "Unpack it first."),
+    _ForeignFormat((b"\x89PNG", b"\xff\xd8\xff", b"GIF8"), (), "a picture", _ROBOT_LOG),
+    _ForeignFormat((b"%PDF",), (), "a PDF document", _ROBOT_LOG),
+    _ForeignFormat((b"\xff\xfe", b"\xfe\xff"), (), "text in UTF-16", "Save it as UTF-8."),
+    _ForeignFormat(
         (b"<!doctype html", b"<html"),
         (),
         "a web page (HTML)",
@@ -130,7 +130,7 @@ def read(
     given = os.fspath(path)
     with _named(given):
         log = _reader(Path(given), _head(given)).read(Path(given), asked)
-    return _typed(replace(log, source=given), type)
+    return _set_type(replace(log, source=given), type)
 
 
 def read_motors(
@@ -176,7 +176,7 @@ def read_motors(
             logs = cast("_WithMotors", module).read_motors(Path(given), asked)
         else:
             logs = {"": module.read(Path(given), asked)}
-    found = {name: _typed(replace(log, source=given), type) for name, log in logs.items()}
+    found = {name: _set_type(replace(log, source=given), type) for name, log in logs.items()}
     if not ignore_velocity:
         return found
     return {name: velocity_from_position(log) for name, log in found.items()}
@@ -195,7 +195,7 @@ def _asked(
     if type is not None and type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
     return ReadOptions(
-        units=None if units is None else unit(units).name,
+        units=None if units is None else find_unit(units).name,
         type=type,
         motor=motor,
         entries=dict(entries or {}),
@@ -273,7 +273,7 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
         ) from None
 
 
-def _typed(log: Log, wanted: str | None) -> Log:
+def _set_type(log: Log, wanted: str | None) -> Log:
     """The log with the type a person asked for, and a doubt if its file says another."""
     if wanted is None or wanted == log.type:
         return log
@@ -284,10 +284,10 @@ def _typed(log: Log, wanted: str | None) -> Log:
         f"{log.source} says it is of type {log.type}; it is taken as {wanted}, as you asked. "
         "Leave out the type to follow the file.",
     )
-    return replace(log, type=wanted).with_doubts(doubt)
+    return replace(log, type=wanted).add_doubts(doubt)
 
 
-def _modules(path: str) -> Iterator[tuple[str, Format]]:
+def _order_formats(path: str) -> Iterator[tuple[str, Format]]:
     """Every format by name, first those that share the suffix, so that few are imported."""
     ending = Path(path).suffix.lower().lstrip(".")
     for name in sorted(FORMATS, key=lambda name: not (ending and name.endswith(ending))):
@@ -296,7 +296,7 @@ def _modules(path: str) -> Iterator[tuple[str, Format]]:
 
 def _reader(path: Path, head: bytes) -> Format:
     """The format of a file that starts with ``head``."""
-    modules = _modules(path.name)
+    modules = _order_formats(path.name)
     seen = []
     for _, module in modules:
         if module.knows(head):
@@ -325,7 +325,7 @@ def _reader(path: Path, head: bytes) -> Format:
 def _writer(given: str) -> _Writer:
     """The format whose suffix ends the path."""
     writable: list[str] = []
-    for _, module in _modules(given):
+    for _, module in _order_formats(given):
         if hasattr(module, "write"):
             if given.lower().endswith(module.SUFFIXES):
                 return cast("_Writer", module)
@@ -356,7 +356,7 @@ def _head(given: str) -> bytes:
         with path.open("rb") as stream:
             return stream.read(HEAD)
     except (FileNotFoundError, NotADirectoryError):
-        raise UnreadableFile("there is no such file", advice=_neighbour(path)) from None
+        raise UnreadableFile("there is no such file", advice=_advise_similar_path(path)) from None
     except PermissionError:
         raise UnreadableFile(
             "you may not read this file", advice="Change its permissions, or copy it."
@@ -367,7 +367,7 @@ def _head(given: str) -> bytes:
         ) from None
 
 
-def _neighbour(path: Path) -> str:
+def _advise_similar_path(path: Path) -> str:
     """Advice for a path that leads nowhere: the name it is likely to mean, if there is one."""
     with suppress(OSError):
         names = [entry.name for entry in path.parent.iterdir() if entry.is_file()]

@@ -3,7 +3,7 @@
 A module offers
 
     SUFFIXES : tuple[str, ...]                 endings of its files, lower case: (".wpilog",)
-    def knows(head: bytes) -> bool             whether a file that starts like this is its own
+    def recognizes(head: bytes) -> bool             whether a file that starts like this is its own
     def read(path: Path, asked: ReadOptions) -> Log
     def write(log: Log, path: Path) -> None    optional: some formats are only read
     def entries(path: Path) -> list[Entry]     optional: where a log has entries with names
@@ -23,12 +23,12 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadSample
 from sim.core.log import LARGEST, Array, Log, Run
 
-HEAD = 4096  # [bytes] how much of a file `knows` is shown
+HEAD = 4096  # [bytes] how much of a file `recognizes` is shown
 
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What the person who reads a file knows about it; None where the file shall say.
+    """What the person who reads a file recognizes about it; None where the file shall say.
 
     Args:
         units: the unit of the positions in the file.
@@ -59,14 +59,14 @@ class Format(Protocol):
 
     SUFFIXES: tuple[str, ...]
 
-    def knows(self, head: bytes) -> bool:
+    def recognizes(self, head: bytes) -> bool:
         """Whether a file whose first bytes are ``head`` is of this format."""
 
     def read(self, path: Path, asked: ReadOptions) -> Log:
         """Read a file."""
 
 
-def lone_motor(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
+def doubt_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
     """A doubt if a motor was asked for in a file that holds the signals of one only."""
     if motor is None:
         return ()
@@ -79,7 +79,7 @@ def lone_motor(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
     )
 
 
-def sound_run(
+def make_run(
     test: str, signals: Mapping[str, Array], *, si: float, where: str
 ) -> tuple[Run, tuple[Doubt, ...]]:
     """Make a Run of raw columns: refuse what is no measurement, drop repeated times, go to SI.

@@ -76,7 +76,7 @@ def check_velocity(log: Log) -> Log:
             f"{log.source}: what is logged as the velocity is the position, so the slope of the "
             "position was taken for the velocity. Log the velocity in the robot's code.",
         )
-        return velocity_from_position(log).with_doubts(doubt)
+        return velocity_from_position(log).add_doubts(doubt)
     share = _scale(runs)
     if share is None or abs(share - 1.0) <= SCALE:
         return log
@@ -86,7 +86,7 @@ def check_velocity(log: Log) -> Log:
         f"the factors of both in the robot's code. If the position is right, say --velocity-scale "
         f"{1.0 / share:.3g} or --ignore-velocity.",
     )
-    return log.with_doubts(doubt)
+    return log.add_doubts(doubt)
 
 
 def _off_line(values: Array, line: Array) -> float:

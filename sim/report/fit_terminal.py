@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.table import Table
 
 from sim.core.log import Log
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
 from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
 from sim.fit.result import Fit, gain_unit
@@ -38,7 +38,7 @@ def show_fit(
         console: where to print; standard output if None.
     """
     console = console or Console(soft_wrap=True, highlight=False)
-    per = unit(found.units)
+    per = find_unit(found.units)
     doubts = found.doubts if tried else found.all_doubts(preset)
     for doubt in doubts:
         if doubt.grave:
@@ -79,16 +79,16 @@ def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) ->
     """Print what feedback gains do in simulation, a line each."""
     for trial in tried:
         step = f"{trial.response.target:.4g} {per.symbol}{'/s' * (trial.loop == 'velocity')}"
-        own = "your own " if trial.whose == OWN else ""
-        bad = "" if trial.good else " (no good start)"
+        own = "your own " if trial.owner == OWN else ""
+        bad = "" if trial.is_good else " (no good start)"
         console.print(
             f"  {own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} it "
-            f"{trial.verdict.words}"
+            f"{trial.verdict.description}"
         )
 
 
 def format_error(value: float, error: float) -> str:
-    """The error, or that it is below what matters on a robot, or that nobody knows it."""
+    """The error, or that it is below what matters on a robot, or that nobody recognizes it."""
     if not math.isfinite(error):
         return "not known"
     return f"< {FINEST:.2%} of it" if error < FINEST * abs(value) else f"{error:.2g}"

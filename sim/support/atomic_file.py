@@ -20,7 +20,7 @@ def write_atomically(path: Path, content: str | bytes, *, private: bool = False)
     Args:
         path: of the file; its folder has to be there.
         content: a text is written in UTF-8, with line ends as they are.
-        private: whether only the owner may read it, where a system knows owners (POSIX).
+        private: whether only the owner may read it, where a system recognizes owners (POSIX).
 
     Raises:
         OSError: it cannot be written; nothing is left behind.
@@ -35,7 +35,7 @@ def write_pieces_atomically(path: Path, pieces: Iterable[bytes], *, private: boo
     Args:
         path: of the file; its folder has to be there.
         pieces: one behind the other.
-        private: whether only the owner may read it, where a system knows owners (POSIX).
+        private: whether only the owner may read it, where a system recognizes owners (POSIX).
 
     Raises:
         OSError: it cannot be written; nothing is left behind.

@@ -20,19 +20,19 @@ from sim.support.atomic_file import write_pieces_atomically
 
 ENDING = ".key.json"
 JOURNAL = ".part"  # a journal's name is the key's with this behind it
-PRIVATE = 0o600  # for its owner only, where the system knows such a thing
+PRIVATE = 0o600  # for its owner only, where the system recognizes such a thing
 SEAL = "seal"
 
 Entry = Mapping[str, Any]
 
 
-def key_of(folder: Path) -> Path:
+def default_key_path(folder: Path) -> Path:
     """Where the key of a dataset lies if nobody says: beside its folder, not in it."""
     folder = Path(os.path.abspath(folder))  # noqa: PTH100 - as it is called, not where it leads
     return folder.with_name(f"{folder.name or 'dataset'}{ENDING}")
 
 
-def by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
+def entries_by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
     """The entry of each file."""
     return {file: entry for entry in entries for file in entry["files"]}
 

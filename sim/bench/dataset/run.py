@@ -8,12 +8,12 @@ from pathlib import Path
 
 from sim.bench.dataset.folder import Shelf, Survey, name_files, survey_folder
 from sim.bench.dataset.key import Entry, Journal, read_key, write_key
-from sim.bench.dataset.making import Failed, Made, make_log
+from sim.bench.dataset.making import FailedLog, Made, make_log
 from sim.bench.dataset.plan import LogJob
 from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
 
-Maker = Callable[[Sequence[LogJob]], Iterator[Made | Failed]]
+Maker = Callable[[Sequence[LogJob]], Iterator[Made | FailedLog]]
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class DatasetPlace:
     folder: Path
     key: Path
 
-    def keep_apart(self, *, spec: Path, secret: Path | None) -> None:
+    def check_separation(self, *, spec: Path, secret: Path | None) -> None:
         """Refuse a folder that would give the truth away with the data.
 
         Args:
@@ -157,9 +157,9 @@ def finish_dataset(
     journal.remove()
 
 
-def _sound(result: Made | Failed) -> Made:
+def _sound(result: Made | FailedLog) -> Made:
     """What was made, or a refusal with the place in the spec."""
-    if isinstance(result, Failed):
+    if isinstance(result, FailedLog):
         raise BadRequest(
             result.what, where=f"{result.job.where} ({result.job.name})", advice=result.advice
         )

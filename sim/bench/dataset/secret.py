@@ -113,7 +113,7 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
     if spec.seed is not None:
         return Secret(f"sysid dataset of seed {spec.seed}".encode(), hidden=False)
     set_ = os.environ.get(VARIABLE, "").strip().encode()
-    kept = kept_in(spec.secret) if spec.secret else b""
+    kept = read_secret(spec.secret) if spec.secret else b""
     if set_ and kept and set_ != kept:
         raise BadRequest(
             f"the file of the secret and {VARIABLE} differ",
@@ -145,7 +145,7 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
     return Secret(secrets.token_hex(SIZE).encode(), hidden=True, new=spec.secret)
 
 
-def kept_in(path: Path) -> bytes:
+def read_secret(path: Path) -> bytes:
     """The secret in a file; empty if there is no such file.
 
     Raises:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.against import against_physics, compared_directions, parts_of
+from sim.cli.fit.against import check_against_physics, compared_directions, parts_of
 from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
 from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
 from sim.core.vocabulary import METHODS
@@ -134,21 +134,21 @@ def fit(  # noqa: PLR0917 - click passes options by name
     log = joined_log(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
     pooled = fit_parts(parts, find, kind=kind_of_parts(parts, len(files)))
-    found, notes = against_physics(pooled.found, log, parts=built), pooled.notes
+    found, notes = check_against_physics(pooled.found, log, parts=built), pooled.notes
     if not (as_json or paste):
         found, more = compared_directions(found, log, patient=html is not None)
         notes = (*more, *notes)
     found = found.in_log_units()
     tried = try_feedback_gains(found, PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
-    told = _Told(files, found, log, preset, tried, notes, pooled.to_json())
+    told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json())
     _write(told, html=html, plot=plot)
     told.echo(as_json=as_json, paste=paste, season=int(season))
     return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
 
 
 @dataclass(frozen=True, eq=False)
-class _Told:
+class _FitOutput:
     """What the command found."""
 
     files: tuple[Path, ...]
@@ -162,9 +162,9 @@ class _Told:
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> None:
         """Print what was asked for: robot code, JSON, or text for people."""
         if paste:
-            from sim.report.robot_code_snippet import robot_code_snippet  # noqa: PLC0415 - only with --paste
+            from sim.report.robot_code_snippet import write_robot_code  # noqa: PLC0415 - only with --paste
 
-            click.echo(robot_code_snippet(self.found, language=paste, season=season), nl=False)
+            click.echo(write_robot_code(self.found, language=paste, season=season), nl=False)
         elif as_json:
             click.echo(json.dumps(self.to_json(), allow_nan=False))
         else:
@@ -177,7 +177,7 @@ class _Told:
         own = [
             {"loop": one.loop, "kP": one.gains.kp, "kD": one.gains.kd, **one.verdict.to_json()}
             for one in self.tried
-            if one.whose == OWN
+            if one.owner == OWN
         ]
         said = self.found.to_json(PRESETS[self.preset])
         said |= {"own_feedback": own[0]} if own else {}
@@ -195,7 +195,7 @@ class _Told:
         )  # fmt: skip
 
 
-def _write(told: _Told, *, html: Path | None, plot: Path | None) -> None:
+def _write(told: _FitOutput, *, html: Path | None, plot: Path | None) -> None:
     """The files that were asked for."""
     if html is None and plot is None:
         return

@@ -31,7 +31,7 @@ def parts_of(
     return Parts(found, count, ratio, radius=radius, load=load)
 
 
-def against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit":
+def check_against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit":
     """The fit with what physics has against it in front of its doubts."""
     import numpy as np  # noqa: PLC0415 - --help must not wait for it
 

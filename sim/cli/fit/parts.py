@@ -68,7 +68,7 @@ def _joined(first: "Log", other: "Log") -> "Log":
     new = tuple(
         one for one in other.doubts if (one.code, one.message.replace(other.source, "")) not in said
     )
-    return first.and_also(replace(other, doubts=new))
+    return first.join(replace(other, doubts=new))
 
 
 @dataclass(frozen=True)

@@ -14,30 +14,30 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
 from sim.core.units import UNITS
-from sim.io.entries.discovery import driven_interval, find_devices
+from sim.io.entries.discovery import find_driven_interval, find_devices
 from sim.io.entries.entry import Entry
 from sim.io.entries.mirrored import turn_mirrored_motors
-from sim.io.entries.motors import EXPORT, MotorEntries, motors_of, no_motor
+from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, no_motor
 from sim.io.entries.names import (
     find_test_name,
     number_names,
     quote_names,
     split_name,
-    type_said,
+    find_type_in_name,
 )
 from sim.io.entries.runs import cut_runs
-from sim.io.entries.state import WORD, RunInterval, StateEntry, run_intervals, state_entries
+from sim.io.entries.state import WORD, RunInterval, StateEntry, find_run_intervals, find_state_entries
 from sim.io.format import ReadOptions
 
 
-def log_of_entries(
+def assemble_log(
     entries: Sequence[Entry], *, asked: ReadOptions, where: str
 ) -> tuple[Log, tuple[RunInterval, ...]]:
     """The log of one mechanism, several motors as their mean, and the times of its runs.
 
     Args:
         entries: of the whole log.
-        asked: what its reader knows: units, type, motor, and the names of entries.
+        asked: what its reader recognizes: units, type, motor, and the names of entries.
         where: the file, for messages.
 
     Raises:
@@ -49,7 +49,7 @@ def log_of_entries(
     return _log(found, found.motors, where=where), found.intervals
 
 
-def motor_logs_of_entries(
+def assemble_motor_logs(
     entries: Sequence[Entry], *, asked: ReadOptions, where: str
 ) -> tuple[dict[str, Log], tuple[RunInterval, ...]]:
     """The log of each motor of one mechanism by its name, and the times of the runs.
@@ -58,11 +58,11 @@ def motor_logs_of_entries(
 
     Args:
         entries: of the whole log.
-        asked: what its reader knows: units, type, motor, and the names of entries.
+        asked: what its reader recognizes: units, type, motor, and the names of entries.
         where: the file, for messages.
 
     Raises:
-        MissingSignal, BadRequest, BadSample: as ``log_of_entries``.
+        MissingSignal, BadRequest, BadSample: as ``assemble_log``.
     """
     found = _found(entries, asked=asked, where=where)
     logs = {motor.name: _log(found, (motor,), where=where) for motor in found.motors}
@@ -77,7 +77,7 @@ class _Mechanism:
         state: where its tests are named.
         intervals: when they ran.
         motors: its motors.
-        asked: what its reader knows, the type its name says included.
+        asked: what its reader recognizes, the type its name says included.
         type_by_name: whether only the name says the type.
         doubts: what was odd.
     """
@@ -95,9 +95,9 @@ def _found(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> _Mech
     state = _state(entries, asked=asked, where=where)
     by_name = asked.type is None
     if by_name:
-        asked = replace(asked, type=type_said(state.mechanism) or None)
-    intervals, strange = run_intervals(state, where=where)
-    motors, doubts, intervals = motors_of(state, entries, intervals, asked=asked, where=where)
+        asked = replace(asked, type=find_type_in_name(state.mechanism) or None)
+    intervals, strange = find_run_intervals(state, where=where)
+    motors, doubts, intervals = find_motors(state, entries, intervals, asked=asked, where=where)
     return _Mechanism(state, intervals, motors, asked, by_name, (*doubts, *strange))
 
 
@@ -131,14 +131,14 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
         BadRequest: there are several, and what was asked for does not tell which.
     """
     try:
-        found = state_entries(entries, asked=asked, where=where)
+        found = find_state_entries(entries, asked=asked, where=where)
     except MissingSignal as missing:
         named = None if asked.entries else _state_of_file_name(Path(where), entries)
         if named is not None:
             return named
         if asked.entries or any(split_name(entry.name, WORD) for entry in entries):
             raise
-        if any(device.whole for device in find_devices(entries)):
+        if any(device.is_complete for device in find_devices(entries)):
             raise
         lacking = no_motor(entries, where=where)
         raise MissingSignal(
@@ -164,16 +164,16 @@ def _state_of_file_name(path: Path, entries: Sequence[Entry]) -> StateEntry | No
     """The one test of a file whose name tells it: the longest time that something is driven."""
     test = find_test_name(path.stem)
     devices = find_devices(entries)
-    interval = driven_interval(test, devices) if test else None
+    interval = find_driven_interval(test, devices) if test else None
     if interval is None:
         return None
-    entry = next(one.signals["voltage"] for one in devices if one.whole)
+    entry = next(one.signals["voltage"] for one in devices if one.is_complete)
     return StateEntry("", "", entry, (interval,))
 
 
 def _has_motor(state: StateEntry, entries: Sequence[Entry], asked: ReadOptions) -> bool:
     """Whether a mechanism has the motor that is asked for."""
     with suppress(Refusal):
-        tests, _ = run_intervals(state, where="")
-        return bool(motors_of(state, entries, tests, asked=asked, where=""))
+        tests, _ = find_run_intervals(state, where="")
+        return bool(find_motors(state, entries, tests, asked=asked, where=""))
     return False

@@ -36,7 +36,7 @@ def _turned(log: Log, name: str) -> Log:
         "positive one; its signals were reversed. If it is not mounted the other way round, look "
         "at which motors are inverted.",
     )
-    return replace(log, runs=tuple(map(_reversed, log.runs))).with_doubts(doubt)
+    return replace(log, runs=tuple(map(_reversed, log.runs))).add_doubts(doubt)
 
 
 def _reversed(run: Run) -> Run:

@@ -13,19 +13,19 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
 from sim.io.entries.discovery import (
     DeviceGroup,
-    driven_devices,
+    select_driven_devices,
     find_devices,
     group_by_tests,
-    signal_of,
+    identify_signal,
 )
 from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry
 from sim.io.entries.names import (
-    asked_for,
+    find_requested_entry,
     explain_unfit_entry,
     number_names,
     quote_names,
     split_name,
-    words_of,
+    split_words,
 )
 from sim.io.entries.state import WORD, RunInterval, StateEntry
 from sim.io.format import ReadOptions
@@ -55,7 +55,7 @@ class MotorEntries:
     signals: Mapping[str, Entry]
 
     @property
-    def whole(self) -> bool:
+    def is_complete(self) -> bool:
         """Whether it has all that a fit needs."""
         return all(signal in self.signals for signal in NEEDED)
 
@@ -71,7 +71,7 @@ class _Search:
     where: str
 
 
-def motors_of(
+def find_motors(
     state: StateEntry,
     entries: Sequence[Entry],
     tests: Sequence[RunInterval],
@@ -99,7 +99,7 @@ def motors_of(
     rivals = tuple(name for name in named if name.endswith(f"-{state.mechanism}"))
     search = _Search(entries, state, rivals, asked, where)
     given = {
-        signal: asked_for(name, role=signal, kinds=NUMBERS, entries=entries, where=where)
+        signal: find_requested_entry(name, role=signal, kinds=NUMBERS, entries=entries, where=where)
         for signal, name in asked.entries.items()
         if signal in NEEDED + OPTIONAL
     }
@@ -111,12 +111,12 @@ def motors_of(
     if asked.ignore_velocity:
         found = [_without_velocity(motor) for motor in found]
     noted: tuple[Doubt, ...] = ()
-    if not given and not any(motor.whole for motor in found):
+    if not given and not any(motor.is_complete for motor in found):
         other, tests = _of_other_loggers(search, tests)
         found, noted = other or found, (_taken(other, where),) if other else ()
     if asked.motor is not None:
         found = [_chosen(found, search)]
-    whole = tuple(motor for motor in found if motor.whole)
+    whole = tuple(motor for motor in found if motor.is_complete)
     if not (whole or given or found or split_name(state.entry.name, WORD)):
         raise no_motor(entries, where=where, mechanism=state.mechanism)
     if not whole:
@@ -136,9 +136,9 @@ def _of_other_loggers(
     devices = find_devices(search.entries)
     if search.asked.ignore_velocity:
         devices = [one.without_velocity() for one in devices]
-    driven = driven_devices(devices, tests)
-    words = set(words_of(search.state.mechanism))
-    some = [one for one in driven if words & set(words_of(one.name))] or driven
+    driven = select_driven_devices(devices, tests)
+    words = set(split_words(search.state.mechanism))
+    some = [one for one in driven if words & set(split_words(one.name))] or driven
     if search.asked.motor is None and some:
         groups = group_by_tests(some, tests)
         some, tests = groups[0] if len(groups) == 1 else _picked(groups, search)
@@ -279,7 +279,7 @@ def no_motor(entries: Sequence[Entry], *, where: str, mechanism: str = "") -> Mi
     what = f"no {' and no '.join(lacking)}" if lacking else "no motor with all three"
     near = [name for signal in NEEDED for name in _near(signal, entries, mechanism)]
     said = f"; nearest are {quote_names(list(dict.fromkeys(near)))}" if near else ""
-    arrays = [one.name for one in entries if one.type.endswith("[]") and signal_of(one)]
+    arrays = [one.name for one in entries if one.type.endswith("[]") and identify_signal(one)]
     said += f"; arrays cannot be used: {quote_names(arrays)}" if arrays else ""
     return MissingSignal(
         f"{what} that moves with the tests: a motor needs a voltage entry, a position and a "

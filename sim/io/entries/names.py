@@ -36,7 +36,7 @@ def split_name(name: str, word: str) -> EntryName | None:
     return EntryName(*found.groups()) if found else None
 
 
-def words_of(name: str) -> list[str]:
+def split_words(name: str) -> list[str]:
     """The words of a name, lower case: ``DriveVelocityRadPerSec`` is drive velocity rad per sec."""
     return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+", name)]
 
@@ -51,7 +51,7 @@ def find_test_name(text: str, *, fillers: Collection[str] | None = None) -> str:
     Returns:
         One of ``TESTS``; empty if it names none, or several.
     """
-    words = [_SAME.get(word, word) for word in words_of(text)]
+    words = [_SAME.get(word, word) for word in split_words(text)]
     kinds, ways = set(KINDS).intersection(words), set(DIRECTIONS).intersection(words)
     if len(kinds) != 1 or len(ways) != 1:
         return ""
@@ -67,16 +67,16 @@ def split_unit(name: str) -> tuple[str, str]:
     return (found[1], found[2].strip()) if found else (name, "")
 
 
-def type_said(mechanism: str) -> str:
+def find_type_in_name(mechanism: str) -> str:
     """``elevator`` or ``arm`` where that is a word of a mechanism's name; empty if not, or both.
 
     ``left-Elevator``, ``ElevatorSubsystem`` and ``ARM_1`` say it, ``alarm`` does not.
     """
-    said = {"elevator", "arm"}.intersection(words_of(mechanism))
+    said = {"elevator", "arm"}.intersection(split_words(mechanism))
     return said.pop() if len(said) == 1 else ""
 
 
-def asked_for(
+def find_requested_entry(
     name: str, *, role: str, kinds: Collection[str], entries: Sequence[Entry], where: str
 ) -> Entry:
     """The entry that a person named to play a role.

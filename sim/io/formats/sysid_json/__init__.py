@@ -14,10 +14,10 @@ from pathlib import Path
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
-from sim.core.units import unit
-from sim.io.format import ReadOptions, lone_motor, sound_run
+from sim.core.units import find_unit
+from sim.io.format import ReadOptions, doubt_motor_choice, make_run
 from sim.io.formats.sysid_json.drivetrain import SIDES, two_sides
-from sim.io.formats.sysid_json.rows import Form, check_columns, form_of, load_json, tables_of
+from sim.io.formats.sysid_json.rows import Form, check_columns, detect_form, load_json, parse_tables
 from sim.io.formats.sysid_json.said import StatedUnits, said_in
 from sim.io.formats.sysid_json.side import Side, one_side
 
@@ -25,7 +25,7 @@ SUFFIXES = (".json",)
 _KEY = re.compile(rb'"(slow-forward|slow-backward|fast-forward|fast-backward|track-width|sysid)"')
 
 
-def knows(head: bytes) -> bool:
+def recognizes(head: bytes) -> bool:
     """Whether it starts as a JSON object and soon names one of the tools' keys."""
     return head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{") and bool(_KEY.search(head))
 
@@ -35,7 +35,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
 
     Args:
         path: the file.
-        asked: what its reader knows: units, type, and which side of a drivetrain (``motor``).
+        asked: what its reader recognizes: units, type, and which side of a drivetrain (``motor``).
 
     Raises:
         UnreadableFile: damaged JSON, rows of a width no tool wrote, or no run at all.
@@ -88,8 +88,8 @@ class _Document:
             )
         document = load_json(path)
         said = said_in(document, asked, where=where)
-        tables, doubts = tables_of(document, where=where)
-        form = form_of(tables, said, where=where)
+        tables, doubts = parse_tables(document, where=where)
+        form = detect_form(tables, said, where=where)
         check_columns(tables, form, where=where)
         return cls(where, said, tables, form, (*said.doubts, *doubts))
 
@@ -104,7 +104,7 @@ class _Document:
             signals = sides[test].signals(time=table[:, 0], scale=said.per_rotation)
             if form.battery is not None:
                 signals["bus_voltage"] = table[:, form.battery]
-            run, repeated = sound_run(test, signals, si=unit(said.units).si, where=self.where)
+            run, repeated = make_run(test, signals, si=find_unit(said.units).si, where=self.where)
             runs.append(run)
             doubts.extend(repeated)
         return Log(
@@ -127,5 +127,5 @@ def _sides(
     ]
     if len(found) == 1:
         sides, doubts = one_side(found[0], where=where)
-        return sides, [*doubts, *lone_motor(motor, where=where)]
+        return sides, [*doubts, *doubt_motor_choice(motor, where=where)]
     return two_sides(found, motor=motor or "combined", angular=said.angular, where=where)

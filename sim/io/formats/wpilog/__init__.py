@@ -14,19 +14,19 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.errors import MissingSignal, UnreadableFile
 from sim.core.log import Log
-from sim.io.entries import log_of_entries, motor_logs_of_entries
+from sim.io.entries import assemble_log, assemble_motor_logs
 from sim.io.entries.discovery import may_be_signal
 from sim.io.entries.entry import NUMBERS, STRING, Entry
 from sim.io.entries.state import FOREVER, RunInterval
 from sim.io.format import ReadOptions
-from sim.io.formats.wpilog.contents import FileDamage, contents_of
+from sim.io.formats.wpilog.contents import FileDamage, read_contents
 from sim.io.formats.wpilog.control import Start
 from sim.io.formats.wpilog.entry import FileEntry
 from sim.io.formats.wpilog.records import MAGIC, load_records
 from sim.io.formats.wpilog.windows import load_wanted_records
 from sim.io.formats.wpilog.writing import write
 
-__all__ = ["SUFFIXES", "entries", "knows", "read", "read_motors", "write"]
+__all__ = ["SUFFIXES", "entries", "recognizes", "read", "read_motors", "write"]
 
 SUFFIXES = (".wpilog",)
 Made_co = TypeVar("Made_co", covariant=True)
@@ -41,7 +41,7 @@ class _Maker(Protocol[Made_co]):
         """What is made, and the times of its runs."""
 
 
-def knows(head: bytes) -> bool:
+def recognizes(head: bytes) -> bool:
     """Whether a file that starts like this is a WPILOG file."""
     return head.startswith(MAGIC)
 
@@ -52,7 +52,7 @@ def entries(path: Path) -> list[FileEntry]:
     Raises:
         UnreadableFile: it is foreign or empty.
     """
-    return list(contents_of(load_records(path)).entries)
+    return list(read_contents(load_records(path)).entries)
 
 
 def read(path: Path, asked: ReadOptions) -> Log:
@@ -60,7 +60,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
 
     Args:
         path: the file.
-        asked: what its reader knows: units, motor, and the names of entries.
+        asked: what its reader recognizes: units, motor, and the names of entries.
 
     Raises:
         UnreadableFile: it is foreign, empty, or damaged before the end of the first run.
@@ -68,8 +68,8 @@ def read(path: Path, asked: ReadOptions) -> Log:
         BadRequest: what was asked for is not in it, or it holds several mechanisms.
         BadSample: it holds a number that cannot be a measurement.
     """
-    log, doubts = _read(path, asked, log_of_entries)
-    return log.with_doubts(*doubts)
+    log, doubts = _read(path, asked, assemble_log)
+    return log.add_doubts(*doubts)
 
 
 def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
@@ -77,13 +77,13 @@ def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
 
     Args:
         path: the file.
-        asked: what its reader knows: units, motor, and the names of entries.
+        asked: what its reader recognizes: units, motor, and the names of entries.
 
     Raises:
         Refusal: as ``read``.
     """
-    logs, doubts = _read(path, asked, motor_logs_of_entries)
-    return {name: log.with_doubts(*doubts) for name, log in logs.items()}
+    logs, doubts = _read(path, asked, assemble_motor_logs)
+    return {name: log.add_doubts(*doubts) for name, log in logs.items()}
 
 
 def _read(
@@ -93,7 +93,7 @@ def _read(
     where = str(path)
     named = set(asked.entries.values())
     records = load_wanted_records(path, partial(_is_wanted, named=named))
-    found = contents_of(records)
+    found = read_contents(records)
     damage = found.damage
     lost = tuple(_orphaned(found.orphans, where))
     if not found.entries:

@@ -61,7 +61,7 @@ class _Stop:
 
 
 @dataclass
-class _Life:
+class _EntryLife:
     """An entry from the record that starts it to the one that ends it, by index."""
 
     start: Start
@@ -79,7 +79,7 @@ class _Group:
     time: Numbers
     payload: Numbers
 
-    def during(self, life: _Life) -> "_Group":
+    def select_life(self, life: _EntryLife) -> "_Group":
         """Those of them that fall into one life."""
         if life.first < self.index[0] and self.index[-1] < life.last:
             return self
@@ -91,20 +91,20 @@ class _Group:
         return _Group(self.index[which], self.size[which], self.time[which], self.payload[which])
 
 
-_Lives: TypeAlias = dict[int, list[_Life]]
+_Lives: TypeAlias = dict[int, list[_EntryLife]]
 
 
-def contents_of(records: Records) -> Contents:
+def read_contents(records: Records) -> Contents:
     """Sort the records of a file into entries, up to the first record that cannot be."""
     head = records.head
     groups = _groups(head)
-    lives, stop = _lives(records, head, before=head.id.size)
+    lives, stop = _find_lives(records, head, before=head.id.size)
     stops = [stop] if stop else []
     for number, group in groups.items():
-        stops += _misfits(number, group, lives.get(number, ()))
+        stops += _find_misfits(number, group, lives.get(number, ()))
     if stops:
         stop = min(stops)
-        lives, _ = _lives(records, head, before=stop.index)
+        lives, _ = _find_lives(records, head, before=stop.index)
     orphans = sum(
         int(np.count_nonzero(groups[number].index < several[0].first))
         for number, several in lives.items()
@@ -127,7 +127,7 @@ def _groups(head: Fields) -> dict[int, _Group]:
     return {int(ids[a]): whole.of(slice(a, b)) for a, b in bounds if ids[a]}
 
 
-def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Stop | None]:
+def _find_lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Stop | None]:
     """When each entry began and ended, by the control records up to the first senseless one."""
     lives: _Lives = {}
     for index in np.flatnonzero(head.id[:before] == 0).tolist():
@@ -144,11 +144,11 @@ def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Sto
         elif current:
             current.last = index
         if isinstance(said, Start):
-            known.append(_Life(said, said.metadata, index, before))
+            known.append(_EntryLife(said, said.metadata, index, before))
     return lives, None
 
 
-def _misfits(number: int, group: _Group, lives: Sequence[_Life]) -> Iterator[_Stop]:
+def _find_misfits(number: int, group: _Group, lives: Sequence[_EntryLife]) -> Iterator[_Stop]:
     """The first record of an id that belongs to no entry, and any of a size its type cannot have.
 
     Records before a start, or between a finish and the next start, are passed over, as WPILib's own
@@ -158,7 +158,7 @@ def _misfits(number: int, group: _Group, lives: Sequence[_Life]) -> Iterator[_St
         yield _Stop(int(group.index[0]), f"a record of entry {number}, which was never started")
     for life in lives:
         if life.start.type in SIZES:
-            part = group.during(life)
+            part = group.select_life(life)
             wrong = part.size != SIZES[life.start.type]
             if wrong.any():
                 at = int(wrong.argmax())
@@ -168,22 +168,22 @@ def _misfits(number: int, group: _Group, lives: Sequence[_Life]) -> Iterator[_St
 
 def _joined(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[FileEntry]:
     """One entry for all lives of the same name and type, in the order they first appear."""
-    named: dict[tuple[str, str], list[_Life]] = {}
+    named: dict[tuple[str, str], list[_EntryLife]] = {}
     for life in sorted(chain.from_iterable(lives.values()), key=lambda life: life.first):
         named.setdefault((life.start.name, life.start.type), []).append(life)
     none = np.zeros(0, dtype=np.int64)
     for (name, kind), several in named.items():
         parts = [
-            groups[life.start.id].during(life) for life in several if life.start.id in groups
+            groups[life.start.id].select_life(life) for life in several if life.start.id in groups
         ] or [_Group(none, none, none, none)]
-        whole = parts[0] if len(parts) == 1 else _one_after_another(parts)
+        whole = parts[0] if len(parts) == 1 else _concatenate_groups(parts)
         if (whole.time[1:] < whole.time[:-1]).any():
             whole = whole.of(np.argsort(whole.time, kind="stable"))
         metadata = next((life.metadata for life in reversed(several) if life.metadata), "")
         yield FileEntry(name, kind, metadata, whole.time, whole.payload, whole.size, file)
 
 
-def _one_after_another(parts: Sequence[_Group]) -> _Group:
+def _concatenate_groups(parts: Sequence[_Group]) -> _Group:
     """Several groups as one."""
     columns = ("index", "size", "time", "payload")
     return _Group(*(np.concatenate([getattr(part, one) for part in parts]) for one in columns))

@@ -71,7 +71,7 @@ class File:
         return np.frombuffer(self.content, dtype=np.uint8)
 
     @cached_property
-    def letters(self) -> str:
+    def latin1_text(self) -> str:
         """Its content as text, one letter a byte."""
         return self.content.decode("latin-1")
 
