@@ -37,7 +37,7 @@ def assemble_log(
 
     Args:
         entries: of the whole log.
-        asked: what its reader recognizes: units, type, motor, and the names of entries.
+        asked: what its reader knows: units, type, motor, and the names of entries.
         where: the file, for messages.
 
     Raises:
@@ -58,7 +58,7 @@ def assemble_motor_logs(
 
     Args:
         entries: of the whole log.
-        asked: what its reader recognizes: units, type, motor, and the names of entries.
+        asked: what its reader knows: units, type, motor, and the names of entries.
         where: the file, for messages.
 
     Raises:
@@ -77,7 +77,7 @@ class _Mechanism:
         state: where its tests are named.
         intervals: when they ran.
         motors: its motors.
-        asked: what its reader recognizes, the type its name says included.
+        asked: what its reader knows, the type its name says included.
         type_by_name: whether only the name says the type.
         doubts: what was odd.
     """

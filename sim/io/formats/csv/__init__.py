@@ -59,7 +59,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
 
     Args:
         path: the file.
-        asked: what its reader recognizes: units, type, and columns of other names (``entries``).
+        asked: what its reader knows: units, type, and columns of other names (``entries``).
 
     Raises:
         UnreadableFile: not UTF-8, no rows, rows of unequal length, or an unknown test.

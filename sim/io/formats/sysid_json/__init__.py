@@ -35,7 +35,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
 
     Args:
         path: the file.
-        asked: what its reader recognizes: units, type, and which side of a drivetrain (``motor``).
+        asked: what its reader knows: units, type, and which side of a drivetrain (``motor``).
 
     Raises:
         UnreadableFile: damaged JSON, rows of a width no tool wrote, or no run at all.

@@ -60,7 +60,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
 
     Args:
         path: the file.
-        asked: what its reader recognizes: units, motor, and the names of entries.
+        asked: what its reader knows: units, motor, and the names of entries.
 
     Raises:
         UnreadableFile: it is foreign, empty, or damaged before the end of the first run.
@@ -77,7 +77,7 @@ def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
 
     Args:
         path: the file.
-        asked: what its reader recognizes: units, motor, and the names of entries.
+        asked: what its reader knows: units, motor, and the names of entries.
 
     Raises:
         Refusal: as ``read``.
