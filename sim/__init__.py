@@ -9,6 +9,14 @@ Importing ``sim`` sets NumPy's linear algebra to one thread, unless the environm
 """
 
 from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from sim.bench.mechanisms import MECHANISMS
+    from sim.bench.routine import Routine
+    from sim.core.errors import Refusal
+    from sim.core.log import Log, Run
+    from sim.io import read, write
 
 from sim.support.blas_threads import use_one_blas_thread
 

@@ -94,10 +94,10 @@ def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
     for log in key(folder)["logs"]:
         (hidden,) = log["hidden"]
         built = replace(MECHANISMS[log["mechanism"]], **log["built"])
-        again = built.hiding(hidden["effect"], size=hidden["size"])
+        again = built.hide(hidden["effect"], size=hidden["size"])
         found[hidden["effect"]] = hidden["size"]
         assert 1.5 <= hidden["size"] <= 2.0
-        assert again.hidden[0].said(find_unit(log["units"])) == hidden["parameters"]
+        assert again.hidden[0].to_json(find_unit(log["units"])) == hidden["parameters"]
     assert set(found) == {"drag", "stribeck"}  # four logs with this seed draw both
     assert not [name for name, data in files(folder).items() if clean[name] == data]
 
@@ -181,7 +181,7 @@ def test_a_key_of_any_length_takes_the_memory_of_one_entry(tmp_path):
     most = []
     for count in (200, 2_000):
         journal = Journal(tmp_path / f"{count}.key.json", secret=secret)
-        journal.begin(
+        journal.start(
             {"files": {f"log-{n:05}.csv": "0" * 64}, "plan": "p" * 500} for n in range(count)
         )
         tracemalloc.start()

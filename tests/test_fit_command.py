@@ -32,7 +32,7 @@ def fit(capsys):
 
     def ran(*arguments):
         capsys.readouterr()
-        code = run(sysid, name="sysid", arguments=["fit", *map(str, arguments)])
+        code = run_command(sysid, name="sysid", arguments=["fit", *map(str, arguments)])
         said = capsys.readouterr()
         return code, said.out, said.err
 

@@ -78,7 +78,7 @@ def fit_json(capsys):
     def ran(*arguments):
         capsys.readouterr()
         arguments = ["fit", "--json", *map(str, arguments)]
-        code = run(sysid, name="sysid", arguments=arguments)
+        code = run_command(sysid, name="sysid", arguments=arguments)
         said = capsys.readouterr()
         return json.loads(said.out) if code < 2 else said.err
 

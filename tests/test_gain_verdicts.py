@@ -80,7 +80,7 @@ def test_what_is_wrong_stands_above_the_gains(tmp_path, capsys):
     turned = replace(LOG, runs=tuple(replace(r, voltage=-r.voltage) for r in LOG.runs))
     sim.write(turned, tmp_path / "a.csv")
 
-    code = run(sysid, name="sysid", arguments=["fit", str(tmp_path / "a.csv")])
+    code = run_command(sysid, name="sysid", arguments=["fit", str(tmp_path / "a.csv")])
 
     assert code == 1
     lines = capsys.readouterr().out.splitlines()

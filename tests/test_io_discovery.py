@@ -20,7 +20,7 @@ from sim.cli import sysid
 from sim.core.errors import MissingSignal, Refusal
 from sim.core.units import UNITS
 from sim.fit import fit
-from sim.support import command_line
+from sim.support.command_line import run_command
 
 ROUTINE = Routine(ramp=0.5, step=4.0)
 ADVANTAGESCOPE = '{"exporter":"AdvantageScope"}'
@@ -307,7 +307,7 @@ def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
     path = write(tmp_path / "a.wpilog", log, PHOENIX, factors=rotations(log), state="My-State",
                  more=(("Phoenix6/TalonFX-21/DeviceTemp", lambda run: run.time),))  # fmt: skip
 
-    assert command_line.run_command(sysid, name="sysid", arguments=["entries", str(path), "--json"]) == 0
+    assert run_command(sysid, name="sysid", arguments=["entries", str(path), "--json"]) == 0
 
     rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)}
     signals = {name: row["signal"] for name, row in rows.items()}
@@ -316,16 +316,14 @@ def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
         "My-State": "state", "Phoenix6/TalonFX-21/DeviceTemp": "",
     }  # fmt: skip
     assert rows[PHOENIX[2][0]]["unit"] == "rotations per second"
-    assert command_line.run_command(sysid, name="sysid", arguments=["entries", str(path)]) == 0
+    assert run_command(sysid, name="sysid", arguments=["entries", str(path)]) == 0
     assert capsys.readouterr().out.startswith("5 entries:\nstate ")
 
 
 def test_a_log_without_entries_says_so(tmp_path, capsys):
     sim.write(recorded(), tmp_path / "a.csv")
 
-    assert (
-        command_line.run_command(sysid, name="sysid", arguments=["entries", str(tmp_path / "a.csv")]) == 2
-    )
+    assert run_command(sysid, name="sysid", arguments=["entries", str(tmp_path / "a.csv")]) == 2
     assert "its columns are signals" in capsys.readouterr().err
 
 
@@ -421,7 +419,7 @@ def test_several_mechanisms_are_a_numbered_list_to_pick_from(tmp_path, capsys, s
 
     def ran(*more):
         arguments = ["fit", "--json", str(path), *more]
-        return command_line.run_command(sysid, name="sysid", arguments=arguments), capsys.readouterr()
+        return run_command(sysid, name="sysid", arguments=arguments), capsys.readouterr()
 
     code, said = ran()
     assert code == 2
@@ -478,7 +476,7 @@ def test_a_velocity_that_is_wrong_or_missing(tmp_path, capsys, spoiled, asked, r
         logger.put("Mode", time + 20_000, "none")
     path = logger.save(tmp_path / "a.wpilog")
 
-    code = command_line.run_command(sysid, name="sysid", arguments=["fit", "--json", str(path), *asked])
+    code = run_command(sysid, name="sysid", arguments=["fit", "--json", str(path), *asked])
 
     said = capsys.readouterr()
     if refused:
@@ -498,5 +496,5 @@ def test_a_scale_that_is_none_is_refused(tmp_path, capsys, scale):
     sim.write(recorded(), tmp_path / "a.csv")
     arguments = ["fit", str(tmp_path / "a.csv"), "--velocity-scale", scale]
 
-    assert command_line.run_command(sysid, name="sysid", arguments=arguments) == 2
+    assert run_command(sysid, name="sysid", arguments=arguments) == 2
     assert "not a finite number other than zero" in capsys.readouterr().err

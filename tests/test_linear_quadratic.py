@@ -52,8 +52,8 @@ def test_a_fit_in_json_imports_no_scipy(tmp_path):
         "log = simulate(MECHANISMS['drivetrain'], sim.Routine(), rng=np.random.default_rng(1))\n"
         "sim.write(log, sys.argv[1])\n"
         "from sim.cli import sysid\n"
-        "from sim.support.command_line import run\n"
-        "code = run(sysid, name='sysid', arguments=['fit', '--json', sys.argv[1]])\n"
+        "from sim.support.command_line import run_command\n"
+        "code = run_command(sysid, name='sysid', arguments=['fit', '--json', sys.argv[1]])\n"
         "assert code == 0 and not [name for name in sys.modules if name.startswith('scipy')]\n"
     )
     done = subprocess.run(

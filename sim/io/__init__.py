@@ -128,7 +128,7 @@ def read(
     """
     asked = _asked(units=units, type=type, motor=motor, entries=entries)
     given = os.fspath(path)
-    with _named(given):
+    with _name_file_in_refusals(given):
         log = _reader(Path(given), _head(given)).read(Path(given), asked)
     return _set_type(replace(log, source=given), type)
 
@@ -170,7 +170,7 @@ def read_motors(
         pick=pick,
     )
     given = os.fspath(path)
-    with _named(given):
+    with _name_file_in_refusals(given):
         module = _reader(Path(given), _head(given))
         if hasattr(module, "read_motors"):
             logs = cast("_WithMotors", module).read_motors(Path(given), asked)
@@ -215,7 +215,7 @@ def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
         BadRequest: a log of its format has no entries with names of their own.
     """
     given = os.fspath(path)
-    with _named(given):
+    with _name_file_in_refusals(given):
         module = _reader(Path(given), _head(given))
         if not hasattr(module, "entries"):
             raise BadRequest(
@@ -226,7 +226,7 @@ def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
 
 
 @contextmanager
-def _named(given: str) -> Iterator[None]:
+def _name_file_in_refusals(given: str) -> Iterator[None]:
     """Every refusal names the file as it was given."""
     try:
         yield
@@ -251,6 +251,16 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
     Raises:
         BadRequest: no format with this suffix can be written, the file cannot be, or the log
             holds what the format cannot.
+
+    Examples:
+        >>> import tempfile
+        >>> from sim.core.log import Log, Run
+        >>> folder = tempfile.TemporaryDirectory()
+        >>> run = Run("dynamic-forward", [0.0, 0.02], [7.0, 7.0], [0.0, 0.0], [0.0, 1.0])
+        >>> write(Log((run,)), f"{folder.name}/log.csv")
+        >>> read(f"{folder.name}/log.csv").runs[0].velocity
+        array([0., 1.])
+        >>> folder.cleanup()
     """
     given = os.fspath(path)
     if "\0" in given:
@@ -299,7 +309,7 @@ def _reader(path: Path, head: bytes) -> Format:
     modules = _order_formats(path.name)
     seen = []
     for _, module in modules:
-        if module.knows(head):
+        if module.recognizes(head):
             return module
         seen.append(module)
     suffix = path.suffix.lower()

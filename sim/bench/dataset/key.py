@@ -184,7 +184,7 @@ class Journal:
         entry: Entry = json.loads(content)
         return entry
 
-    def begin(self, entries: Iterable[Entry]) -> None:
+    def start(self, entries: Iterable[Entry]) -> None:
         """Start with what is known already; what else was in it goes.
 
         Raises:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sim.bench.dataset.spec import ENDING, Spec
-from sim.bench.dataset.student import same
+from sim.bench.dataset.student import normalize_name
 from sim.core.errors import BadRequest
 
 VARIABLE = "SYSID_SECRET"  # of the environment; holds the secret itself
@@ -42,7 +42,7 @@ class Secret:
         """Without the value: a message may hold this."""
         return f"Secret(hidden={self.hidden}, new={self.new})"
 
-    def seed(self, *which: str | int) -> int:
+    def derive_seed(self, *which: str | int) -> int:
         """The number that one thing is drawn from."""
         return int.from_bytes(self._code("seed", json.dumps(which).encode()), "big")
 
@@ -64,7 +64,7 @@ class Secret:
         """A secret of its own for each purpose."""
         return hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
 
-    def keep(self) -> None:
+    def save(self) -> None:
         """Write a new secret to its file, for its owner only.
 
         Raises:
@@ -97,7 +97,9 @@ def log_seed(
         mechanism: its name.
         number: which log of that mechanism, from 1.
     """
-    return secret.seed(dataset, same(student) if student else "", block, mechanism, number)
+    return secret.derive_seed(
+        dataset, normalize_name(student) if student else "", block, mechanism, number
+    )
 
 
 def find_secret(spec: Spec, *, make: bool) -> Secret:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.against import check_against_physics, compared_directions, parts_of
+from sim.cli.fit.against import check_against_physics, compare_directions_alone, read_motor_parts
 from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
 from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
 from sim.core.vocabulary import METHODS
@@ -126,7 +126,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
-    built = parts_of(driven_by, count=count, ratio=ratio, radius=radius, load=load)
+    built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
     velocity = None if ignore_velocity else velocity_scale
     parts = read_parts(
         files, units=units, type=type_, motor=motor, entries=entries, velocity=velocity, pick=pick
@@ -136,7 +136,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     pooled = fit_parts(parts, find, kind=kind_of_parts(parts, len(files)))
     found, notes = check_against_physics(pooled.found, log, parts=built), pooled.notes
     if not (as_json or paste):
-        found, more = compared_directions(found, log, patient=html is not None)
+        found, more = compare_directions_alone(found, log, patient=html is not None)
         notes = (*more, *notes)
     found = found.in_log_units()
     tried = try_feedback_gains(found, PRESETS[preset], own=own)

@@ -16,16 +16,16 @@ if TYPE_CHECKING:
 MANY = 20_000  # samples: of a longer log the directions take seconds; only a page waits for them
 
 
-def parts_of(
+def read_motor_parts(
     name: str | None, *, count: int, ratio: float | None, radius: float, load: float | None
 ) -> "Parts | None":
     """What drives it, if that was said."""
     if name is None:
         return None
     from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
-    from sim.physics.motors import motor  # noqa: PLC0415
+    from sim.physics.motors import find_motor  # noqa: PLC0415
 
-    found = motor(name)
+    found = find_motor(name)
     if ratio is None:
         raise click.UsageError("Missing option '--ratio': motor turns per turn of the output.")
     return Parts(found, count, ratio, radius=radius, load=load)
@@ -41,7 +41,7 @@ def check_against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") ->
     return _doubted(found, *physical_doubts(found, parts=parts, period=period), first=True)
 
 
-def compared_directions(
+def compare_directions_alone(
     found: "Fit", log: "Log", *, patient: bool
 ) -> "tuple[Fit, tuple[str, ...]]":
     """The fit with what its directions, each fitted alone, say against it."""

@@ -4,8 +4,8 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.log import Array, Run
-from sim.core.units import unit
-from sim.fit.sysid_rows import noise_floor
+from sim.core.units import find_unit
+from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.log_features import MOVING, LogFeatures
 
 SLOWEST_FILTER = 0.3  # [s] no velocity is older
@@ -24,15 +24,16 @@ FULL = 12.0  # [V]
 FAR = 2.5  # [times] what is this far off is a fault, not a look
 
 
-def check_velocity_lag(clues: LogFeatures) -> list[Doubt]:
+def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
     """Velocities that come later than the slope of the positions beside them."""
     found = [
         lag
-        for index, run in enumerate(clues.log.runs)
-        if run.kind == "dynamic" and (lag := _lag(run, clues.slopes[index])) is not None
+        for index, run in enumerate(features.log.runs)
+        if run.kind == "dynamic"
+        and (lag := _velocity_lag(run, features.position_slopes[index])) is not None
     ]
     lag = float(np.median(found)) if found else 0.0
-    if lag <= max(LAG[0], LAG[1] * clues.period):
+    if lag <= max(LAG[0], LAG[1] * features.period):
         return []
     made = [name for name, age in FILTERS.items() if abs(lag / age - 1.0) < ALIKE]
     likely = f", as {made[0]} does" if made else ""
@@ -46,7 +47,7 @@ def check_velocity_lag(clues: LogFeatures) -> list[Doubt]:
     ]
 
 
-def _lag(run: Run, slope: Array) -> float | None:
+def _velocity_lag(run: Run, slope: Array) -> float | None:
     """[s] by which the slope has to be late to look most like the velocity; None if unclear."""
     speed = np.abs(run.velocity)
     top = run.top_speed
@@ -67,9 +68,9 @@ def _lag(run: Run, slope: Array) -> float | None:
     return float(lags[best])
 
 
-def check_velocity_scale(clues: LogFeatures) -> list[Doubt]:
+def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
     """Velocity and position that count the same motion a little differently."""
-    usual = float(np.median(clues.scales)) if clues.scales else 1.0
+    usual = float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
     if abs(usual - 1.0) < SCALE or not 1.0 / FAR < usual < FAR:
         return []
     return [
@@ -82,27 +83,27 @@ def check_velocity_scale(clues: LogFeatures) -> list[Doubt]:
     ]
 
 
-def check_plausible_speed(clues: LogFeatures) -> list[Doubt]:
+def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
     """A length that nothing on a robot covers in a second."""
-    per = unit(clues.log.units)
-    if clues.baseline is None or per.angular or FULL / clues.baseline.kv <= FASTEST:
+    per = find_unit(features.log.units)
+    if features.baseline is None or per.angular or FULL / features.baseline.kv <= FASTEST:
         return []
     return [
         Doubt(
             "too-fast",
-            f"At {FULL:g} V it would go {FULL / clues.baseline.kv:.3g} m/s: its position is hardly "
-            f"in {per.name}. Say --units radians, rotations or degrees, whichever it is.",
+            f"At {FULL:g} V it would go {FULL / features.baseline.kv:.3g} m/s: its position is "
+            f"hardly in {per.name}. Say --units radians, rotations or degrees, whichever it is.",
         )
     ]
 
 
-def check_rest_noise(clues: LogFeatures) -> list[Doubt]:
+def check_rest_noise(features: LogFeatures) -> list[Doubt]:
     """Standstill whose noise is small, and yet enough to pass SysId's own threshold."""
-    both = zip(clues.log.runs, clues.standing, strict=True)
+    both = zip(features.log.runs, features.rest_lengths, strict=True)
     ramps = {run: n for run, n in both if run.kind == "quasistatic" and len(run) > FEWEST}
     if not ramps:
         return []
-    threshold = min(noise_floor(run.velocity) for run in ramps)
+    threshold = min(estimate_noise_floor(run.velocity) for run in ramps)
     rests = [run.velocity[:still] for run, still in ramps.items()]
     noisy = [rest for rest in rests if rest.size and np.any(np.diff(rest))]
     passed = sum(int(np.sum(np.abs(rest) >= threshold)) for rest in noisy)

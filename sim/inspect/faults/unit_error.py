@@ -18,7 +18,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Log, Run
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
 
 TURN = 2.0 * math.pi
@@ -41,19 +41,21 @@ KNOWN: Mapping[str, float] = {
 MILD, ORDINARY, GROSS = (TURN,), (60.0, 360.0 / TURN), (360.0, TURN * 60.0)  # by severity
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Count velocity in another unit, in every run; a harder blow takes a larger factor."""
     factors = MILD if blow.severity < 0.7 else ORDINARY if blow.severity < 2.0 else GROSS  # noqa: PLR2004 - thirds of the scale
     factor = float(rng.choice(factors)) ** int(rng.choice((-1, 1)))
     runs = tuple(replace(run, velocity=run.velocity * factor) for run in log.runs)
-    return Spoilt(
+    return DamagedLog(
         replace(log, runs=runs), tuple(_whole(i, run) for i, run in enumerate(runs) if len(run))
     )
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Divide what the velocities sum up to by what the position changes, and look it up."""
-    for index, (run, ratio) in enumerate(zip(clues.log.runs, clues.scales, strict=True)):
+    for index, (run, ratio) in enumerate(
+        zip(features.log.runs, features.distance_ratios, strict=True)
+    ):
         said = _named(ratio)
         if said:
             yield Damage(
@@ -78,8 +80,8 @@ def _named(ratio: float) -> str:
     return "no unit's factor, so a gear ratio or a circumference that only one of them counts"
 
 
-def _whole(index: int, run: Run) -> Stretch:
-    return Stretch(index, run.test, float(run.time[0]), float(run.time[-1]))
+def _whole(index: int, run: Run) -> LogInterval:
+    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

@@ -24,7 +24,15 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
 from sim.inspect.baseline_model import BaselineModel
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
+from sim.inspect.fault import (
+    Damage,
+    DamagedLog,
+    Fault,
+    FaultStrike,
+    LogInterval,
+    replace_run,
+    rescale_motion,
+)
 from sim.inspect.log_features import Counts, LogFeatures, find_held_samples
 
 HELD = 0.4  # [share of the step] that the tires hold at severity 1
@@ -52,23 +60,23 @@ CLEAR = 0.04  # [share of top speed] a plain rise misses by at least this much
 CAUTION = 0.8  # [share of the voltage that still held] for the next step
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the wheels of a step break loose; where the blow falls, the step decides."""
-    clues = LogFeatures(log)
-    run, balance = log.runs[blow.run], clues.baseline
+    features = LogFeatures(log)
+    run, baseline = log.runs[blow.run], features.baseline
     held = HELD ** (blow.severity * rng.uniform(0.9, 1.1))
-    if balance is None:
-        return Spoilt(log, ())
+    if baseline is None:
+        return DamagedLog(log, ())
     first = _step(run)
     since = run.time - run.time[first]
     speed = _smooth(np.abs(run.velocity))
-    moves = (speed > clues.still) & (since > 0.0)
+    moves = (speed > features.still_speed) & (since > 0.0)
     if not moves.any():
-        return Spoilt(log, ())
-    late = max(float(since[int(np.argmax(moves))]) - STARTS * balance.timescale, 0.0)
-    lasts = min(float(since[-1]), SETTLED * balance.timescale)
-    grid = np.arange(0.0, lasts, clues.period / FINE)
-    push = _push(run, balance)
+        return DamagedLog(log, ())
+    late = max(float(since[int(np.argmax(moves))]) - STARTS * baseline.timescale, 0.0)
+    lasts = min(float(since[-1]), SETTLED * baseline.timescale)
+    grid = np.arange(0.0, lasts, features.period / FINE)
+    push = _push(run, baseline)
     limit = float(
         np.max(push - speed, initial=0.0)
     )  # of the motor's current, if not of its voltage
@@ -77,14 +85,14 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     spun = _wheels(
         asked,
         grid,
-        scales=np.array((balance.timescale,)),
+        scales=np.array((baseline.timescale,)),
         held=np.array((held * limit,)),
         limit=limit if limited else math.inf,
     )
     loose = np.flatnonzero(spun.loose[0])
     grips = float(grid[loose[-1]]) + late if loose.size else 0.0
-    if grips < SHOWS * clues.period:
-        return Spoilt(log, ())
+    if grips < SHOWS * features.period:
+        return DamagedLog(log, ())
     pace = np.ones(len(run))
     slipping = np.interp(since - late, grid, spun.speed[0])
     moves &= since < lasts
@@ -93,21 +101,21 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     if limited:  # faster wheels leave the limit sooner
         more = np.interp(since, grid, spun.push[0]) - push
         more *= np.sign(run.voltage[first]) * ((since >= 0.0) & (since < lasts))
-        spoilt = replace(spoilt, voltage=run.voltage + balance.kv * more)
+        spoilt = replace(spoilt, voltage=run.voltage + baseline.kv * more)
     start = float(run.time[first])
-    where = Stretch(blow.run, run.test, start, min(start + grips, float(run.time[-1])))
-    return Spoilt(replace_run(log, blow.run, spoilt), (where,))
+    where = LogInterval(blow.run, run.test, start, min(start + grips, float(run.time[-1])))
+    return DamagedLog(replace_run(log, blow.run, spoilt), (where,))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find steps that a surge and a lull explain better than any plain rise."""
-    if clues.baseline is None or clues.log.type not in ("", *FAULT.types):
+    if features.baseline is None or features.log.type not in ("", *FAULT.types):
         return
-    for index, run in enumerate(clues.log.runs):
+    for index, run in enumerate(features.log.runs):
         if run.kind != "dynamic" or len(run) < FEWEST:
             continue
         first = _step(run)
-        lasts = max(LASTS * clues.baseline.timescale, LEAST * clues.period)
+        lasts = max(LASTS * features.baseline.timescale, LEAST * features.period)
         end = int(np.searchsorted(run.time, run.time[first] + lasts))
         if end - first < FEWEST:
             continue
@@ -117,8 +125,8 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
         rise = _Rise(
             np.abs(run.velocity[part]),
             run.time[part] - run.time[first],
-            _push(run, clues.baseline)[part],
-            clues.baseline.timescale,
+            _push(run, features.baseline)[part],
+            features.baseline.timescale,
         )
         plain = min(rise.fit(ALL)[0], rise.fit_limited())
         if plain <= CLEAR * float(rise.speed.max()):
@@ -131,7 +139,7 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
         most = CAUTION * held * float(np.abs(run.voltage).max())
         yield Damage(
             fault="wheel-slip",
-            where=Stretch(index, run.test, start, min(start + grips, float(run.time[-1]))),
+            where=LogInterval(index, run.test, start, min(start + grips, float(run.time[-1]))),
             confidence=share,
             evidence=f"The velocity surges to {1.0 - held:.0%} of its top, waits there for about "
             f"{grips:.2f} s, and only then climbs as a mass does.",
@@ -148,9 +156,9 @@ def _fresh(run: Run, first: int, last: int) -> Counts:
     return first + starts[:: max(1, starts.size // SAMPLES)]
 
 
-def _push(run: Run, balance: BaselineModel) -> Array:
+def _push(run: Run, baseline: BaselineModel) -> Array:
     """(n,) [m/s or rad/s] the speed at which each voltage would end, in the step's direction."""
-    return np.asarray(balance.top_speed(run) * np.sign(run.voltage[_step(run)]))
+    return np.asarray(baseline.steady_speed(run) * np.sign(run.voltage[_step(run)]))
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,19 +14,25 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
 from sim.core.units import UNITS
-from sim.io.entries.discovery import find_driven_interval, find_devices
+from sim.io.entries.discovery import find_devices, find_driven_interval
 from sim.io.entries.entry import Entry
 from sim.io.entries.mirrored import turn_mirrored_motors
 from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, no_motor
 from sim.io.entries.names import (
     find_test_name,
+    find_type_in_name,
     number_names,
     quote_names,
     split_name,
-    find_type_in_name,
 )
 from sim.io.entries.runs import cut_runs
-from sim.io.entries.state import WORD, RunInterval, StateEntry, find_run_intervals, find_state_entries
+from sim.io.entries.state import (
+    WORD,
+    RunInterval,
+    StateEntry,
+    find_run_intervals,
+    find_state_entries,
+)
 from sim.io.format import ReadOptions
 
 

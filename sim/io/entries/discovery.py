@@ -153,7 +153,9 @@ def may_be_signal(name: str, metadata: str) -> bool:
     """Whether an entry of numbers may hold a signal of a motor, or is near one for a message."""
     if any(word[:4] in name.lower() for word in NEEDED + OPTIONAL):
         return True
-    return identify_signal(Entry(name, NUMBERS[0], metadata, np.zeros(0, dtype=np.int64))) is not None
+    return (
+        identify_signal(Entry(name, NUMBERS[0], metadata, np.zeros(0, dtype=np.int64))) is not None
+    )
 
 
 def select_driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[Device]:

@@ -13,15 +13,15 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
 from sim.io.entries.discovery import (
     DeviceGroup,
-    select_driven_devices,
     find_devices,
     group_by_tests,
     identify_signal,
+    select_driven_devices,
 )
 from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry
 from sim.io.entries.names import (
-    find_requested_entry,
     explain_unfit_entry,
+    find_requested_entry,
     number_names,
     quote_names,
     split_name,

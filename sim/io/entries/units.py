@@ -96,7 +96,11 @@ def find_unit_in_metadata(metadata: str) -> str:
 
 def parse_signal_unit(text: str, signal: str) -> StatedUnit | None:
     """What the unit of a signal is; None if it is not understood."""
-    read = {"voltage": parse_voltage_unit, "position": parse_position_unit, "velocity": parse_velocity_unit}
+    read = {
+        "voltage": parse_voltage_unit,
+        "position": parse_position_unit,
+        "velocity": parse_velocity_unit,
+    }
     return read[signal](text) if signal in read else None
 
 

@@ -20,7 +20,7 @@ from sim.io.entries import assemble_log, assemble_motor_logs
 from sim.io.entries.entry import Entry
 from sim.io.format import HEAD, ReadOptions, doubt_motor_choice, make_run
 from sim.io.formats.csv.entries import is_export, read_entries
-from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, read_header, open_table
+from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, open_table, read_header
 
 SUFFIXES = (".csv",)
 ENOUGH = 3  # [columns of ours in the first line] more than chance puts there
@@ -70,10 +70,10 @@ def read(path: Path, asked: ReadOptions) -> Log:
         log, _ = assemble_log(read_entries(path), asked=asked, where=str(path))
         return log
     table = open_table(path, entries=asked.entries)
-    tests, codes = table.tests()
-    signals = {"time": table.numbers("time_s")}
-    signals |= {name: table.numbers(name) for name in ("voltage", "position", "velocity")}
-    signals |= {name: table.numbers(name, gaps=True) for name in EXTRA if name in table.cells}
+    tests, codes = table.group_by_test()
+    signals = {"time": table.parse_column("time_s")}
+    signals |= {name: table.parse_column(name) for name in ("voltage", "position", "velocity")}
+    signals |= {name: table.parse_column(name, gaps=True) for name in EXTRA if name in table.cells}
     si = find_unit(asked.units_or_default).si
     runs: list[Run] = []
     doubts = [*table.doubts, *doubt_motor_choice(asked.motor, where=table.where)]
@@ -148,7 +148,7 @@ def _present(table: CsvTable, name: str, values: Array, rows: NDArray[np.intp]) 
     if empty.any() and not empty.all():
         raise BadSample(
             f"{name} is empty, in a run that has it elsewhere",
-            where=table.at(int(rows[np.argmax(empty)])),
+            where=table.describe_row(int(rows[np.argmax(empty)])),
             advice="Fill the column for the whole run, or empty it.",
         )
     return not empty.all()
@@ -174,7 +174,7 @@ def _split(table: CsvTable, codes: NDArray[np.intp], time: Array) -> Iterator[ND
             if wrong.any():
                 raise UnreadableFile(
                     f"run {labels[numbers[rows[0]]][:40]!r} {what} here",
-                    where=table.at(int(rows[np.argmax(wrong) + 1])),
+                    where=table.describe_row(int(rows[np.argmax(wrong) + 1])),
                     advice="Give every run a value of its own in the column run, or leave the "
                     "column out.",
                 )

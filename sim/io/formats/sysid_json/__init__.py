@@ -16,10 +16,16 @@ from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.io.format import ReadOptions, doubt_motor_choice, make_run
-from sim.io.formats.sysid_json.drivetrain import SIDES, two_sides
-from sim.io.formats.sysid_json.rows import Form, check_columns, detect_form, load_json, parse_tables
-from sim.io.formats.sysid_json.said import StatedUnits, said_in
-from sim.io.formats.sysid_json.side import Side, one_side
+from sim.io.formats.sysid_json.drivetrain import SIDES, read_drivetrain
+from sim.io.formats.sysid_json.rows import (
+    RowForm,
+    check_columns,
+    detect_form,
+    load_json,
+    parse_tables,
+)
+from sim.io.formats.sysid_json.said import FileHeader, read_header
+from sim.io.formats.sysid_json.side import Side, read_one_side
 
 SUFFIXES = (".json",)
 _KEY = re.compile(rb'"(slow-forward|slow-backward|fast-forward|fast-backward|track-width|sysid)"')
@@ -71,9 +77,9 @@ class _Document:
     """
 
     where: str
-    said: StatedUnits
+    said: FileHeader
     tables: dict[str, Array]
-    form: Form
+    form: RowForm
     doubts: tuple[Doubt, ...]
 
     @classmethod
@@ -87,7 +93,7 @@ class _Document:
                 advice="Leave out --state, --voltage, --position and --velocity.",
             )
         document = load_json(path)
-        said = said_in(document, asked, where=where)
+        said = read_header(document, asked, where=where)
         tables, doubts = parse_tables(document, where=where)
         form = detect_form(tables, said, where=where)
         check_columns(tables, form, where=where)
@@ -118,7 +124,7 @@ class _Document:
 
 
 def _sides(
-    tables: dict[str, Array], form: Form, said: StatedUnits, motor: str | None, *, where: str
+    tables: dict[str, Array], form: RowForm, said: FileHeader, motor: str | None, *, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
     """One side for every test: the only one, the one asked for, or both made one."""
     found = [
@@ -126,6 +132,6 @@ def _sides(
         for columns in form.sides
     ]
     if len(found) == 1:
-        sides, doubts = one_side(found[0], where=where)
+        sides, doubts = read_one_side(found[0], where=where)
         return sides, [*doubts, *doubt_motor_choice(motor, where=where)]
-    return two_sides(found, motor=motor or "combined", angular=said.angular, where=where)
+    return read_drivetrain(found, motor=motor or "combined", angular=said.angular, where=where)

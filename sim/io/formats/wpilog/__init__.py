@@ -26,7 +26,7 @@ from sim.io.formats.wpilog.records import MAGIC, load_records
 from sim.io.formats.wpilog.windows import load_wanted_records
 from sim.io.formats.wpilog.writing import write
 
-__all__ = ["SUFFIXES", "entries", "recognizes", "read", "read_motors", "write"]
+__all__ = ["SUFFIXES", "entries", "read", "read_motors", "recognizes", "write"]
 
 SUFFIXES = (".wpilog",)
 Made_co = TypeVar("Made_co", covariant=True)
@@ -150,8 +150,8 @@ def _partly(damage: FileDamage, where: str) -> Doubt:
     what = "the file ends too soon" if damage.torn else "THE FILE IS DAMAGED"
     return Doubt(
         "truncated" if damage.torn else "damaged",
-        f"{where}: {what}: {damage.what} at byte {damage.offset}. The {damage.left} bytes from "
-        "there on were left out. Copy the file from the robot again, or check that no run is "
+        f"{where}: {what}: {damage.what} at byte {damage.offset}. The {damage.unread_bytes} bytes "
+        "from there on were left out. Copy the file from the robot again, or check that no run is "
         "missing.",
     )
 

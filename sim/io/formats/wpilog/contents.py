@@ -13,7 +13,7 @@ import numpy as np
 
 from sim.io.formats.wpilog.control import Metadata, Start, parse_control_record
 from sim.io.formats.wpilog.entry import SIZES, FileEntry
-from sim.io.formats.wpilog.records import Fields, File, Numbers, Records
+from sim.io.formats.wpilog.records import File, Numbers, RecordHeaders, Records
 
 SMALL_IDS = 1 << 16  # ids below fit 16 bits, which NumPy sorts by radix
 LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is hardly larger
@@ -25,13 +25,13 @@ class FileDamage:
 
     Args:
         offset: the first byte that was not used.
-        left: how many bytes there are from it to the end of the file.
+        unread_bytes: how many bytes there are from it to the end of the file.
         what: what is wrong with the record there, a clause.
         torn: whether the file merely ends too soon, as when a robot loses power.
     """
 
     offset: int
-    left: int
+    unread_bytes: int
     what: str
     torn: bool
 
@@ -84,9 +84,9 @@ class _Group:
         if life.first < self.index[0] and self.index[-1] < life.last:
             return self
         first, last = self.index.searchsorted((life.first, life.last))
-        return self.of(slice(first, last))
+        return self.select(slice(first, last))
 
-    def of(self, which: slice | Numbers) -> "_Group":
+    def select(self, which: slice | Numbers) -> "_Group":
         """Some of them."""
         return _Group(self.index[which], self.size[which], self.time[which], self.payload[which])
 
@@ -110,11 +110,11 @@ def read_contents(records: Records) -> Contents:
         for number, several in lives.items()
         if several and number in groups
     )
-    entries = tuple(_joined(lives, groups, records.file))
+    entries = tuple(_join_lives(lives, groups, records.file))
     return Contents(entries, _damage(records, lives, stop), orphans)
 
 
-def _groups(head: Fields) -> dict[int, _Group]:
+def _groups(head: RecordHeaders) -> dict[int, _Group]:
     """The records of each entry id, control records left out."""
     if not head.id.size:
         return {}
@@ -124,10 +124,12 @@ def _groups(head: Fields) -> dict[int, _Group]:
     ids = head.id[order]
     first = np.flatnonzero(np.diff(ids, prepend=-1)).tolist()
     bounds = zip(first, [*first[1:], ids.size], strict=True)
-    return {int(ids[a]): whole.of(slice(a, b)) for a, b in bounds if ids[a]}
+    return {int(ids[a]): whole.select(slice(a, b)) for a, b in bounds if ids[a]}
 
 
-def _find_lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Stop | None]:
+def _find_lives(
+    records: Records, head: RecordHeaders, *, before: int
+) -> tuple[_Lives, _Stop | None]:
     """When each entry began and ended, by the control records up to the first senseless one."""
     lives: _Lives = {}
     for index in np.flatnonzero(head.id[:before] == 0).tolist():
@@ -166,7 +168,7 @@ def _find_misfits(number: int, group: _Group, lives: Sequence[_EntryLife]) -> It
                 yield _Stop(int(part.index[at]), what)
 
 
-def _joined(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[FileEntry]:
+def _join_lives(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[FileEntry]:
     """One entry for all lives of the same name and type, in the order they first appear."""
     named: dict[tuple[str, str], list[_EntryLife]] = {}
     for life in sorted(chain.from_iterable(lives.values()), key=lambda life: life.first):
@@ -178,7 +180,7 @@ def _joined(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator
         ] or [_Group(none, none, none, none)]
         whole = parts[0] if len(parts) == 1 else _concatenate_groups(parts)
         if (whole.time[1:] < whole.time[:-1]).any():
-            whole = whole.of(np.argsort(whole.time, kind="stable"))
+            whole = whole.select(np.argsort(whole.time, kind="stable"))
         metadata = next((life.metadata for life in reversed(several) if life.metadata), "")
         yield FileEntry(name, kind, metadata, whole.time, whole.payload, whole.size, file)
 

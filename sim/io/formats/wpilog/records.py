@@ -77,7 +77,7 @@ class File:
 
 
 @dataclass(frozen=True, eq=False)
-class Fields:
+class RecordHeaders:
     """What the headers of some records say.
 
     Args:
@@ -111,15 +111,15 @@ class Records:
     file: File
     start: Numbers
     end: int
-    head: Fields
+    head: RecordHeaders
 
-    def header_at(self, offset: int) -> Fields:
+    def header_at(self, offset: int) -> RecordHeaders:
         """What the header at an offset of the file says, whole or not."""
         with self.path.open("rb") as stream:
             stream.seek(offset)
             found = bytearray(stream.read(PAD)) + bytearray(PAD)
         header = read_headers(File(found).buffer, np.array([0]))
-        return Fields(header.id, header.size, header.time, header.payload + offset)
+        return RecordHeaders(header.id, header.size, header.time, header.payload + offset)
 
     def only_zeros_from(self, offset: int) -> bool:
         """Whether the rest of the file is nothing but zero bytes."""
@@ -175,7 +175,7 @@ def follow_records(file: File, *, first: int) -> tuple[Numbers, int]:
     return np.concatenate(pieces), at
 
 
-def read_headers(buffer: Bytes, start: Numbers) -> Fields:
+def read_headers(buffer: Bytes, start: Numbers) -> RecordHeaders:
     """Read the headers of the records that begin at ``start``."""
     table = np.empty((4, start.size), dtype=np.int64)
     for first in range(0, start.size, BLOCK):
@@ -189,7 +189,7 @@ def read_headers(buffer: Bytes, start: Numbers) -> Fields:
         at += SIZE_LENGTH[bits]
         table[2, block] = (view_numbers(buffer, np.uint64)[at] & TIME_MASK[bits]).view(np.int64)
         table[3, block] = at + TIME_LENGTH[bits]
-    return Fields(*table)
+    return RecordHeaders(*table)
 
 
 def view_numbers(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:

@@ -17,10 +17,10 @@ from sim.io.formats.wpilog.entry import SIZES
 from sim.io.formats.wpilog.records import (
     PAD,
     PREFACE,
-    Fields,
     File,
     Flags,
     Numbers,
+    RecordHeaders,
     Records,
     first_record,
     follow_records,
@@ -118,7 +118,7 @@ class _Kept:
         self.payloads.append(file.buffer[index].tobytes())
         self.length += int(sizes.sum())
 
-    def _follow_controls(self, file: File, head: Fields) -> set[int]:
+    def _follow_controls(self, file: File, head: RecordHeaders) -> set[int]:
         """Learn from a window's control records; the ids that they speak of."""
         spoken = set()
         for index in np.flatnonzero(head.id == 0).tolist():
@@ -138,4 +138,4 @@ class _Kept:
         self.pieces.clear()
         file = File(bytearray().join([*self.payloads, bytes(PAD)]))
         self.payloads.clear()
-        return Records(path, size, file, table[0], end, Fields(*table[1:]))
+        return Records(path, size, file, table[0], end, RecordHeaders(*table[1:]))
