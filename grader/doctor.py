@@ -76,7 +76,7 @@ def _engine() -> MachineFinding:
     from sim.physics.engine import engine_is_cached  # noqa: PLC0415 - it needs what may be missing
 
     ready = engine_is_cached()
-    found = "compiled" if ready else "not compiled yet; the first simulation takes ten seconds"
+    found = "compiled" if ready else "not compiled yet; the first simulation takes twenty seconds"
     return MachineFinding(
         "simulation", found, ready, needed=False, advice="grade start compiles it."
     )

@@ -46,7 +46,7 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     show([*overview(course, found, progress, student=student), line()])
     sys.stdout.flush()
     if not engine_is_cached():
-        _say("Compiling the simulation, once; this takes about ten seconds…")
+        _say("Compiling the simulation, once; this takes about twenty seconds…")
         load_engine()
     with draw_cache_enabled():  # what is drawn now, the first answer need not wait for
         for one in found:

@@ -5,6 +5,7 @@ Names that everybody uses are here: ``sim.read``, ``sim.write``, ``sim.Log``, ``
 ``from sim.fit import fit``, ``from sim.bench.simulate import simulate``.
 
 Nothing heavy is imported until it is used, so a command that only prints its help starts at once.
+Importing ``sim`` sets NumPy's linear algebra to one thread, unless the environment says otherwise.
 """
 
 from importlib import import_module
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
     from sim.core.errors import Refusal
     from sim.core.log import Log, Run
     from sim.io import read, write
+
+from sim.support.blas_threads import use_one_blas_thread
+
+use_one_blas_thread()
 
 _HOME = {
     "Log": "sim.core.log",

@@ -106,7 +106,7 @@ def test_a_disk_too_full_for_the_key_keeps_the_files(tmp_path, monkeypatch, caps
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as context:
-        context.setattr(keys, "write_atomically", full)
+        context.setattr(keys, "write_pieces_atomically", full)
         assert sysid("dataset", path, "-o", tmp_path / "data") == 2
 
     said = capsys.readouterr().err

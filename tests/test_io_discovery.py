@@ -12,6 +12,7 @@ import pytest
 from wpilog_file import Logger
 
 import sim
+import sim.io
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
@@ -19,7 +20,7 @@ from sim.cli import sysid
 from sim.core.errors import MissingSignal, Refusal
 from sim.core.units import UNITS
 from sim.fit import fit
-from sim.support import command_line
+from sim.support.command_line import run_command
 
 ROUTINE = Routine(ramp=0.5, step=4.0)
 ADVANTAGESCOPE = '{"exporter":"AdvantageScope"}'
@@ -306,10 +307,7 @@ def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
     path = write(tmp_path / "a.wpilog", log, PHOENIX, factors=rotations(log), state="My-State",
                  more=(("Phoenix6/TalonFX-21/DeviceTemp", lambda run: run.time),))  # fmt: skip
 
-    assert (
-        command_line.run_command(sysid, name="sysid", arguments=["entries", str(path), "--json"])
-        == 0
-    )
+    assert run_command(sysid, name="sysid", arguments=["entries", str(path), "--json"]) == 0
 
     rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)}
     signals = {name: row["signal"] for name, row in rows.items()}
@@ -318,17 +316,185 @@ def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
         "My-State": "state", "Phoenix6/TalonFX-21/DeviceTemp": "",
     }  # fmt: skip
     assert rows[PHOENIX[2][0]]["unit"] == "rotations per second"
-    assert command_line.run_command(sysid, name="sysid", arguments=["entries", str(path)]) == 0
+    assert run_command(sysid, name="sysid", arguments=["entries", str(path)]) == 0
     assert capsys.readouterr().out.startswith("5 entries:\nstate ")
 
 
 def test_a_log_without_entries_says_so(tmp_path, capsys):
     sim.write(recorded(), tmp_path / "a.csv")
 
-    assert (
-        command_line.run_command(
-            sysid, name="sysid", arguments=["entries", str(tmp_path / "a.csv")]
-        )
-        == 2
-    )
+    assert run_command(sysid, name="sysid", arguments=["entries", str(tmp_path / "a.csv")]) == 2
     assert "its columns are signals" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "spelling",
+    ["QUASISTATIC_FORWARD", "State.kQuasistaticForward", "Quasistatic Forward", "slow-forward"],
+)
+def test_tests_are_known_in_any_spelling(tmp_path, spelling):
+    log = recorded()
+    log = replace(log, runs=log.runs_of_test("quasistatic-forward"))
+    rows = samples(log, AKIT, state="/Robot/Mode")
+    logger = Logger()
+    for name, time, value in rows:
+        if name not in logger.ids:
+            logger.start(name, "string" if isinstance(value, str) else "double", "")
+        logger.put(name, time, spelling if value == "quasistatic-forward" else value)
+
+    read = sim.read(logger.save(tmp_path / "a.wpilog"))
+
+    assert [run.test for run in read.runs] == ["quasistatic-forward"]
+
+
+def test_a_sentence_that_speaks_of_a_test_names_none(tmp_path):
+    logger = Logger()
+    logger.start("messages", "string")
+    logger.put("messages", 10, "starting quasistatic forward in the pit")
+    for name, _ in AKIT:
+        logger.start(name, "double")
+        logger.put(name, 20, 1.0)
+
+    with pytest.raises(MissingSignal, match="no entry names tests"):
+        sim.read(logger.save(tmp_path / "a.wpilog"))
+
+
+def test_whole_numbers_and_units_in_brackets(tmp_path):
+    log = recorded()
+    columns = [(f"Roller/Motor 1/{name}", "") for name in
+               ("voltage (mV)", "position [deg]", "velocity (deg/s)")]  # fmt: skip
+    logger = Logger()
+    factors = (1000.0, 360.0 / TAU, 360.0 / TAU)
+    for name, time, value in samples(log, columns, factors=factors, state="Roller test"):
+        if name not in logger.ids:
+            logger.start(name, "string" if isinstance(value, str) else "int64")
+        logger.put(name, time, value if isinstance(value, str) else round(value))
+
+    read = same_gains(logger.save(tmp_path / "a.wpilog"), log)
+
+    assert read.units == "degrees"
+
+
+def test_one_position_serves_two_motors_that_have_a_voltage_each(tmp_path):
+    log = recorded("elevator")
+    columns = [(f"/Lift/{name}", "") for name in
+               ("LeftAppliedVolts", "PositionMeters", "VelocityMetersPerSec")]  # fmt: skip
+    path = write(tmp_path / "a.wpilog", log, columns, state="LiftState",
+                 more=(("/Lift/RightAppliedVolts", lambda run: run.voltage),))  # fmt: skip
+
+    assert list(sim.io.read_motors(path)) == ["/Lift/left", "/Lift/right"]
+    same_gains(path, log)
+
+
+def test_units_of_phoenix_are_known_where_an_export_lost_them(tmp_path):
+    log = recorded()
+    path = export(tmp_path / "log.csv", log, PHOENIX, layout="table", state="Flywheel-State",
+                  factors=rotations(log))  # fmt: skip
+
+    assert same_gains(path, log).units == "rotations"
+
+
+def one_after_another(path, *, states):
+    """Two mechanisms in one file, the second 100 s after the first."""
+    logger = Logger()
+    for number, (mechanism, state) in enumerate(zip(("shooter", "intake"), states, strict=True)):
+        log = recorded(mechanism)
+        columns = [(name.replace("21", str(number)), said) for name, said in PHOENIX]
+        for name, time, value in samples(log, columns, factors=rotations(log), state=state):
+            if name not in logger.ids:
+                kind = "string" if isinstance(value, str) else "double"
+                logger.start(name, kind, dict(columns).get(name, ""))
+            logger.put(name, time + number * 100_000_000, value)
+    return logger.save(path)
+
+
+@pytest.mark.parametrize(
+    ("states", "listed"),
+    [
+        (("Roof-State", "Mouth-State"), "1 'Roof', 2 'Mouth'"),
+        (("Mode", "Mode"), "1 'Phoenix6/TalonFX-0', 2 'Phoenix6/TalonFX-1'"),
+    ],
+)
+def test_several_mechanisms_are_a_numbered_list_to_pick_from(tmp_path, capsys, states, listed):
+    path = one_after_another(tmp_path / "a.wpilog", states=states)
+
+    def ran(*more):
+        arguments = ["fit", "--json", str(path), *more]
+        return run_command(sysid, name="sysid", arguments=arguments), capsys.readouterr()
+
+    code, said = ran()
+    assert code == 2
+    assert listed in said.err
+    assert "--pick 1 to --pick 2" in said.err
+    for number, mechanism in enumerate(("shooter", "intake"), start=1):
+        code, said = ran("--pick", str(number))
+        gains = json.loads(said.out)["gains"]
+        truth = fit(recorded(mechanism)).in_units("rotations").gains
+        assert gains["kV"] == pytest.approx(truth["kV"], rel=0.02)
+        assert gains["kA"] == pytest.approx(truth["kA"], rel=0.05)
+    assert ran("--pick", "3")[0] == 2
+
+
+def test_arrays_are_refused_by_name_and_say_which_export(tmp_path):
+    logger = Logger()
+    for name, _ in AKIT:
+        logger.start(name, "double[]", ADVANTAGESCOPE)
+    path = logger.save(tmp_path / "dynamic-forward.wpilog")
+
+    with pytest.raises(MissingSignal, match=r"arrays cannot be used: '/Shooter") as refused:
+        sim.read(path)
+
+    assert "Tuner X or AdvantageScope" in str(refused.value)
+
+
+VELOCITY = AKIT[2][0]
+
+
+@pytest.mark.parametrize(
+    ("spoiled", "asked", "refused"),
+    [
+        (lambda run: run.position, [], ""),
+        (lambda run: 0.25 * run.velocity, [], "--velocity-scale 4"),
+        (lambda run: 0.25 * run.velocity, ["--velocity-scale", "4"], ""),
+        (lambda run: 0.25 * run.velocity, ["--ignore-velocity"], ""),
+        (None, ["--ignore-velocity"], ""),
+    ],
+)
+def test_a_velocity_that_is_wrong_or_missing(tmp_path, capsys, spoiled, asked, refused):
+    log = recorded()
+    columns = AKIT[:2] if spoiled is None else AKIT
+    logger = Logger()
+    for run in log.runs:
+        signals = [run.voltage, run.position, *([spoiled(run)] if spoiled else [])]
+        for n, time in enumerate((1e6 * run.time).astype(int).tolist()):
+            for name, value in [
+                ("Mode", run.test),
+                *zip([c[0] for c in columns], signals, strict=True),
+            ]:
+                if name not in logger.ids:
+                    logger.start(name, "string" if name == "Mode" else "double")
+                logger.put(name, time, value if name == "Mode" else float(value[n]))
+        logger.put("Mode", time + 20_000, "none")
+    path = logger.save(tmp_path / "a.wpilog")
+
+    code = run_command(sysid, name="sysid", arguments=["fit", "--json", str(path), *asked])
+
+    said = capsys.readouterr()
+    if refused:
+        assert code == 2
+        assert refused in said.err
+        return
+    found = json.loads(said.out)
+    codes = {one["code"] for one in found["warnings"]}
+    assert ("velocity-is-position" in codes) == (not asked)
+    truth = fit(log).gains
+    assert found["gains"]["kV"] == pytest.approx(truth["kV"], rel=0.02)
+    assert found["gains"]["kA"] == pytest.approx(truth["kA"], rel=0.12)
+
+
+@pytest.mark.parametrize("scale", ["0", "nan", "inf"])
+def test_a_scale_that_is_none_is_refused(tmp_path, capsys, scale):
+    sim.write(recorded(), tmp_path / "a.csv")
+    arguments = ["fit", str(tmp_path / "a.csv"), "--velocity-scale", scale]
+
+    assert run_command(sysid, name="sysid", arguments=arguments) == 2
+    assert "not a finite number other than zero" in capsys.readouterr().err

@@ -127,7 +127,7 @@ def states(tmp_path: Path, *said: str) -> Path:
             id="tests beyond the four, and an empty state between them",
         ),
         pytest.param(
-            ("dynamic-forward", "dynamic-sideways", "quasistatic_forward", "none"),
+            ("dynamic-forward", "dynamic-sideways", "quasistatic", "none"),
             [("dynamic-forward", 10)],
             ["unknown-test"],
             id="states of no test",
@@ -232,7 +232,7 @@ def test_of_two_mechanisms_one_is_asked_for(tmp_path: Path) -> None:
     routine(logger, Motor("b"), mechanism="Wrist", begin=10**9)
     path = logger.save(tmp_path / "log.wpilog")
 
-    with pytest.raises(BadRequest, match=r"'Arm', 'Wrist'.*--state .*one routine per log"):
+    with pytest.raises(BadRequest, match=r"1 'Arm', 2 'Wrist'.*--state .*one routine per log"):
         sim.read(path)
     assert sim.read(path, motor="b").mechanism == "Wrist"
     assert sim.read(path, entries={"state": "sysid-test-state-Arm"}).mechanism == "Arm"

@@ -1,6 +1,5 @@
 """The command ``sysid``: make, damage, inspect and fit logs. One file per command."""
 
-import os
 import sys
 from importlib import import_module
 from pkgutil import iter_modules
@@ -10,10 +9,6 @@ import click
 from sim.support.command_line import run_command
 
 __all__ = ["main", "sysid"]
-
-# before NumPy is imported: tables as small as ours are slower on many threads than on one
-for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
-    os.environ.setdefault(name, "1")
 
 
 class Commands(click.Group):

@@ -1,7 +1,8 @@
 """Options and arguments that several commands share."""
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,14 @@ if TYPE_CHECKING:
     from sim.core.log import Log
 
 FILE = click.Path(path_type=Path)
+
+
+def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
+    """A finite number other than zero."""
+    if not (math.isfinite(value) and value):
+        raise click.BadParameter(f"{value:g} is not a finite number other than zero.")
+    return value
+
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Plain data for other programs.")
 
@@ -30,6 +39,34 @@ def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option("--position", metavar="ENTRY", help="Log entry with the position."),
         click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
         click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def velocity_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options that choose a mechanism, and put a velocity right that was logged wrongly."""
+    options = (
+        click.option(
+            "--pick",
+            type=click.IntRange(min=1),
+            metavar="N",
+            help="Which mechanism, where the log has several: its number in the message.",
+        ),
+        click.option(
+            "--velocity-scale",
+            metavar="X",
+            type=float,
+            callback=_factor,
+            default=1.0,
+            help="Multiply the velocity by X, where its factor in the robot's code is wrong.",
+        ),
+        click.option(
+            "--ignore-velocity",
+            is_flag=True,
+            help="Take the slope of the position for the velocity.",
+        ),
     )
     for option in reversed(options):
         command = option(command)
@@ -80,3 +117,47 @@ def read_logs_together(
     for log in more:
         first = first.join(log)
     return first
+
+
+def read_parts(
+    files: Sequence[Path],
+    *,
+    units: str | None,
+    type: str | None,  # noqa: A002 - the field's own word
+    motor: str | None,
+    entries: Mapping[str, str | None],
+    velocity: float | None,
+    pick: int | None,
+) -> "Mapping[str, Log]":
+    """Read the files of one robot as logs of alike parts, by name.
+
+    Args:
+        files: in any format.
+        units: of the positions in them; None believes the files.
+        type: of the mechanism; None believes the files.
+        motor: which one alone, where a file has several.
+        entries: signal -> name of its entry; None looks for it.
+        velocity: what the velocity is multiplied by; None takes the slope of the position.
+        pick: which of several mechanisms, counted from 1.
+
+    Raises:
+        Refusal: a file cannot be read, or one measures a length and another an angle.
+    """
+    from sim.cli.fit.parts import parts_of_files  # noqa: PLC0415 - only for a fit
+    from sim.io import read_motors  # noqa: PLC0415 - --help must not wait for it
+    from sim.io.velocity import check_velocity, scale_velocity  # noqa: PLC0415 - the same
+
+    named = {signal: entry for signal, entry in entries.items() if entry}
+    found = []
+    for file in files:
+        logs = read_motors(
+            file, units=units, type=type, motor=motor, entries=named,
+            ignore_velocity=velocity is None, pick=pick,
+        )  # fmt: skip
+        if velocity is not None:
+            logs = {
+                name: check_velocity(log if velocity == 1.0 else scale_velocity(log, velocity))
+                for name, log in logs.items()
+            }
+        found.append((file, logs))
+    return parts_of_files(found)

@@ -92,10 +92,10 @@ def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, 
 def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
     """The same run without the samples at which no reading is fresh.
 
-    A logger that is faster than its sensor repeats readings, and simulating them tells nothing. Over
-    samples that are left out the voltage is averaged; where it jumps, a sample stays.
+    A logger that is faster than its sensor repeats readings, and simulating them tells nothing.
+    Over samples that are left out the voltage is averaged; where it jumps, a sample stays.
     """
-    kept = ~np.isnan(seen.measured).all(axis=1)
+    kept = np.asarray(~np.isnan(seen.measured).all(axis=1))
     kept[0] = kept[-1] = True
     kept[1:] |= np.abs(np.diff(seen.voltage)) > JUMP
     if kept.all():

@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
+from sim.feedback.linear_quadratic import two_state_regulator
 
 MASSLESS = 1e-7  # [V·s²/unit] below this kA SysId takes the velocity itself for the input
 
@@ -142,7 +143,7 @@ def design_position_loop(
     if ka < MASSLESS:  # no inertia: the velocity answers at once, so it is the input
         k, closed = _scalar_regulator(1.0, preset.period, q=position_error**-2, r=volts**-2)
         return Feedback(kv * k * closed**loops * preset.output, 0.0)
-    per_position, per_velocity = _two_state_regulator(
+    per_position, per_velocity = two_state_regulator(
         -kv / ka,
         1.0 / ka,
         period=preset.period,
@@ -152,22 +153,6 @@ def design_position_loop(
     )
     per_loop = 1.0 if preset.normalized else preset.period
     return Feedback(per_position * preset.output, per_velocity * preset.output / per_loop)
-
-
-def _two_state_regulator(
-    rate: float, push: float, *, period: float, q: tuple[float, float], r: float, loops: float
-) -> tuple[float, float]:
-    """Gains on position and velocity of x'' = rate·x' + push·u."""
-    import numpy as np  # noqa: PLC0415 - linear algebra is only needed for the two-state loop
-    from scipy.linalg import expm, fractional_matrix_power, solve_discrete_are  # noqa: PLC0415
-
-    discrete = expm(np.array([[0.0, 1.0, 0.0], [0.0, rate, push], [0.0, 0.0, 0.0]]) * period)
-    a, b = discrete[:2, :2], discrete[:2, 2:]
-    s = solve_discrete_are(a, b, np.diag(q), np.array([[r]]))
-    k = np.linalg.solve(b.T @ s @ b + r, b.T @ s @ a)
-    if loops:
-        k = np.real(k @ fractional_matrix_power(a - b @ k, loops))
-    return float(k[0, 0]), float(k[0, 1])
 
 
 def _scalar_regulator(a: float, b: float, *, q: float, r: float) -> tuple[float, float]:

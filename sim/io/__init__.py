@@ -24,6 +24,7 @@ from sim.core.vocabulary import TYPES
 from sim.io import formats
 from sim.io.entries.entry import Entry
 from sim.io.format import HEAD, Format, ReadOptions
+from sim.io.velocity import velocity_from_position
 from sim.support.atomic_file import atomic_path
 
 FORMATS = tuple(sorted(found.name for found in iter_modules(formats.__path__)))
@@ -35,6 +36,13 @@ class _WithEntries(Format, Protocol):
 
     def entries(self, path: Path) -> list[Entry]:
         """All entries of a file."""
+
+
+class _WithMotors(Format, Protocol):
+    """A format whose logs may have several motors."""
+
+    def read_motors(self, path: Path, asked: ReadOptions) -> dict[str, Log]:
+        """The log of each motor by its name."""
 
 
 class _Writer(Format, Protocol):
@@ -118,18 +126,82 @@ def read(
         BadSample: it holds a number that cannot be a measurement.
         BadRequest: an unknown unit, type or motor.
     """
-    if type is not None and type not in TYPES:
-        raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
-    asked = ReadOptions(
-        units=None if units is None else find_unit(units).name,
-        type=type,
-        motor=motor,
-        entries=dict(entries or {}),
-    )
+    asked = _asked(units=units, type=type, motor=motor, entries=entries)
     given = os.fspath(path)
     with _name_file_in_refusals(given):
         log = _reader(Path(given), _head(given)).read(Path(given), asked)
     return _set_type(replace(log, source=given), type)
+
+
+def read_motors(
+    path: str | os.PathLike[str],
+    *,
+    units: str | None = None,
+    type: str | None = None,  # noqa: A002 - as above
+    motor: str | None = None,
+    entries: Mapping[str, str] | None = None,
+    ignore_velocity: bool = False,
+    pick: int | None = None,
+) -> dict[str, Log]:
+    """Read a log of any format, a log for each motor of its mechanism or side of its drivetrain.
+
+    Args:
+        path: the file.
+        units: the unit of its positions; None takes what the file says, else the default.
+        type: ``simple``, ``elevator`` or ``arm``; None takes what the file says.
+        motor: one motor alone, where the file has several.
+        entries: signal -> the entry or column that holds it, where the names are not SysId's.
+        ignore_velocity: take the slope of the position for the velocity, which the file need not
+            have then.
+        pick: which of several mechanisms, counted from 1.
+
+    Returns:
+        The name of each motor -> its log; a log with one motor that has no name is under ``""``.
+
+    Raises:
+        Refusal: as ``read``.
+    """
+    asked = _asked(
+        units=units,
+        type=type,
+        motor=motor,
+        entries=entries,
+        ignore_velocity=ignore_velocity,
+        pick=pick,
+    )
+    given = os.fspath(path)
+    with _name_file_in_refusals(given):
+        module = _reader(Path(given), _head(given))
+        if hasattr(module, "read_motors"):
+            logs = cast("_WithMotors", module).read_motors(Path(given), asked)
+        else:
+            logs = {"": module.read(Path(given), asked)}
+    found = {name: _set_type(replace(log, source=given), type) for name, log in logs.items()}
+    if not ignore_velocity:
+        return found
+    return {name: velocity_from_position(log) for name, log in found.items()}
+
+
+def _asked(
+    *,
+    units: str | None,
+    type: str | None,  # noqa: A002 - as above
+    motor: str | None,
+    entries: Mapping[str, str] | None,
+    ignore_velocity: bool = False,
+    pick: int | None = None,
+) -> ReadOptions:
+    """What a person asked for, checked."""
+    if type is not None and type not in TYPES:
+        raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
+    return ReadOptions(
+        units=None if units is None else find_unit(units).name,
+        type=type,
+        motor=motor,
+        entries=dict(entries or {}),
+        ignore_velocity=ignore_velocity,
+        pick=pick,
+    )
 
 
 def list_entries(path: str | os.PathLike[str]) -> list[Entry]:

@@ -3,10 +3,11 @@
 A module offers
 
     SUFFIXES : tuple[str, ...]                 endings of its files, lower case: (".wpilog",)
-    def recognizes(head: bytes) -> bool        whether a file that starts like this is its own
+    def recognizes(head: bytes) -> bool             whether a file that starts like this is its own
     def read(path: Path, asked: ReadOptions) -> Log
     def write(log: Log, path: Path) -> None    optional: some formats are only read
     def entries(path: Path) -> list[Entry]     optional: where a log has entries with names
+    def read_motors(path, asked) -> dict[str, Log]    optional: where a log has several motors
 
 and is found by its place in the folder. Formats do not import one another.
 """
@@ -27,7 +28,7 @@ HEAD = 4096  # [bytes] how much of a file `recognizes` is shown
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What the person who reads a file knows about it; None where the file shall say.
+    """What the person who reads a file recognizes about it; None where the file shall say.
 
     Args:
         units: the unit of the positions in the file.
@@ -35,12 +36,17 @@ class ReadOptions:
         motor: which motor's signals, where the file has several (``left``); None combines them.
         entries: signal (``voltage``, ``position``, ``velocity``) -> the entry that holds it,
             for logs that do not use SysId's names.
+        ignore_velocity: the velocity need not be there; the position stands in for it.
+        pick: which of several mechanisms, counted from 1, in the order of the refusal that
+            lists them.
     """
 
     units: str | None = None
     type: str | None = None
     motor: str | None = None
     entries: Mapping[str, str] = field(default_factory=dict)
+    ignore_velocity: bool = False
+    pick: int | None = None
 
     @property
     def units_or_default(self) -> str:
@@ -60,14 +66,14 @@ class Format(Protocol):
         """Read a file."""
 
 
-def doubt_motor_choice(asked: ReadOptions, *, where: str) -> tuple[Doubt, ...]:
+def doubt_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
     """A doubt if a motor was asked for in a file that holds the signals of one only."""
-    if asked.motor is None:
+    if motor is None:
         return ()
     return (
         Doubt(
             "one-motor",
-            f"{where} holds one motor's signals and does not name it, so {asked.motor!r} made no "
+            f"{where} holds one motor's signals and does not name it, so {motor!r} made no "
             "difference.",
         ),
     )

@@ -6,10 +6,12 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.table import Table
 
-from sim.core.units import find_unit
+from sim.core.log import Log
+from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
 from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
 from sim.fit.result import Fit, gain_unit
+from sim.report.gain_verdicts import gain_verdict
 
 FINEST = 1e-4  # [share of a gain] carpet, battery and heat change it by more
 
@@ -19,22 +21,29 @@ def show_fit(
     *,
     preset: Preset,
     title: str,
+    log: Log | None = None,
     tried: Sequence[FeedbackTrial] = (),
     notes: Sequence[str] = (),
     console: Console | None = None,
 ) -> None:
-    """Print gains with errors and units, how well they fit, feedback gains, and every doubt.
+    """Print what is wrong, a verdict, gains with errors and units, feedback gains, and doubts.
 
     Args:
         found: the fit, in the units to show.
         preset: the motor controller the feedback gains are for.
         title: the files it came from.
+        log: what it was fitted to, for the advice in the verdict.
         tried: feedback gains on trial, with their doubts among the fit's.
         notes: what is well, a sentence each.
         console: where to print; standard output if None.
     """
     console = console or Console(soft_wrap=True, highlight=False)
     per = find_unit(found.units)
+    doubts = found.doubts if tried else found.all_doubts(preset)
+    for doubt in doubts:
+        if doubt.grave:
+            console.print(f"wrong: {doubt.message}", style="bold")
+    console.print(f"Verdict: {gain_verdict(found, log)}", style="bold")
     console.print(f"{title}: {found.type} mechanism in {per.name}, method {found.method}")
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     rows.add_column("gain")
@@ -58,6 +67,16 @@ def show_fit(
     )
     if tried:
         console.print(f"feedback to start from, as SysId suggests it ({preset.name}), simulated:")
+    _show_trials(tried, per, console)
+    for note in notes:
+        console.print(note)
+    for doubt in doubts:
+        if not doubt.grave:
+            console.print(f"look: {doubt.message}", style="bold")
+
+
+def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) -> None:
+    """Print what feedback gains do in simulation, a line each."""
     for trial in tried:
         step = f"{trial.response.target:.4g} {per.symbol}{'/s' * (trial.loop == 'velocity')}"
         own = "your own " if trial.owner == OWN else ""
@@ -66,14 +85,10 @@ def show_fit(
             f"  {own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} it "
             f"{trial.verdict.description}"
         )
-    for note in notes:
-        console.print(note)
-    for doubt in found.doubts if tried else found.all_doubts(preset):
-        console.print(f"{'wrong' if doubt.grave else 'look'}: {doubt.message}", style="bold")
 
 
 def format_error(value: float, error: float) -> str:
-    """The error, or that it is below what matters on a robot, or that nobody knows it."""
+    """The error, or that it is below what matters on a robot, or that nobody recognizes it."""
     if not math.isfinite(error):
         return "not known"
     return f"< {FINEST:.2%} of it" if error < FINEST * abs(value) else f"{error:.2g}"

@@ -2,7 +2,7 @@
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from uuid import uuid4
@@ -20,19 +20,33 @@ def write_atomically(path: Path, content: str | bytes, *, private: bool = False)
     Args:
         path: of the file; its folder has to be there.
         content: a text is written in UTF-8, with line ends as they are.
-        private: whether only the owner may read it, where a system knows owners (POSIX).
+        private: whether only the owner may read it, where a system recognizes owners (POSIX).
 
     Raises:
         OSError: it cannot be written; nothing is left behind.
     """
     raw = content.encode("utf-8") if isinstance(content, str) else content
+    write_pieces_atomically(path, (raw,), private=private)
+
+
+def write_pieces_atomically(path: Path, pieces: Iterable[bytes], *, private: bool = False) -> None:
+    """The same for a content that comes in pieces and is never whole in memory.
+
+    Args:
+        path: of the file; its folder has to be there.
+        pieces: one behind the other.
+        private: whether only the owner may read it, where a system recognizes owners (POSIX).
+
+    Raises:
+        OSError: it cannot be written; nothing is left behind.
+    """
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
     rights = OWNER_ONLY if private else USUAL
     with (
         atomic_path(path) as part,
         os.fdopen(os.open(part, flags, rights), "wb") as stream,
     ):
-        stream.write(raw)
+        stream.writelines(pieces)
         stream.flush()
         os.fsync(stream.fileno())
 

@@ -4,10 +4,11 @@ While logs are being made, what is known of each finished one stands in a journa
 a sealed line a log, so that a run that was killed can go on. The journal ends as the key.
 """
 
+import errno
 import hmac
 import json
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
@@ -15,11 +16,11 @@ from typing import Any
 
 from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
-from sim.support.atomic_file import write_atomically
+from sim.support.atomic_file import write_pieces_atomically
 
 ENDING = ".key.json"
 JOURNAL = ".part"  # a journal's name is the key's with this behind it
-PRIVATE = 0o600  # for its owner only, where the system knows such a thing
+PRIVATE = 0o600  # for its owner only, where the system recognizes such a thing
 SEAL = "seal"
 
 Entry = Mapping[str, Any]
@@ -66,21 +67,57 @@ def read_key(path: Path, *, secret: Secret) -> tuple[Entry, ...]:
     return entries
 
 
-def write_key(path: Path, entries: Iterable[Entry], *, dataset: str, secret: Secret) -> None:
-    """Write a key, whole or not at all.
+def write_key(path: Path, journal: "Journal", *, dataset: str, secret: Secret) -> int:
+    """Write a key, whole or not at all, from a journal that holds all its logs.
+
+    One entry at a time is in memory, so a dataset may have any number of logs.
+
+    Args:
+        path: of the key.
+        journal: what is known of each log.
+        dataset: its name.
+        secret: what the key is sealed with.
+
+    Returns:
+        How many logs the key has.
 
     Raises:
         OSError: it cannot be written.
     """
-    content: dict[str, Any] = {
+    places = journal.places()
+    head = {
         "dataset": dataset,
         "made_with": f"sysid-course {version('sysid-course')}",
         "sealed_with": "secret" if secret.hidden else "seed",
-        "logs": sorted(entries, key=lambda entry: str(min(entry["files"]))),
     }
-    content[SEAL] = secret.seal(_plain(content))
-    text = json.dumps(content, ensure_ascii=False, allow_nan=False, indent=1)
-    write_atomically(path, f"{text}\n", private=True)
+    seal = secret.seal_pieces(_plain_pieces(head, journal.at(places)))
+    write_pieces_atomically(path, _text_pieces(head, journal.at(places), seal), private=True)
+    return len(places)
+
+
+def _plain_pieces(head: Mapping[str, str], entries: Iterable[Entry]) -> Iterator[bytes]:
+    """What is sealed, in pieces: the one form of the whole content, its keys in order."""
+    names = sorted((*head, "logs"))
+    for number, name in enumerate(names):
+        yield b"{" if number == 0 else b","
+        yield _plain(name) + b":"
+        if name != "logs":
+            yield _plain(head[name])
+            continue
+        for index, entry in enumerate(entries):
+            yield (b"," if index else b"[") + _plain(entry)
+        yield b"]"
+    yield b"}"
+
+
+def _text_pieces(head: Mapping[str, str], entries: Iterable[Entry], seal: str) -> Iterator[bytes]:
+    """The file in pieces: JSON that a person can read, the seal at its end."""
+    opening = json.dumps(head, ensure_ascii=False, indent=1).removesuffix("\n}")
+    yield f'{opening},\n "logs": ['.encode()
+    for index, entry in enumerate(entries):
+        text = json.dumps(entry, ensure_ascii=False, allow_nan=False, indent=1)
+        yield ("," * (index > 0) + "\n" + text).replace("\n", "\n  ").encode()
+    yield f'\n ],\n "{SEAL}": {json.dumps(seal)}\n}}\n'.encode()
 
 
 class Journal:
@@ -107,13 +144,45 @@ class Journal:
             lines = self.path.read_bytes().split(b"\n")
         except FileNotFoundError:
             return ()
+        return tuple(entry for line in lines if (entry := self._entry(line)) is not None)
+
+    def places(self) -> list[tuple[int, int]]:
+        """Where in it each sealed line begins and how long it is, in the order of their files.
+
+        Raises:
+            OSError: it cannot be read.
+        """
         found = []
-        for line in lines:
-            seal, _, content = line.partition(b" ")
-            mine = self.secret.seal(content).encode()
-            if hmac.compare_digest(seal, mine):
-                found.append(json.loads(content))
-        return tuple(found)
+        with self.path.open("rb") as stream:
+            begin = 0
+            for line in stream:
+                entry = self._entry(line.rstrip(b"\n"))
+                if entry is not None:
+                    found.append((str(min(entry["files"])), begin, len(line)))
+                begin += len(line)
+        return [(begin, length) for _, begin, length in sorted(found)]
+
+    def at(self, places: Iterable[tuple[int, int]]) -> Iterator[Entry]:
+        """The entries at some places, one after another.
+
+        Raises:
+            OSError: it cannot be read, or was changed meanwhile.
+        """
+        with self.path.open("rb") as stream:
+            for begin, length in places:
+                stream.seek(begin)
+                entry = self._entry(stream.read(length).rstrip(b"\n"))
+                if entry is None:
+                    raise OSError(errno.EIO, "it was changed while it was read")
+                yield entry
+
+    def _entry(self, line: bytes) -> Entry | None:
+        """What a line says; None if it is torn or not sealed with this secret."""
+        seal, _, content = line.partition(b" ")
+        if not hmac.compare_digest(seal, self.secret.seal(content).encode()):
+            return None
+        entry: Entry = json.loads(content)
+        return entry
 
     def start(self, entries: Iterable[Entry]) -> None:
         """Start with what is known already; what else was in it goes.
@@ -160,7 +229,7 @@ class Journal:
             self.path.unlink()
 
     def _line(self, entry: Entry) -> bytes:
-        content = _plain(entry)
+        content = json.dumps(entry, ensure_ascii=False, allow_nan=False).encode()
         return self.secret.seal(content).encode() + b" " + content + b"\n"
 
 

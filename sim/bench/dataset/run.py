@@ -130,27 +130,29 @@ def finish_dataset(
     Raises:
         BadRequest: a log cannot be made, or a file not be written.
     """
-    entries = list(found.kept)
     journal = Journal(place.key, secret=secret)
+    left = len(found.todo)
     shelf = DatasetFolder(
         place.folder, mine=None if overwrite else _files(found.todo, place.folder)
     )
     try:
         shelf.create()
         with _needing(place.key):
-            journal.start(entries)
+            journal.start(found.kept)
         for result in maker(found.todo):
             made = _sound(result)
             entry = _entry(made)
             with _needing(place.key):
                 journal.add(entry)
             shelf.write_files(made.contents)
-            entries.append(entry)
+            left -= 1
             say()
-        if len(entries) != len(found.kept) + len(found.todo):
-            raise RuntimeError(f"{len(found.todo)} logs to make, and not all came back")
+        if left:
+            raise RuntimeError(f"{len(found.todo)} logs to make, and {left} did not come back")
         with _needing(place.key):
-            write_key(place.key, entries, dataset=dataset, secret=secret)
+            count = write_key(place.key, journal, dataset=dataset, secret=secret)
+        if count != len(found.kept) + len(found.todo):
+            raise RuntimeError(f"{count} logs in the key, and that is not all")
     finally:
         journal.close()
         shelf.remove_empty_folders()

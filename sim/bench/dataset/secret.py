@@ -11,6 +11,7 @@ import hmac
 import json
 import os
 import secrets
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,9 +50,19 @@ class Secret:
         """A text that only the holder of the secret can find for this content."""
         return self._code("seal", content).hex()
 
+    def seal_pieces(self, pieces: Iterable[bytes]) -> str:
+        """The seal of a content that comes in pieces and is never whole in memory."""
+        code = hmac.new(self._own("seal"), digestmod=hashlib.sha256)
+        for piece in pieces:
+            code.update(piece)
+        return code.hexdigest()
+
     def _code(self, purpose: str, content: bytes) -> bytes:
-        own = hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
-        return hmac.digest(own, content, hashlib.sha256)
+        return hmac.digest(self._own(purpose), content, hashlib.sha256)
+
+    def _own(self, purpose: str) -> bytes:
+        """A secret of its own for each purpose."""
+        return hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
 
     def save(self) -> None:
         """Write a new secret to its file, for its owner only.

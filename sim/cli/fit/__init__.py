@@ -4,14 +4,15 @@ import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.against import check_against_physics, check_sides_and_directions, read_parts
-from sim.cli.fit.sides import split_sides
-from sim.cli.options import FILE, as_json, read_logs_together, reading_options
+from sim.cli.fit.against import check_against_physics, compare_directions_alone, read_motor_parts
+from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
+from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -43,6 +44,7 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=FILE)
 @reading_options
+@velocity_options
 @click.option(
     "--method",
     type=click.Choice(METHODS),
@@ -92,6 +94,9 @@ def fit(  # noqa: PLR0917 - click passes options by name
     method: str,
     median: int,
     motor: str | None,
+    pick: int | None,
+    velocity_scale: float,
+    ignore_velocity: bool,  # noqa: FBT001 - click passes it by name
     preset: str,
     driven_by: str | None,
     count: int,
@@ -110,8 +115,9 @@ def fit(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Find kS, kV, kA (and kG) in the logs of one mechanism: .wpilog, .csv, or SysId's old .json.
 
-    Directions, and the two sides of a drivetrain, are also fitted apart and compared; not with
-    --json and --paste, which should be quick.
+    Files of one test each are joined. Sides of a drivetrain, modules and whole recordings are
+    fitted alone, compared, and their gains averaged. Directions are compared, too; not with --json
+    and --paste, which should be quick.
 
     For example: sysid fit drive.wpilog --html drive.html
     """
@@ -120,26 +126,22 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
-    parts = read_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-
-    def read_one(side: str | None) -> "Log":
-        return read_logs_together(files, units=units, type=type_, motor=side, entries=entries)
-
-    def find(log: "Log") -> "Fit":
-        return find_gains(log, type=type_ or "", method=method, median=median)
-
-    log = read_one(motor)
-    found = check_against_physics(find(log), log, parts=parts)
-    notes: tuple[str, ...] = ()
+    built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
+    velocity = None if ignore_velocity else velocity_scale
+    parts = read_parts(
+        files, units=units, type=type_, motor=motor, entries=entries, velocity=velocity, pick=pick
+    )
+    log = joined_log(parts)
+    find = partial(find_gains, type=type_ or "", method=method, median=median)
+    pooled = fit_parts(parts, find, kind=kind_of_parts(parts, len(files)))
+    found, notes = check_against_physics(pooled.found, log, parts=built), pooled.notes
     if not (as_json or paste):
-        pair = None if motor else split_sides(log, read_one)
-        found, notes = check_sides_and_directions(
-            found, log, pair, find=find, patient=html is not None
-        )
+        found, more = compare_directions_alone(found, log, patient=html is not None)
+        notes = (*more, *notes)
     found = found.in_log_units()
     tried = try_feedback_gains(found, PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
-    told = _FitOutput(files, found, log, preset, tried, notes)
+    told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json())
     _write(told, html=html, plot=plot)
     told.echo(as_json=as_json, paste=paste, season=int(season))
     return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
@@ -155,6 +157,7 @@ class _FitOutput:
     preset: str
     tried: "tuple[FeedbackTrial, ...]"
     notes: tuple[str, ...]
+    parts: dict[str, dict[str, object]]
 
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> None:
         """Print what was asked for: robot code, JSON, or text for people."""
@@ -168,7 +171,7 @@ class _FitOutput:
             self.show()
 
     def to_json(self) -> dict[str, object]:
-        """Plain data; the learner's own gains only where they were given."""
+        """Plain data; the learner's own gains and those of parts only where there are any."""
         from sim.fit.feedback_trial import OWN  # noqa: PLC0415 - --help must not wait for it
 
         own = [
@@ -177,7 +180,8 @@ class _FitOutput:
             if one.owner == OWN
         ]
         said = self.found.to_json(PRESETS[self.preset])
-        return said | ({"own_feedback": own[0]} if own else {})
+        said |= {"own_feedback": own[0]} if own else {}
+        return said | ({"parts": self.parts} if self.parts else {})
 
     def show(self) -> None:
         """Print it."""
@@ -185,7 +189,10 @@ class _FitOutput:
 
         title = ", ".join(map(str, self.files))
         preset = PRESETS[self.preset]
-        show_fit(self.found, preset=preset, title=title, tried=self.tried, notes=self.notes)
+        show_fit(
+            self.found, preset=preset, title=title, log=self.log, tried=self.tried,
+            notes=self.notes,
+        )  # fmt: skip
 
 
 def _write(told: _FitOutput, *, html: Path | None, plot: Path | None) -> None:

@@ -1,16 +1,13 @@
-"""What speaks against a fit besides its own doubts: physics, its directions, and its sides."""
+"""What speaks against a fit besides its own doubts: physics, and its directions."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.fit.sides import compare_side_fits
 from sim.core.vocabulary import METHODS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from sim.core.doubt import Doubt
     from sim.core.log import Log
     from sim.fit import Fit
@@ -19,7 +16,7 @@ if TYPE_CHECKING:
 MANY = 20_000  # samples: of a longer log the directions take seconds; only a page waits for them
 
 
-def read_parts(
+def read_motor_parts(
     name: str | None, *, count: int, ratio: float | None, radius: float, load: float | None
 ) -> "Parts | None":
     """What drives it, if that was said."""
@@ -44,27 +41,17 @@ def check_against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") ->
     return _doubted(found, *physical_doubts(found, parts=parts, period=period), first=True)
 
 
-def check_sides_and_directions(
-    found: "Fit",
-    log: "Log",
-    pair: "tuple[Log, Log] | None",
-    *,
-    find: "Callable[[Log], Fit]",
-    patient: bool,
+def compare_directions_alone(
+    found: "Fit", log: "Log", *, patient: bool
 ) -> "tuple[Fit, tuple[str, ...]]":
-    """The fit with what its directions and its sides, each fitted alone, say against it."""
-    from sim.fit.physics import compare_directions  # noqa: PLC0415
+    """The fit with what its directions, each fitted alone, say against it."""
+    from sim.fit.physics import compare_directions  # noqa: PLC0415 - --help must not wait for it
 
-    said: tuple[str, ...] = ()
-    if found.method == METHODS[0]:
-        if patient or sum(map(len, log.runs)) <= MANY:
-            found = _doubted(found, *compare_directions(log, found.type))
-        else:
-            said = ("Forward and reverse were not compared: this log is long. --html does it.",)
-    if pair is None:
-        return found, said
-    doubts, notes = compare_side_fits(pair, find)
-    return _doubted(found, *doubts), (*said, *notes)
+    if found.method != METHODS[0]:
+        return found, ()
+    if patient or sum(map(len, log.runs)) <= MANY:
+        return _doubted(found, *compare_directions(log, found.type)), ()
+    return found, ("Forward and reverse were not compared: this log is long. --html does it.",)
 
 
 def _doubted(found: "Fit", *doubts: "Doubt", first: bool = False) -> "Fit":

@@ -10,13 +10,13 @@ from dataclasses import replace
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
-from sim.fit.physics.compare import compare_directions, compare_sides
+from sim.fit.physics.compare import compare_directions, compare_parts, compare_sides
 from sim.fit.physics.parts import Parts, fit_in_si
 from sim.fit.physics.self_consistency import friction_doubts, gravity_doubts, timescale_doubts
 from sim.fit.physics.theory import theory_doubts
 from sim.fit.result import Fit
 
-__all__ = ["Parts", "compare_directions", "compare_sides", "physical_doubts"]
+__all__ = ["Parts", "compare_directions", "compare_parts", "compare_sides", "physical_doubts"]
 
 
 def physical_doubts(

@@ -1,6 +1,7 @@
 """Compare two fits that should agree: left and right, forward and reverse."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 from sim.core.doubt import Doubt
@@ -32,6 +33,29 @@ def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
     return _differing_gains(one, right.in_units(one.units), ("left", "right"), "side")
 
 
+def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
+    """Where alike parts of a robot differ: for each gain the lowest and the highest of them.
+
+    Args:
+        fits: the name of each part -> its fit.
+        what: what the parts are, for a code: ``side``, ``motor``, ``file``.
+
+    Raises:
+        BadRequest: one measures a length, the other an angle.
+    """
+    first = fit_in_si(next(iter(fits.values())))
+    alike = {name: one.in_units(first.units) for name, one in fits.items()}
+    doubts: list[Doubt] = []
+    for gain in SUSPECTS:
+        having = [name for name, one in alike.items() if gain in one.gains]
+        if len(having) > 1:
+            low, *_, high = sorted(having, key=lambda name: alike[name].gains[gain])
+            low, high = sorted((low, high), key=having.index)  # in the order of the parts
+            names = (low, high)
+            doubts += _differing_gains(alike[low], alike[high], names, what, only=gain)
+    return tuple(doubts)
+
+
 def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 - SysId's word
     """Where forward and reverse runs, each fitted alone, differ; nothing if they cannot be.
 
@@ -56,13 +80,15 @@ def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 
     return _differing_gains(fits[0], fits[1], DIRECTIONS, "direction")
 
 
-def _differing_gains(one: Fit, other: Fit, names: tuple[str, ...], what: str) -> tuple[Doubt, ...]:
+def _differing_gains(
+    one: Fit, other: Fit, names: tuple[str, ...], what: str, *, only: str = ""
+) -> tuple[Doubt, ...]:
     """Gains of two fits that differ by more than chance and more than a robot notices."""
     per = find_unit(one.log_units)
     mirror = -1.0 if one.gains["kV"] * other.gains["kV"] < 0.0 else 1.0
     doubts = []
     for gain, why in SUSPECTS.items():
-        if gain not in one.gains or gain not in other.gains:
+        if gain not in one.gains or gain not in other.gains or only not in {"", gain}:
             continue
         a, b = one.gains[gain], mirror * other.gains[gain]
         least = max(

@@ -7,25 +7,39 @@ a Log: ``state`` finds the tests, ``motors`` the signals, ``units`` what they ar
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
 from sim.core.units import UNITS
-from sim.io.entries.discovery import find_devices, find_driven_interval, find_test_in_name
+from sim.io.entries.discovery import find_devices, find_driven_interval
 from sim.io.entries.entry import Entry
-from sim.io.entries.motors import find_motors
-from sim.io.entries.names import find_type_in_name, quote_names
+from sim.io.entries.mirrored import turn_mirrored_motors
+from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, no_motor
+from sim.io.entries.names import (
+    find_test_name,
+    find_type_in_name,
+    number_names,
+    quote_names,
+    split_name,
+)
 from sim.io.entries.runs import cut_runs
-from sim.io.entries.state import RunInterval, StateEntry, find_run_intervals, find_state_entries
+from sim.io.entries.state import (
+    WORD,
+    RunInterval,
+    StateEntry,
+    find_run_intervals,
+    find_state_entries,
+)
 from sim.io.format import ReadOptions
 
 
 def assemble_log(
     entries: Sequence[Entry], *, asked: ReadOptions, where: str
 ) -> tuple[Log, tuple[RunInterval, ...]]:
-    """The log of one mechanism, and the times of its runs.
+    """The log of one mechanism, several motors as their mean, and the times of its runs.
 
     Args:
         entries: of the whole log.
@@ -37,48 +51,83 @@ def assemble_log(
         BadRequest: what was asked for is not in it, or it holds several mechanisms.
         BadSample: it holds a number that cannot be a measurement.
     """
+    found = _found(entries, asked=asked, where=where)
+    return _log(found, found.motors, where=where), found.intervals
+
+
+def assemble_motor_logs(
+    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+) -> tuple[dict[str, Log], tuple[RunInterval, ...]]:
+    """The log of each motor of one mechanism by its name, and the times of the runs.
+
+    A motor that is mounted the other way round is turned, so that all run alike.
+
+    Args:
+        entries: of the whole log.
+        asked: what its reader knows: units, type, motor, and the names of entries.
+        where: the file, for messages.
+
+    Raises:
+        MissingSignal, BadRequest, BadSample: as ``assemble_log``.
+    """
+    found = _found(entries, asked=asked, where=where)
+    logs = {motor.name: _log(found, (motor,), where=where) for motor in found.motors}
+    return turn_mirrored_motors(logs), found.intervals
+
+
+@dataclass(frozen=True, eq=False)
+class _Mechanism:
+    """What was found of one mechanism.
+
+    Args:
+        state: where its tests are named.
+        intervals: when they ran.
+        motors: its motors.
+        asked: what its reader knows, the type its name says included.
+        type_by_name: whether only the name says the type.
+        doubts: what was odd.
+    """
+
+    state: StateEntry
+    intervals: tuple[RunInterval, ...]
+    motors: tuple[MotorEntries, ...]
+    asked: ReadOptions
+    type_by_name: bool
+    doubts: tuple[Doubt, ...]
+
+
+def _found(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> _Mechanism:
+    """The mechanism that is to be read: its tests and its motors."""
     state = _state(entries, asked=asked, where=where)
-    if asked.type is None:
-        return _set_type(entries, state, asked=asked, where=where)
-    return _assemble_mechanism(state, entries, asked=asked, where=where)
+    by_name = asked.type is None
+    if by_name:
+        asked = replace(asked, type=find_type_in_name(state.mechanism) or None)
+    intervals, strange = find_run_intervals(state, where=where)
+    motors, doubts, intervals = find_motors(state, entries, intervals, asked=asked, where=where)
+    return _Mechanism(state, intervals, motors, asked, by_name, (*doubts, *strange))
 
 
-def _set_type(
-    entries: Sequence[Entry], state: StateEntry, *, asked: ReadOptions, where: str
-) -> tuple[Log, tuple[RunInterval, ...]]:
-    """The log of a mechanism whose type nobody said; its name may."""
-    said = find_type_in_name(state.mechanism)
-    log, spans = _assemble_mechanism(
-        state, entries, asked=replace(asked, type=said or None), where=where
-    )
-    if said == "arm" and not UNITS[log.units].angular:  # what moves in meters is no arm
-        log = replace(log, type="")
-    return log, spans
-
-
-def _assemble_mechanism(
-    state: StateEntry, entries: Sequence[Entry], *, asked: ReadOptions, where: str
-) -> tuple[Log, tuple[RunInterval, ...]]:
-    """The log of one mechanism, as the tests that are named for it tell it."""
-    found, strange = find_run_intervals(state, where=where)
-    motors, doubts = find_motors(state, entries, found, asked=asked, where=where)
-    result = cut_runs(motors, found, asked=asked, where=where)
+def _log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str) -> Log:
+    """The log of some motors of a mechanism, as the tests that are named for it tell it."""
+    result = cut_runs(motors, found.intervals, asked=found.asked, where=where)
     if not result.runs:
         names = quote_names([entry.name for entry in motors[0].signals.values()])
         raise MissingSignal(
-            f"no run holds two samples of {names} while {state.entry.name!r} names its test",
+            f"no run holds two samples of {names} while {found.state.entry.name!r} names its test",
             where=where,
             advice="Log the signals in the routine's own log callback, and run the tests again.",
         )
-    log = Log(
+    said = found.asked.type or ""
+    if found.type_by_name and said == "arm" and not UNITS[result.units].angular:
+        said = ""  # what moves in meters is no arm
+    return Log(
         result.runs,
         units=result.units,
-        mechanism=state.mechanism,
-        type=asked.type or "",
+        mechanism=found.state.mechanism,
+        type=said,
         source=where,
-        doubts=(*doubts, *strange, *result.doubts),
+        doubts=(*found.doubts, *result.doubts),
     )
-    return log, found
 
 
 def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> StateEntry:
@@ -89,27 +138,37 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
     """
     try:
         found = find_state_entries(entries, asked=asked, where=where)
-    except MissingSignal:
+    except MissingSignal as missing:
         named = None if asked.entries else _state_of_file_name(Path(where), entries)
-        if named is None:
+        if named is not None:
+            return named
+        if asked.entries or any(split_name(entry.name, WORD) for entry in entries):
             raise
-        return named
+        if any(device.is_complete for device in find_devices(entries)):
+            raise
+        lacking = no_motor(entries, where=where)
+        raise MissingSignal(
+            f"{missing.what}; {lacking.what}", where=where, advice=f"{missing.advice} {EXPORT}"
+        ) from None
     if len(found) > 1 and asked.motor is not None:
         having = tuple(state for state in found if _has_motor(state, entries, asked))
         found = having if len(having) == 1 else found
     if len(found) == 1:
         return found[0]
-    names = [state.mechanism for state in found]
+    if asked.pick is not None and 1 <= asked.pick <= len(found):
+        return found[asked.pick - 1]
+    names = [state.mechanism or state.entry.name for state in found]
     raise BadRequest(
-        f"tests of several mechanisms are in it: {quote_names(names)}",
+        f"tests of several mechanisms are in it: {number_names(names)}",
         where=where,
-        advice=f"Say which with --state {found[0].entry.name}, and record one routine per log.",
+        advice=f"Choose one with --pick 1 to --pick {len(found)}, or with --state "
+        f"{found[0].entry.name}, and record one routine per log.",
     )
 
 
 def _state_of_file_name(path: Path, entries: Sequence[Entry]) -> StateEntry | None:
     """The one test of a file whose name tells it: the longest time that something is driven."""
-    test = find_test_in_name(path.stem)
+    test = find_test_name(path.stem)
     devices = find_devices(entries)
     interval = find_driven_interval(test, devices) if test else None
     if interval is None:

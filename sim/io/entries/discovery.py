@@ -11,13 +11,13 @@ run are the mechanism's motors.
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
-from sim.core.log import TESTS
-from sim.core.vocabulary import DIRECTIONS, KINDS
-from sim.io.entries.entry import NEEDED, NUMBERS, Entry, ValuesEntry
-from sim.io.entries.names import split_words
+from sim.core.log import Array
+from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry, ValuesEntry
+from sim.io.entries.names import split_unit, split_words
 from sim.io.entries.state import RunInterval
 from sim.io.entries.units import find_unit_in_metadata, parse_signal_unit
 
@@ -42,6 +42,7 @@ FILLERS = frozenset(
         "cycle",
         "stator",
         "sensor",
+        "encoder",
     }
 )
 OTHERS = frozenset(
@@ -50,11 +51,13 @@ OTHERS = frozenset(
     | {"offset", "min", "max", "latency", "analog"}
 )
 """Words of entries that hold no measurement of the motor."""
+SENSORS = frozenset({"analog", "absolute"})
+"""Words of folders of a sensor that is not the motor's own."""
 DRIVEN = 0.5  # [share of the voltage of the motor that is driven most] of a motor of the mechanism
 MOVES = 0.3  # [1] correlation of a velocity with the slope of its position, at least
+ALIKE = 0.9999  # [1] correlation of a velocity with its position, if it is the position
 ZERO = 0.02  # [V] a smaller voltage drives nothing
 PAUSE = 500_000  # [µs] without a voltage that ends a test
-_SAME = {"backward": "reverse", "backwards": "reverse", "forwards": "forward"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +77,16 @@ class Device:
         """Whether it has all that a fit needs."""
         return all(signal in self.signals for signal in NEEDED)
 
+    def without_velocity(self) -> "Device":
+        """The same, its position standing where its velocity would."""
+        position = self.signals.get("position")
+        if position is None:
+            return self
+        return Device(self.name, {**self.signals, "velocity": position})
+
+
+DeviceGroup: TypeAlias = tuple[list[Device], list[RunInterval]]  # motors of a mechanism, its tests
+
 
 def find_devices(entries: Sequence[Entry]) -> list[Device]:
     """The devices of a log, each with the signals that its entries' names and units tell."""
@@ -84,16 +97,45 @@ def find_devices(entries: Sequence[Entry]) -> list[Device]:
             own = found.setdefault(device, {})
             if signal not in own or len(entry) > len(own[signal]):
                 own[signal] = entry
-    return [Device(name, _with_voltage(signals)) for name, signals in found.items()]
+    return _completed([Device(name, _with_voltage(signals)) for name, signals in found.items()])
+
+
+def _completed(devices: Sequence[Device]) -> list[Device]:
+    """The devices; one that has a voltage only gets the motion that is logged beside it.
+
+    Two motors of an elevator have a voltage each, and one position: ``Lift/LeftVolts``,
+    ``Lift/RightVolts``, ``Lift/PositionMeters``.
+    """
+    motions = [
+        one
+        for one in devices
+        if "voltage" not in one.signals and {"position", "velocity"} <= one.signals.keys()
+    ]
+    completed = []
+    for device in devices:
+        if "voltage" in device.signals and not {"position", "velocity"} & device.signals.keys():
+            folder = re.split(r"[/:](?!.*[/:])", device.name)[0]
+            near = (
+                [one for one in motions if one.name == folder]
+                or [one for one in motions if one.name.startswith(f"{device.name}/")]
+                or [one for one in motions if re.split(r"[/:](?!.*[/:])", one.name)[0] == folder]
+            )
+            if len(near) == 1:
+                completed.append(Device(device.name, {**near[0].signals, **device.signals}))
+                continue
+        completed.append(device)
+    return completed
 
 
 def identify_signal(entry: Entry) -> tuple[str, str] | None:
     """Device and signal of an entry; None if it is none of a motor's."""
-    path, last = re.fullmatch(r"(.*[/:])?(.*)", entry.name, re.DOTALL).groups("")  # type: ignore[union-attr]
+    name, unit = split_unit(entry.name)
+    path, last = re.fullmatch(r"(.*[/:])?(.*)", name, re.DOTALL).groups("")  # type: ignore[union-attr]
     words = split_words(last)
-    if OTHERS.intersection(words):
+    folder = split_words(re.split(r"[/:]", path.rstrip("/:"))[-1])
+    if OTHERS.intersection(words) or SENSORS.intersection(folder):
         return None
-    signal = _signal(words, find_unit_in_metadata(entry.metadata))
+    signal = _signal(words, find_unit_in_metadata(entry.metadata) or unit)
     if not signal:
         return None
     spent = {
@@ -107,6 +149,15 @@ def identify_signal(entry: Entry) -> tuple[str, str] | None:
     return (path + "-".join(rest)).rstrip("/:"), signal
 
 
+def may_be_signal(name: str, metadata: str) -> bool:
+    """Whether an entry of numbers may hold a signal of a motor, or is near one for a message."""
+    if any(word[:4] in name.lower() for word in NEEDED + OPTIONAL):
+        return True
+    return (
+        identify_signal(Entry(name, NUMBERS[0], metadata, np.zeros(0, dtype=np.int64))) is not None
+    )
+
+
 def select_driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[Device]:
     """The devices that are driven while tests run, and whose velocity goes with their position."""
     levels = [(device, _voltage_in(device, tests)) for device in devices if device.is_complete]
@@ -118,14 +169,22 @@ def select_driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval
     ]
 
 
-def find_test_in_name(stem: str) -> str:
-    """The test that a file's name tells; empty if it tells none, or several."""
-    words = [_SAME.get(word, word) for word in split_words(stem)]
-    kinds, ways = set(KINDS).intersection(words), set(DIRECTIONS).intersection(words)
-    if len(kinds) != 1 or len(ways) != 1:
-        return ""
-    test = f"{kinds.pop()}-{ways.pop()}"
-    return test if test in TESTS else ""
+def group_by_tests(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[DeviceGroup]:
+    """Devices that are driven in the same tests, and those tests: each group is a mechanism.
+
+    A robot whose program names the tests of all its mechanisms in one entry drives one mechanism
+    after another.
+    """
+    levels = np.array([[_voltage_in(one, [test]) for test in tests] for one in devices])
+    driven = (levels >= DRIVEN * levels.max(axis=0)) & (levels > ZERO)
+    groups: list[tuple[list[Device], set[int]]] = []
+    for device, own in zip(devices, driven, strict=True):
+        mine = ([device], set(np.flatnonzero(own).tolist()))
+        for group in [one for one in groups if one[1] & mine[1]]:
+            groups.remove(group)
+            mine = ([*group[0], *mine[0]], group[1] | mine[1])
+        groups.append(mine)
+    return [(some, [tests[n] for n in sorted(own)]) for some, own in groups]
 
 
 def find_driven_interval(test: str, devices: Sequence[Device]) -> RunInterval | None:
@@ -192,11 +251,19 @@ def _voltage_in(device: Device, tests: Sequence[RunInterval]) -> float:
 
 
 def _velocity_matches_position(device: Device, tests: Sequence[RunInterval]) -> bool:
-    """Whether its velocity goes with the slope of its position while tests run."""
+    """Whether its velocity goes with the slope of its position while tests run.
+
+    A position that was logged as the velocity passes, too: a fit takes its slope.
+    """
     position, velocity = device.signals["position"], device.signals["velocity"]
     x, v = position.numbers(), velocity.numbers()
+    parts = _samples_between(velocity, tests)
+    if any(
+        _same_motion(v[part], np.interp(velocity.time[part], position.time, x)) for part in parts
+    ):
+        return True
     slopes, speeds = [], []
-    for part in _samples_between(velocity, tests):
+    for part in parts:
         time = velocity.time[part]
         if time.size > 2:  # noqa: PLR2004 - a slope needs three
             slopes.append(np.gradient(np.interp(time, position.time, x), np.arange(time.size)))
@@ -206,6 +273,15 @@ def _velocity_matches_position(device: Device, tests: Sequence[RunInterval]) -> 
     slope, speed = np.concatenate(slopes), np.concatenate(speeds)
     size = float(np.linalg.norm(slope) * np.linalg.norm(speed))
     return size > 0.0 and float(slope @ speed) > MOVES * size
+
+
+def _same_motion(one: Array, other: Array) -> bool:
+    """Whether two signals are the same but for their unit and zero, and not at rest."""
+    if not one.size:
+        return False
+    one, other = one - np.mean(one), other - np.mean(other)
+    size = float(np.linalg.norm(one) * np.linalg.norm(other))
+    return size > 0.0 and float(one @ other) > ALIKE * size
 
 
 def _driven_intervals(voltage: Entry) -> Iterator[tuple[int, int]]:

@@ -11,11 +11,18 @@ from dataclasses import dataclass
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
-from sim.io.entries.discovery import find_devices, select_driven_devices
+from sim.io.entries.discovery import (
+    DeviceGroup,
+    find_devices,
+    group_by_tests,
+    identify_signal,
+    select_driven_devices,
+)
 from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry
 from sim.io.entries.names import (
     explain_unfit_entry,
     find_requested_entry,
+    number_names,
     quote_names,
     split_name,
     split_words,
@@ -71,7 +78,7 @@ def find_motors(
     *,
     asked: ReadOptions,
     where: str,
-) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...]]:
+) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...], tuple[RunInterval, ...]]:
     """The motors of a mechanism whose signals are to be used, all of them whole.
 
     Args:
@@ -82,7 +89,7 @@ def find_motors(
         where: the file, for messages.
 
     Returns:
-        At least one motor, and doubts about those left out.
+        At least one motor, doubts about those left out, and the tests that drive them.
 
     Raises:
         MissingSignal: no motor has all signals; the message names what is missing.
@@ -96,30 +103,66 @@ def find_motors(
         for signal, name in asked.entries.items()
         if signal in NEEDED + OPTIONAL
     }
+    if asked.ignore_velocity and "position" in given:
+        given["velocity"] = given["position"]  # its slope is taken later
     if all(signal in given for signal in NEEDED):
-        return (MotorEntries(asked.motor or "", given),), ()
+        return (MotorEntries(asked.motor or "", given),), (), tuple(tests)
     found = [MotorEntries(name, signals | given) for name, signals in _by_motor(search).items()]
+    if asked.ignore_velocity:
+        found = [_without_velocity(motor) for motor in found]
     noted: tuple[Doubt, ...] = ()
     if not given and not any(motor.is_complete for motor in found):
-        other = _of_other_loggers(search, tests)
+        other, tests = _of_other_loggers(search, tests)
         found, noted = other or found, (_taken(other, where),) if other else ()
     if asked.motor is not None:
         found = [_chosen(found, search)]
     whole = tuple(motor for motor in found if motor.is_complete)
     if not (whole or given or found or split_name(state.entry.name, WORD)):
-        raise _no_motor(search)
+        raise no_motor(entries, where=where, mechanism=state.mechanism)
     if not whole:
         best = max(found, key=lambda motor: len(motor.signals), default=MotorEntries("", given))
         raise _missing(best, search)
-    return whole, (*noted, *_left_out(found, where))
+    return whole, (*noted, *_left_out(found, where)), tuple(tests)
 
 
-def _of_other_loggers(search: _Search, tests: Sequence[RunInterval]) -> list[MotorEntries]:
-    """The motors that another logger recorded, and that the tests drove."""
-    driven = select_driven_devices(find_devices(search.entries), tests)
+def _of_other_loggers(
+    search: _Search, tests: Sequence[RunInterval]
+) -> tuple[list[MotorEntries], Sequence[RunInterval]]:
+    """The motors that another logger recorded, and the tests that drove them.
+
+    Raises:
+        BadRequest: the tests drove one mechanism after another, and none was chosen.
+    """
+    devices = find_devices(search.entries)
+    if search.asked.ignore_velocity:
+        devices = [one.without_velocity() for one in devices]
+    driven = select_driven_devices(devices, tests)
     words = set(split_words(search.state.mechanism))
-    named = [one for one in driven if words & set(split_words(one.name))]
-    return [MotorEntries(one.name, one.signals) for one in named or driven]
+    some = [one for one in driven if words & set(split_words(one.name))] or driven
+    if search.asked.motor is None and some:
+        groups = group_by_tests(some, tests)
+        some, tests = groups[0] if len(groups) == 1 else _picked(groups, search)
+    return [MotorEntries(one.name, one.signals) for one in some], tests
+
+
+def _picked(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
+    """The mechanism that a person chose."""
+    pick = search.asked.pick
+    if pick is not None and 1 <= pick <= len(groups):
+        return groups[pick - 1]
+    names = [" and ".join(one.name for one in devices) for devices, _ in groups]
+    raise BadRequest(
+        f"its tests drive several mechanisms, one after another: {number_names(names)}",
+        where=search.where,
+        advice=f"Choose one with --pick 1 to --pick {len(groups)}.",
+    )
+
+
+def _without_velocity(motor: MotorEntries) -> MotorEntries:
+    """A motor whose position stands where its velocity would, so that none is asked for."""
+    if "position" not in motor.signals:
+        return motor
+    return MotorEntries(motor.name, {**motor.signals, "velocity": motor.signals["position"]})
 
 
 def _taken(motors: Sequence[MotorEntries], where: str) -> Doubt:
@@ -213,7 +256,7 @@ def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
         for entry in search.entries
         if _placed(entry.name, signal, search)
     ]
-    near = _near(signal, search)
+    near = _near(signal, search.entries, search.state.mechanism)
     if near:
         said.append(f"nearest are {quote_names(near)}")
     return MissingSignal(
@@ -223,17 +266,25 @@ def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
     )
 
 
-def _no_motor(search: _Search) -> MissingSignal:
-    """The refusal of a log in which no device was recorded whole."""
-    devices = find_devices(search.entries)
+def no_motor(entries: Sequence[Entry], *, where: str, mechanism: str = "") -> MissingSignal:
+    """The refusal of a log in which no device was recorded whole.
+
+    Args:
+        entries: all of the log.
+        where: the file.
+        mechanism: its name, if known: entries that name it are shown first.
+    """
+    devices = find_devices(entries)
     lacking = [s for s in NEEDED if not any(s in device.signals for device in devices)]
     what = f"no {' and no '.join(lacking)}" if lacking else "no motor with all three"
-    near = [name for signal in NEEDED for name in _near(signal, search)]
+    near = [name for signal in NEEDED for name in _near(signal, entries, mechanism)]
     said = f"; nearest are {quote_names(list(dict.fromkeys(near)))}" if near else ""
+    arrays = [one.name for one in entries if one.type.endswith("[]") and identify_signal(one)]
+    said += f"; arrays cannot be used: {quote_names(arrays)}" if arrays else ""
     return MissingSignal(
         f"{what} that moves with the tests: a motor needs a voltage entry, a position and a "
         f"velocity{said}",
-        where=search.where,
+        where=where,
         advice=f"Log all three of each motor, or name the entries: {FLAGS}. {EXPORT}",
     )
 
@@ -243,17 +294,17 @@ def _advice(signal: str) -> str:
     return f"Log {what} in the routine's log callback, log.motor(NAME).{CALLS[signal]}"
 
 
-def _near(signal: str, search: _Search) -> list[str]:
+def _near(signal: str, entries: Sequence[Entry], mechanism: str) -> list[str]:
     """Entries whose names speak of a signal, those of this mechanism and this signal first."""
 
     def distance(entry: Entry) -> tuple[bool, bool, int]:
         name = entry.name.lower()
-        return search.state.mechanism.lower() not in name, signal[:4] not in name, -len(entry)
+        return mechanism.lower() not in name, signal[:4] not in name, -len(entry)
 
     words = [word[:4] for word in NEEDED]  # "volt" says it too
     speaking = [
         entry
-        for entry in search.entries
+        for entry in entries
         if entry.type in NUMBERS and any(word in entry.name.lower() for word in words)
     ]
     return [entry.name for entry in sorted(speaking, key=distance)]

@@ -10,8 +10,16 @@ from difflib import get_close_matches
 from typing import NamedTuple
 
 from sim.core.errors import MissingSignal
+from sim.core.vocabulary import DIRECTIONS, KINDS, TESTS
 from sim.io.entries.entry import Entry
 
+_SAME = {
+    "slow": "quasistatic",
+    "fast": "dynamic",
+    "backward": "reverse",
+    "backwards": "reverse",
+    "forwards": "forward",
+}
 SHOWN = 4  # [names] in a message
 
 
@@ -31,6 +39,32 @@ def split_name(name: str, word: str) -> EntryName | None:
 def split_words(name: str) -> list[str]:
     """The words of a name, lower case: ``DriveVelocityRadPerSec`` is drive velocity rad per sec."""
     return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+", name)]
+
+
+def find_test_name(text: str, *, fillers: Collection[str] | None = None) -> str:
+    """The test that a text names in any spelling: ``State.kQuasistaticForward``, ``slow backward``.
+
+    Args:
+        text: its words in any order.
+        fillers: words that may stand beside the test's own; None allows any.
+
+    Returns:
+        One of ``TESTS``; empty if it names none, or several.
+    """
+    words = [_SAME.get(word, word) for word in split_words(text)]
+    kinds, ways = set(KINDS).intersection(words), set(DIRECTIONS).intersection(words)
+    if len(kinds) != 1 or len(ways) != 1:
+        return ""
+    if fillers is not None and not set(words) <= {*kinds, *ways, *fillers}:
+        return ""
+    test = f"{kinds.pop()}-{ways.pop()}"
+    return test if test in TESTS else ""
+
+
+def split_unit(name: str) -> tuple[str, str]:
+    """A name without the unit in brackets at its end, and that unit: ``velocity (m/s)``."""
+    found = re.fullmatch(r"(.*?\S)\s*[(\[]([^()\[\]]+)[)\]]\s*", name, re.DOTALL)
+    return (found[1], found[2].strip()) if found else (name, "")
 
 
 def find_type_in_name(mechanism: str) -> str:
@@ -81,3 +115,8 @@ def quote_names(names: Sequence[str]) -> str:
     """A few names for a message."""
     more = ", …" if len(names) > SHOWN else ""
     return ", ".join(repr(name) for name in names[:SHOWN]) + more
+
+
+def number_names(names: Sequence[str]) -> str:
+    """Names to choose from, each with its number: ``1 'Arm', 2 'Elevator'``."""
+    return ", ".join(f"{number} {name!r}" for number, name in enumerate(names, start=1))

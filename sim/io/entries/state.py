@@ -11,11 +11,12 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
 from sim.core.log import TESTS
 from sim.io.entries.entry import STRING, Entry
-from sim.io.entries.names import find_requested_entry, quote_names, split_name
+from sim.io.entries.names import find_requested_entry, find_test_name, quote_names, split_name
 from sim.io.format import ReadOptions
 
 WORD = "sysid-test-state"
 IDLE = ("none", "")  # what stands there while no test runs
+FILLERS = ("state", "k", "sysid", "sys", "id", "test", "routine")  # words beside a test's own
 FOREVER = 2**62  # [µs] the end of a run that the file does not see end
 
 
@@ -99,7 +100,7 @@ def find_run_intervals(
     """
     if state.intervals:
         return state.intervals, ()
-    words = [text.strip().lower() for text in state.entry.texts()]
+    words = _states(state.entry)
     times = state.entry.time.tolist()
     fresh = [i for i, word in enumerate(words) if i == 0 or word != words[i - 1]]
     ends = [times[i] for i in fresh[1:]] + [FOREVER]
@@ -121,7 +122,18 @@ def find_run_intervals(
 
 def names_tests(entry: Entry) -> bool:
     """Whether an entry names a test at all."""
-    return any(text.strip().lower() in TESTS for text in entry.texts())
+    return any(state in TESTS for state in set(_states(entry)))
+
+
+def _states(entry: Entry) -> list[str]:
+    """The values of an entry, those that name a test in any spelling as the name of the test."""
+    texts = entry.texts()
+    plain = {text: text.strip().lower() for text in set(texts)}
+    names = {
+        text: said if said in TESTS else find_test_name(text, fillers=FILLERS) or said
+        for text, said in plain.items()
+    }
+    return [names[text] for text in texts]
 
 
 def _only(telling: Sequence[StateEntry], mechanism: str, *, where: str) -> StateEntry:
@@ -160,6 +172,7 @@ def _no_state(*, where: str) -> MissingSignal:
         f"no entry names tests: expected '{WORD}-<mechanism>' (string)",
         where=where,
         advice="SysIdRoutine writes it while a test runs: run the tests with the robot enabled and "
-        "give the log of that, or name another logger's entries with --state ENTRY --voltage ENTRY "
-        "--position ENTRY --velocity ENTRY.",
+        "give the log of that. If the file holds one test, say which in its name: "
+        "dynamic-forward.wpilog. Or name another logger's entries with --state ENTRY --voltage "
+        "ENTRY --position ENTRY --velocity ENTRY.",
     )

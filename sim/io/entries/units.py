@@ -16,7 +16,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.units import UNITS
 from sim.io.entries.entry import NEEDED, Entry
-from sim.io.entries.names import split_words
+from sim.io.entries.names import split_unit, split_words
 from sim.io.format import ReadOptions
 
 _WORDS = {  # unit of ours -> what others call it
@@ -45,6 +45,9 @@ VOLTAGES = {
     **dict.fromkeys(("volt", "volts", "v"), 1.0),
     **dict.fromkeys(("millivolt", "millivolts", "mv"), 1e-3),
 }
+PHOENIX = {"position": "rotations", "velocity": "rotations per second"}
+"""Units of CTRE's Phoenix 6, which an export as CSV does not keep."""
+_PHOENIX = re.compile(r"phoenix ?6|talonfxs?\b|cancoder", re.IGNORECASE)
 SHORT = {"rpm": "rotation per minute", "rps": "rotation per second"}
 
 
@@ -106,9 +109,13 @@ def find_unit_text(entry: Entry, signal: str) -> str:
     text = find_unit_in_metadata(entry.metadata)
     if text:
         return text
-    words = split_words(re.split(r"[/:]", entry.name)[-1])
+    name, unit = split_unit(entry.name)
+    if unit and parse_signal_unit(unit, signal):
+        return unit
+    words = split_words(re.split(r"[/:]", name)[-1])
     ends = (" ".join(words[first:]) for first in range(len(words)))
-    return next((end for end in ends if parse_signal_unit(end, signal)), "")
+    found = next((end for end in ends if parse_signal_unit(end, signal)), "")
+    return found or (PHOENIX.get(signal, "") if _PHOENIX.search(entry.name) else "")
 
 
 def parse_voltage_unit(text: str) -> StatedUnit | None:
@@ -137,9 +144,11 @@ def choose_scale(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str
     Raises:
         BadRequest: its position is an angle and its velocity a length, or the other way round.
     """
-    texts = {signal: find_unit_text(signals[signal], signal) for signal in NEEDED}
+    stands_in = signals["velocity"] is signals["position"]  # only its slope will be used
+    needed = [signal for signal in NEEDED if not (stands_in and signal == "velocity")]
+    texts = {signal: find_unit_text(signals[signal], signal) for signal in needed}
     said = {signal: parse_signal_unit(text, signal) for signal, text in texts.items()}
-    stated = [found.units for found in (said["position"], said["velocity"]) if found]
+    stated = [found.units for name in ("position", "velocity") if (found := said.get(name))]
     if asked.units is None and len({UNITS[units].angular for units in stated}) > 1:
         raise BadRequest(
             f"the position is in {texts['position']!r} and the velocity in {texts['velocity']!r}, "
@@ -157,6 +166,8 @@ def choose_scale(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str
             code, what = problem
             name = signals[signal].name
             doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}"))
+    if stands_in:
+        factors["velocity"] = factors["position"]
     return EntryScale(units, factors, tuple(doubts))
 
 

@@ -1,6 +1,6 @@
 """The simulation engine: one compiled kernel for simulation, fit and reconcile.
 
-It is composed from the effects of the catalogue when first used: about ten seconds once, from the
+It is composed from the effects of the catalogue when first used: about 20 seconds once, from the
 cache on disk within a tenth of a second after that.
 """
 
@@ -241,7 +241,7 @@ def _backlash_position(model: Model, position: Array, meshed: Array) -> Array:
 
 
 def engine_is_cached() -> bool:
-    """Whether the engine waits in the cache; if not, its first use takes about ten seconds."""
+    """Whether the engine waits in the cache; if not, its first use takes about 20 seconds."""
     return is_compiled(EFFECTS)
 
 
@@ -261,7 +261,7 @@ def _compiled_engine() -> Kernel | ModuleType:
 def _build_engine() -> Kernel | ModuleType:
     """The compiled engine; a person at a terminal is told why the first time takes a while."""
     if sys.stderr.isatty() and not engine_is_cached():
-        sys.stderr.write("Compiling the simulation, once; this takes about ten seconds…\n")
+        sys.stderr.write("Compiling the simulation, once; this takes about twenty seconds…\n")
     return compose_engine(EFFECTS)
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from sim.core.errors import BadRequest, BadSample, UnreadableFile
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
-from sim.io.entries import assemble_log
+from sim.io.entries import assemble_log, assemble_motor_logs
 from sim.io.entries.entry import Entry
 from sim.io.format import HEAD, ReadOptions, doubt_motor_choice, make_run
 from sim.io.formats.csv.entries import is_export, read_entries
@@ -76,7 +76,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
     signals |= {name: table.parse_column(name, gaps=True) for name in EXTRA if name in table.cells}
     si = find_unit(asked.units_or_default).si
     runs: list[Run] = []
-    doubts = [*table.doubts, *doubt_motor_choice(asked, where=table.where)]
+    doubts = [*table.doubts, *doubt_motor_choice(asked.motor, where=table.where)]
     for number, rows in enumerate(_split(table, codes, signals["time"])):
         mine = {
             name: values[rows]
@@ -94,6 +94,17 @@ def read(path: Path, asked: ReadOptions) -> Log:
         source=table.where,
         doubts=tuple(doubts),
     )
+
+
+def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
+    """Read a CSV log, a log for each motor that a log viewer's export holds.
+
+    Raises:
+        Refusal: as ``read``.
+    """
+    if not _exported(path):
+        return {"": read(path, asked)}
+    return assemble_motor_logs(read_entries(path), asked=asked, where=str(path))[0]
 
 
 def write(log: Log, path: Path) -> None:

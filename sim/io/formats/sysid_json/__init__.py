@@ -8,6 +8,7 @@ format is only read: its tools are gone.
 """
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
 
 from sim.core.doubt import Doubt
@@ -15,7 +16,7 @@ from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.io.format import ReadOptions, doubt_motor_choice, make_run
-from sim.io.formats.sysid_json.drivetrain import read_drivetrain
+from sim.io.formats.sysid_json.drivetrain import SIDES, read_drivetrain
 from sim.io.formats.sysid_json.rows import (
     RowForm,
     check_columns,
@@ -48,40 +49,82 @@ def read(path: Path, asked: ReadOptions) -> Log:
         BadSample: a number that cannot be a measurement.
         BadRequest: a side that is none, or names of entries, which rows do not have.
     """
-    where = str(path)
-    if asked.entries:
-        raise BadRequest(
-            "the columns of this format have no names",
-            where=where,
-            advice="Leave out --state, --voltage, --position and --velocity.",
+    return _Document.load(path, asked).log(asked.motor)
+
+
+def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
+    """Read a log, a log for each side of a drivetrain.
+
+    Raises:
+        Refusal: as ``read``, but for a side that does not move: its log says so when it is fitted.
+    """
+    document = _Document.load(path, asked)
+    if len(document.form.sides) == 1 or asked.motor:
+        return {"": document.log(asked.motor)}
+    return {side: document.log(side) for side in SIDES}
+
+
+@dataclass(frozen=True, eq=False)
+class _Document:
+    """A file taken apart.
+
+    Args:
+        where: the file.
+        said: what it says about itself.
+        tables: test -> its rows.
+        form: what the columns hold.
+        doubts: what was odd.
+    """
+
+    where: str
+    said: FileHeader
+    tables: dict[str, Array]
+    form: RowForm
+    doubts: tuple[Doubt, ...]
+
+    @classmethod
+    def load(cls, path: Path, asked: ReadOptions) -> "_Document":
+        """Read a file."""
+        where = str(path)
+        if asked.entries:
+            raise BadRequest(
+                "the columns of this format have no names",
+                where=where,
+                advice="Leave out --state, --voltage, --position and --velocity.",
+            )
+        document = load_json(path)
+        said = read_header(document, asked, where=where)
+        tables, doubts = parse_tables(document, where=where)
+        form = detect_form(tables, said, where=where)
+        check_columns(tables, form, where=where)
+        return cls(where, said, tables, form, (*said.doubts, *doubts))
+
+    def log(self, motor: str | None) -> Log:
+        """The log of one side, or of both made one."""
+        said, form = self.said, self.form
+        sides, odd = _sides(self.tables, form, said, motor, where=self.where)
+        runs = []
+        doubts = [*self.doubts, *odd]
+        for test in sorted(self.tables, key=lambda test: float(self.tables[test][0, 0])):
+            table = self.tables[test]
+            signals = sides[test].signals(time=table[:, 0], scale=said.per_rotation)
+            if form.battery is not None:
+                signals["bus_voltage"] = table[:, form.battery]
+            run, repeated = make_run(test, signals, si=find_unit(said.units).si, where=self.where)
+            runs.append(run)
+            doubts.extend(repeated)
+        return Log(
+            tuple(runs),
+            units=said.units,
+            mechanism=said.mechanism,
+            type=said.type or ("simple" if len(form.sides) > 1 else ""),  # two sides: a drivetrain
+            source=self.where,
+            doubts=tuple(doubts),
         )
-    document = load_json(path)
-    said = read_header(document, asked, where=where)
-    tables, doubts = parse_tables(document, where=where)
-    form = detect_form(tables, said, where=where)
-    check_columns(tables, form, where=where)
-    sides, odd = _sides(tables, form, said, asked, where=where)
-    runs = []
-    doubts = [*said.doubts, *doubts, *odd]
-    for test in sorted(tables, key=lambda test: float(tables[test][0, 0])):
-        signals = sides[test].signals(time=tables[test][:, 0], scale=said.per_rotation)
-        if form.battery is not None:
-            signals["bus_voltage"] = tables[test][:, form.battery]
-        run, repeated = make_run(test, signals, si=find_unit(said.units).si, where=where)
-        runs.append(run)
-        doubts.extend(repeated)
-    return Log(
-        tuple(runs),
-        units=said.units,
-        mechanism=said.mechanism,
-        type=said.type or ("simple" if len(form.sides) > 1 else ""),  # two sides: a drivetrain
-        source=where,
-        doubts=tuple(doubts),
-    )
 
 
 def _sides(
-    tables: dict[str, Array], form: RowForm, said: FileHeader, asked: ReadOptions, *, where: str
+    tables: dict[str, Array], form: RowForm, said: FileHeader, motor: str | None, *, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
     """One side for every test: the only one, the one asked for, or both made one."""
     found = [
@@ -90,6 +133,5 @@ def _sides(
     ]
     if len(found) == 1:
         sides, doubts = read_one_side(found[0], where=where)
-        return sides, [*doubts, *doubt_motor_choice(asked, where=where)]
-    motor = asked.motor or "combined"
-    return read_drivetrain(found, motor=motor, angular=said.angular, where=where)
+        return sides, [*doubts, *doubt_motor_choice(motor, where=where)]
+    return read_drivetrain(found, motor=motor or "combined", angular=said.angular, where=where)

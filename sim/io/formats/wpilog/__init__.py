@@ -1,28 +1,44 @@
 """WPILOG: the log a robot writes itself, with the entries SysIdRoutine adds to it.
 
-Bytes become records (``records``), records entries (``contents``), and these a Log
+Bytes become records (``records``, ``windows``), records entries (``contents``), and these a Log
 (``sim/io/entries``).
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
+from functools import partial
 from pathlib import Path
+from typing import Protocol, TypeVar
 
 import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.errors import MissingSignal, UnreadableFile
 from sim.core.log import Log
-from sim.io.entries import assemble_log
+from sim.io.entries import assemble_log, assemble_motor_logs
+from sim.io.entries.discovery import may_be_signal
+from sim.io.entries.entry import NUMBERS, STRING, Entry
 from sim.io.entries.state import FOREVER, RunInterval
 from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import FileDamage, read_contents
+from sim.io.formats.wpilog.control import Start
 from sim.io.formats.wpilog.entry import FileEntry
 from sim.io.formats.wpilog.records import MAGIC, load_records
+from sim.io.formats.wpilog.windows import load_wanted_records
 from sim.io.formats.wpilog.writing import write
 
-__all__ = ["SUFFIXES", "entries", "read", "recognizes", "write"]
+__all__ = ["SUFFIXES", "entries", "read", "read_motors", "recognizes", "write"]
 
 SUFFIXES = (".wpilog",)
+Made_co = TypeVar("Made_co", covariant=True)
+
+
+class _Maker(Protocol[Made_co]):
+    """Makes logs of entries."""
+
+    def __call__(
+        self, entries: Sequence[Entry], *, asked: ReadOptions, where: str
+    ) -> tuple[Made_co, tuple[RunInterval, ...]]:
+        """What is made, and the times of its runs."""
 
 
 def recognizes(head: bytes) -> bool:
@@ -52,8 +68,31 @@ def read(path: Path, asked: ReadOptions) -> Log:
         BadRequest: what was asked for is not in it, or it holds several mechanisms.
         BadSample: it holds a number that cannot be a measurement.
     """
+    log, doubts = _read(path, asked, assemble_log)
+    return log.add_doubts(*doubts)
+
+
+def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
+    """Read the runs of one mechanism, a log for each of its motors.
+
+    Args:
+        path: the file.
+        asked: what its reader knows: units, motor, and the names of entries.
+
+    Raises:
+        Refusal: as ``read``.
+    """
+    logs, doubts = _read(path, asked, assemble_motor_logs)
+    return {name: log.add_doubts(*doubts) for name, log in logs.items()}
+
+
+def _read(
+    path: Path, asked: ReadOptions, make: _Maker[Made_co]
+) -> tuple[Made_co, tuple[Doubt, ...]]:
+    """What is made of a file's entries, and what is odd about the file."""
     where = str(path)
-    records = load_records(path)
+    named = set(asked.entries.values())
+    records = load_wanted_records(path, partial(_is_wanted, named=named))
     found = read_contents(records)
     damage = found.damage
     lost = tuple(_orphaned(found.orphans, where))
@@ -61,16 +100,23 @@ def read(path: Path, asked: ReadOptions) -> Log:
         raise _unreadable(damage, records.end, where, "there is no record before it")
     try:
         with np.errstate(all="ignore"):  # what is not finite is refused where a run is made of it
-            log, spans = assemble_log(found.entries, asked=asked, where=where)
+            made, spans = make(found.entries, asked=asked, where=where)
     except MissingSignal as missing:
         if damage is None:
             raise
         raise _unreadable(damage, records.end, where, missing.what) from None
     if damage is None:
-        return log.add_doubts(*lost, *_unfinished(spans[-1], where))
+        return made, (*lost, *_unfinished(spans[-1], where))
     if not damage.torn and spans[0].end == FOREVER:
         raise _unreadable(damage, records.end, where, "no run is whole before it")
-    return log.add_doubts(*lost, _partly(damage, where))
+    return made, (*lost, _partly(damage, where))
+
+
+def _is_wanted(entry: Start, *, named: Collection[str]) -> bool:
+    """Whether the values of an entry may be needed: any text may name tests."""
+    if entry.name in named or entry.type == STRING:
+        return True
+    return entry.type in NUMBERS and may_be_signal(entry.name, entry.metadata)
 
 
 def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> UnreadableFile:

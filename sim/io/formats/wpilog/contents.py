@@ -13,7 +13,7 @@ import numpy as np
 
 from sim.io.formats.wpilog.control import Metadata, Start, parse_control_record
 from sim.io.formats.wpilog.entry import SIZES, FileEntry
-from sim.io.formats.wpilog.records import File, Numbers, RecordHeaders, Records, read_headers
+from sim.io.formats.wpilog.records import File, Numbers, RecordHeaders, Records
 
 SMALL_IDS = 1 << 16  # ids below fit 16 bits, which NumPy sorts by radix
 LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is hardly larger
@@ -96,7 +96,7 @@ _Lives: TypeAlias = dict[int, list[_EntryLife]]
 
 def read_contents(records: Records) -> Contents:
     """Sort the records of a file into entries, up to the first record that cannot be."""
-    head = read_headers(records.file.buffer, records.start)
+    head = records.head
     groups = _groups(head)
     lives, stop = _find_lives(records, head, before=head.id.size)
     stops = [stop] if stop else []
@@ -108,7 +108,7 @@ def read_contents(records: Records) -> Contents:
     orphans = sum(
         int(np.count_nonzero(groups[number].index < several[0].first))
         for number, several in lives.items()
-        if number in groups
+        if several and number in groups
     )
     entries = tuple(_join_lives(lives, groups, records.file))
     return Contents(entries, _damage(records, lives, stop), orphans)
@@ -194,10 +194,10 @@ def _concatenate_groups(parts: Sequence[_Group]) -> _Group:
 def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> FileDamage | None:
     """What kept the rest of the file from being read, if anything did."""
     offset = int(records.start[stop.index]) if stop else records.end
-    left = records.file.size - offset
+    left = records.size - offset
     if not left:
         return None
-    if not records.file.buffer[offset : records.file.size].any():
+    if records.only_zeros_from(offset):
         return FileDamage(offset, left, "nothing but zero bytes", torn=True)
     if stop:
         return FileDamage(offset, left, stop.what, torn=False)
@@ -206,9 +206,9 @@ def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> FileDamage |
 
 def _overrun(records: Records, lives: _Lives, offset: int, left: int) -> FileDamage:
     """The record at ``offset`` says it is longer than the file: cut off, or nonsense."""
-    head = read_headers(records.file.buffer, np.array([offset]))
+    head = records.header_at(offset)
     number, size = int(head.id[0]), int(head.size[0])
-    if int(head.payload[0]) > records.file.size:
+    if int(head.payload[0]) > records.size:
         return FileDamage(offset, left, "a record that stops within its header", torn=True)
     open_now = [life for life in lives.get(number, ()) if life.last == records.start.size]
     sizes = [SIZES.get(life.start.type) for life in open_now] or [None] * (number == 0)

@@ -77,21 +77,6 @@ class File:
 
 
 @dataclass(frozen=True, eq=False)
-class Records:
-    """A file and where its records begin.
-
-    Args:
-        file: the file.
-        start: (n,) offset of each whole record, in order.
-        end: offset behind the last whole record; the file's size if the chain reaches its end.
-    """
-
-    file: File
-    start: Numbers
-    end: int
-
-
-@dataclass(frozen=True, eq=False)
 class RecordHeaders:
     """What the headers of some records say.
 
@@ -108,8 +93,46 @@ class RecordHeaders:
     payload: Numbers
 
 
+@dataclass(frozen=True, eq=False)
+class Records:
+    """A file and where its records begin.
+
+    Args:
+        path: where the file is.
+        size: its length [bytes].
+        file: what of it is in memory: all of it, or the payloads of some records.
+        start: (n,) offset in the file of each whole record in memory, in order.
+        end: offset behind the last whole record; the file's size if the chain reaches its end.
+        head: what the headers of these records say; payloads are offsets in ``file``.
+    """
+
+    path: Path
+    size: int
+    file: File
+    start: Numbers
+    end: int
+    head: RecordHeaders
+
+    def header_at(self, offset: int) -> RecordHeaders:
+        """What the header at an offset of the file says, whole or not."""
+        with self.path.open("rb") as stream:
+            stream.seek(offset)
+            found = bytearray(stream.read(PAD)) + bytearray(PAD)
+        header = read_headers(File(found).buffer, np.array([0]))
+        return RecordHeaders(header.id, header.size, header.time, header.payload + offset)
+
+    def only_zeros_from(self, offset: int) -> bool:
+        """Whether the rest of the file is nothing but zero bytes."""
+        with self.path.open("rb") as stream:
+            stream.seek(offset)
+            while block := stream.read(LARGEST_WINDOW):
+                if block.count(0) < len(block):
+                    return False
+        return True
+
+
 def load_records(path: Path) -> Records:
-    """Read a file and find its records.
+    """Read a whole file and find its records.
 
     Raises:
         UnreadableFile: it is empty, foreign, of a later version, or ends before its first record.
@@ -120,8 +143,8 @@ def load_records(path: Path) -> Records:
         size = file.readinto(memoryview(content)[:-PAD])
     del content[size + PAD :]  # of a file that became shorter while it was read
     whole = File(content)
-    start, end = follow_records(whole, first=_preface(whole, where=str(path)))
-    return Records(whole, start, end)
+    start, end = follow_records(whole, first=first_record(whole, size=size, where=str(path)))
+    return Records(path, size, whole, start, end, read_headers(whole.buffer, start))
 
 
 def follow_records(file: File, *, first: int) -> tuple[Numbers, int]:
@@ -175,8 +198,17 @@ def view_numbers(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
     return np.ndarray((buffer.size - dtype.itemsize + 1,), dtype, buffer, strides=(1,))
 
 
-def _preface(file: File, *, where: str) -> int:
-    """The offset of the first record, behind a preface that is found in order."""
+def first_record(file: File, *, size: int, where: str) -> int:
+    """The offset of the first record, behind a preface that is found in order.
+
+    Args:
+        file: the beginning of the file.
+        size: the length of all of it [bytes].
+        where: its path, for messages.
+
+    Raises:
+        UnreadableFile: it is foreign, of a later version, or ends before its first record.
+    """
     opening = file.content[: min(PREFACE, file.size)]
     if not opening.startswith(MAGIC[: len(opening)]):
         raise UnreadableFile(
@@ -194,8 +226,8 @@ def _preface(file: File, *, where: str) -> int:
             advice="Record or export it as WPILOG 1.0.",
         )
     first = PREFACE + int(extra)
-    if first > file.size:
-        raise _cut_short(where, file.size)
+    if first > size:
+        raise _cut_short(where, size)
     return first
 
 

@@ -1,0 +1,169 @@
+"""Alike parts of a robot that files hold: sides, modules, repetitions; each is fitted, then pooled.
+
+Files that hold one test each are joined. Files that hold whole recordings are parts of their own,
+as every motor is.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from sim.core.doubt import Doubt
+from sim.core.errors import Refusal
+from sim.core.vocabulary import FOUR_TESTS
+
+if TYPE_CHECKING:
+    from sim.core.log import Log
+    from sim.fit import Fit
+
+Parts = Mapping[str, "Log"]  # name -> its log
+
+SIDE, MOTOR, FILE = "side", "motor", "file"
+SIDES = ("left", "right")
+SHOWN = 4  # [parts] whose gains a sentence lists; of more, the lowest and the highest
+
+
+def parts_of_files(logs: Sequence[tuple[Path, Parts]]) -> Parts:
+    """The parts of a robot that some files hold, in the order of the files.
+
+    Args:
+        logs: each file, and the logs of its motors by name.
+    """
+    if len(logs) == 1:
+        return logs[0][1]
+    if all(_whole(log) for _, motors in logs for log in motors.values()):
+        stems = [path.stem for path, _ in logs]
+        unique = len(set(stems)) == len(stems)
+        return {
+            f"{path.stem if unique else path} {name}".strip(): log
+            for path, motors in logs
+            for name, log in motors.items()
+        }
+    joined: dict[str, Log] = {}
+    for _, motors in logs:
+        for name, log in motors.items():
+            joined[name] = _joined(joined[name], log) if name in joined else log
+    return joined
+
+
+def kind_of_parts(parts: Parts, files: int) -> str:
+    """What the parts are: two sides, several motors, or several files."""
+    if set(map(str.lower, parts)) == set(SIDES):
+        return SIDE
+    return FILE if files > 1 and len(parts) >= files else MOTOR
+
+
+def joined_log(parts: Parts) -> "Log":
+    """All runs of all parts as one log, to show; what several parts say is said once."""
+    first, *others = parts.values()
+    for log in others:
+        first = _joined(first, log)
+    return first
+
+
+def _joined(first: "Log", other: "Log") -> "Log":
+    """The runs of two logs; what is said of both, but for the name of the file, is said once."""
+    said = {(one.code, one.message.replace(first.source, "")) for one in first.doubts}
+    new = tuple(
+        one for one in other.doubts if (one.code, one.message.replace(other.source, "")) not in said
+    )
+    return first.join(replace(other, doubts=new))
+
+
+@dataclass(frozen=True)
+class PooledParts:
+    """The answer of several parts.
+
+    Args:
+        found: the pooled fit, where the parts differ among its doubts.
+        fits: the name of each part -> its own fit.
+        notes: sentences about parts that agree.
+    """
+
+    found: "Fit"
+    fits: "Mapping[str, Fit]"
+    notes: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, dict[str, object]]:
+        """Name of each part -> its gains and errors in the unit of the log; empty for one part."""
+        if len(self.fits) == 1:
+            return {}
+        units = self.found.log_units
+        alike = {name: one.in_units(units) for name, one in self.fits.items()}
+        return {
+            name: {"gains": dict(one.gains), "errors": dict(one.errors)}
+            for name, one in alike.items()
+        }
+
+
+def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, kind: str) -> PooledParts:
+    """The fit of every part, compared and pooled.
+
+    Args:
+        parts: at least one.
+        find: fits one.
+        kind: what they are.
+
+    Raises:
+        Refusal: none of them can be fitted; the reason of the first.
+    """
+    from sim.fit.physics import compare_parts  # noqa: PLC0415 - --help must not wait for it
+    from sim.fit.pooled import pool_fits  # noqa: PLC0415 - the same
+
+    fits: dict[str, Fit] = {}
+    refused: dict[str, Refusal] = {}
+    for name, log in parts.items():
+        try:
+            fits[name] = find(log)
+        except Refusal as refusal:
+            refused[name] = refusal
+    if not fits:
+        name = next(iter(refused))
+        raise _explained(refused[name], parts[name])
+    found = pool_fits(fits)
+    if len(parts) == 1:
+        return PooledParts(found, fits)
+    left_out = tuple(
+        Doubt("part-left-out", f"{kind} {name!r} cannot be fitted and was left out: {said.what}.")
+        for name, said in refused.items()
+    )
+    if len(fits) == 1:
+        return PooledParts(replace(found, doubts=(*found.doubts, *left_out)), fits)
+    differ = compare_parts(fits, kind)
+    found = replace(found, doubts=(*found.doubts, *differ, *left_out))
+    return PooledParts(found, fits, () if differ else (_agree(fits, kind),))
+
+
+def _explained(refusal: Refusal, log: "Log") -> Refusal:
+    """The refusal of a log, with the advice about its velocity if that cannot be right."""
+    for doubt in log.doubts:
+        if doubt.code == "velocity-scale":
+            advice = doubt.message.removeprefix(f"{log.source}: ")
+            return refusal.__class__(refusal.what, where=refusal.where, advice=advice.capitalize())
+    return refusal
+
+
+def _whole(log: "Log") -> bool:
+    """Whether a log holds tests of both kinds, so that it can be fitted alone."""
+    return {run.kind for run in log.runs} >= {test.rpartition("-")[0] for test in FOUR_TESTS}
+
+
+def _agree(fits: Mapping[str, "Fit"], kind: str) -> str:
+    """The sentence that parts agree, with the gains of each."""
+    units = next(iter(fits.values())).log_units
+    alike = {name: one.in_units(units) for name, one in fits.items()}
+    if len(alike) > SHOWN:
+        order = sorted(alike, key=lambda name: alike[name].gains["kV"])
+        alike = {name: alike[name] for name in (order[0], order[-1])}
+    gains = [
+        f"{gain} {' and '.join(f'{one.gains[gain]:{digits}}' for one in alike.values())}"
+        for gain, digits in (("kV", ".4g"), ("kA", ".3g"))
+    ]
+    names = "Left and right" if kind == SIDE else f"All {len(fits)} {kind}s"
+    some = f" ({' and '.join(alike)}:" if kind != SIDE else ":"
+    end = ")." if kind != SIDE else "."
+    return (
+        f"{names}, each fitted alone, agree within their errors{some} {', '.join(gains)}{end} "
+        "The gains are their weighted mean."
+    )

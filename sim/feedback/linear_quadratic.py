@@ -1,0 +1,122 @@
+"""The linear-quadratic regulator of x'' = rate·x' + push·u, in plain numbers.
+
+Two states allow closed forms for what SciPy does with matrices of any size, and SciPy takes longer
+to import than all of a fit takes to run.
+
+Sources: C. F. Van Loan, "Computing Integrals Involving the Matrix Exponential" (1978), for the
+discrete model; E. K.-W. Chu et al., "A structure-preserving doubling algorithm" (2004), for the
+Riccati equation; N. J. Higham, "Functions of Matrices" (2008), section 1.2.2, for the power.
+"""
+
+import cmath
+import math
+from typing import TypeAlias
+
+Matrix: TypeAlias = tuple[float, float, float, float]  # rows one after another
+Pair: TypeAlias = tuple[float, float]
+
+SMALL = 0.5  # a shorter argument of the exponential functions is summed as a series
+TERMS = 20  # of which the last is below 1e-23
+DOUBLINGS = 60  # steps of the Riccati equation; each doubles the horizon, and 10 are common
+SETTLED = 1e-15  # [share] by which a last step may still change the solution
+CLOSE = 1e-3  # [share] nearer eigenvalues have their difference quotient from a series
+
+
+def two_state_regulator(
+    rate: float, push: float, *, period: float, q: Pair, r: float, loops: float
+) -> Pair:
+    """Gains on position and velocity of x'' = rate·x' + push·u.
+
+    Args:
+        rate: [1/s].
+        push: [unit/s² per V].
+        period: [s] of the controller's loop.
+        q: weights of position and velocity.
+        r: weight of the voltage.
+        loops: by how many periods the measurement is late.
+    """
+    a, b = _discrete(rate, push, period)
+    s = _riccati(a, b, q=q, r=r)
+    weight = r + b[0] * (s[0] * b[0] + s[1] * b[1]) + b[1] * (s[2] * b[0] + s[3] * b[1])
+    sb = (s[0] * b[0] + s[2] * b[1], s[1] * b[0] + s[3] * b[1])
+    k = (
+        (sb[0] * a[0] + sb[1] * a[2]) / weight,
+        (sb[0] * a[1] + sb[1] * a[3]) / weight,
+    )
+    if not loops:
+        return k
+    closed = (a[0] - b[0] * k[0], a[1] - b[0] * k[1], a[2] - b[1] * k[0], a[3] - b[1] * k[1])
+    return _row_times_power(k, closed, loops)
+
+
+def _discrete(rate: float, push: float, period: float) -> tuple[Matrix, Pair]:
+    """The model from one loop to the next, the voltage held between."""
+    z = rate * period
+    if abs(z) < SMALL:
+        first = math.fsum(z**n / math.factorial(n + 1) for n in range(TERMS))
+        second = math.fsum(z**n / math.factorial(n + 2) for n in range(TERMS))
+    else:
+        first = math.expm1(z) / z
+        second = (first - 1.0) / z
+    a = (1.0, period * first, 0.0, math.exp(z))
+    return a, (push * period * period * second, push * period * first)
+
+
+def _riccati(a: Matrix, b: Pair, *, q: Pair, r: float) -> Matrix:
+    """The stabilizing solution of S = AᵀSA - AᵀSB(R + BᵀSB)⁻¹BᵀSA + Q, by doubling."""
+    g: Matrix = (b[0] * b[0] / r, b[0] * b[1] / r, b[0] * b[1] / r, b[1] * b[1] / r)
+    h: Matrix = (q[0], 0.0, 0.0, q[1])
+    for _ in range(DOUBLINGS):
+        inverse = _inverse(_sum((1.0, 0.0, 0.0, 1.0), _times(g, h)))
+        step = _times(a, inverse)
+        more = _times(_times(_transposed(a), h), _times(inverse, a))
+        g = _sum(g, _times(_times(step, g), _transposed(a)))
+        a = _times(step, a)
+        h = _sum(h, more)
+        if max(map(abs, more)) <= SETTLED * max(map(abs, h)):
+            break
+    return h
+
+
+def _row_times_power(k: Pair, m: Matrix, power: float) -> Pair:
+    """k·Mᵖ, of complex powers their real part.
+
+    Mᵖ = λ₁ᵖ I + (λ₁ᵖ - λ₂ᵖ)/(λ₁ - λ₂) · (M - λ₁ I)
+    """
+    mean = complex(0.5 * (m[0] + m[3]))
+    half = cmath.sqrt(0.25 * (m[0] - m[3]) ** 2 + m[1] * m[2])
+    one, other = mean + half, mean - half
+    if abs(half) < CLOSE * abs(mean):
+        h = cmath.atanh(half / mean)
+        ratio = cmath.sinh(power * h) / cmath.sinh(h) if h else complex(power)
+        spread = cmath.exp(0.5 * (power - 1.0) * cmath.log(1.0 - (half / mean) ** 2))
+        quotient = mean ** (power - 1.0) * spread * ratio
+    else:
+        quotient = (one**power - other**power) / (one - other)
+    own = one**power - quotient * one
+    return (
+        ((own + quotient * m[0]) * k[0] + quotient * m[2] * k[1]).real,
+        (quotient * m[1] * k[0] + (own + quotient * m[3]) * k[1]).real,
+    )
+
+
+def _times(a: Matrix, b: Matrix) -> Matrix:
+    return (
+        a[0] * b[0] + a[1] * b[2],
+        a[0] * b[1] + a[1] * b[3],
+        a[2] * b[0] + a[3] * b[2],
+        a[2] * b[1] + a[3] * b[3],
+    )
+
+
+def _sum(a: Matrix, b: Matrix) -> Matrix:
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3])
+
+
+def _transposed(a: Matrix) -> Matrix:
+    return (a[0], a[2], a[1], a[3])
+
+
+def _inverse(a: Matrix) -> Matrix:
+    size = a[0] * a[3] - a[1] * a[2]
+    return (a[3] / size, -a[1] / size, -a[2] / size, a[0] / size)

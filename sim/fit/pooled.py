@@ -1,0 +1,183 @@
+"""One answer from several fits of alike parts: both sides, four modules, repeated recordings.
+
+Each part is fitted alone and the gains are averaged; the samples of two parts never are. Two sides
+report at times of their own, so the mean of their samples changes at twice as many moments, each by
+half a step, and a fit takes these steps for noise or motion: kA came out at 9e-05 where either side
+alone had 0.38 and 0.40. A joint fit with common gains would avoid that too, but its gains may lie
+outside those of both parts and its errors do not know that the parts differ.
+
+The mean is that of the random-effects model (R. DerSimonian and N. Laird, "Meta-analysis in
+clinical trials", 1986): with s_i the standard error of part i and t² the variance between parts,
+
+    w_i = 1/(s_i² + t²)        gain = Σ w_i·gain_i / Σ w_i        error = sqrt(1/Σ w_i)
+
+All weights are positive, so a gain never lies outside those of its parts. The error is no smaller
+than the scatter of the parts says (J. Hartung and G. Knapp, 2001).
+"""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.fit.result import Fit
+
+EXACT = 1e-9  # [share of a gain] no error is smaller
+
+
+def pool_fits(fits: Mapping[str, Fit]) -> Fit:
+    """The weighted mean of the fits of alike parts, in the unit of the first.
+
+    Delays are means, the quality is that of each part simulated with its own gains.
+
+    Args:
+        fits: the name of each part -> its fit; at least one.
+
+    Raises:
+        BadRequest: they are of different types, or one measures a length and another an angle.
+    """
+    first, *others = fits.values()
+    if any(one.type != first.type for one in others):
+        raise BadRequest(
+            f"fits of types {', '.join(dict.fromkeys(one.type for one in fits.values()))} have no "
+            "common gains",
+            advice="Say --type, so that all are fitted as the same.",
+        )
+    if not others:
+        return first
+    alike = _faced_alike([first, *(one.in_units(first.units) for one in others)])
+    first = alike[0]
+    pooled = {
+        name: pool_values(
+            [_near(first, one, name) for one in alike],
+            [one.errors.get(name, math.nan) for one in alike],
+        )
+        for name in first.gains
+        if all(name in one.gains for one in alike)
+    }
+    r2, rmse = _quality(alike, lambda one: (one.simulated_velocity_r2, one.simulated_velocity_rmse))
+    accelerations = _quality(alike, lambda one: (one.acceleration_r2, one.acceleration_rmse))
+    return replace(
+        first,
+        gains={name: gain for name, (gain, _) in pooled.items()},
+        errors={name: error for name, (_, error) in pooled.items()},
+        acceleration_r2=accelerations[0],
+        acceleration_rmse=accelerations[1],
+        simulated_velocity_r2=r2,
+        simulated_velocity_rmse=rmse,
+        samples_used=_counted(alike),
+        position_delay=_mean(one.position_delay for one in alike),
+        velocity_delay=_mean(one.velocity_delay for one in alike),
+        velocity_threshold=_mean(one.velocity_threshold for one in alike),
+        step_duration=max(one.step_duration for one in alike),
+        doubts=merge_doubts(fits),
+    )
+
+
+def pool_values(values: list[float], errors: list[float]) -> tuple[float, float]:
+    """The mean of values with known standard errors, and its standard error.
+
+    Args:
+        values: (n,) of which each part has one.
+        errors: (n,) one standard error of each; not finite where it is not known.
+    """
+    if not all(map(math.isfinite, errors)):
+        return _mean(values), math.nan
+    least = max(EXACT * max(map(abs, values)), 1e-300)
+    own = [max(error, least) ** 2 for error in errors]
+    between = _between(values, own)
+    weights = [1.0 / (square + between) for square in own]
+    total = math.fsum(weights)
+    shares = [weight / total for weight in weights]
+    mean = math.fsum(share * value for share, value in zip(shares, values, strict=True))
+    mean = min(max(mean, min(values)), max(values))  # rounding
+    scatter = _scatter(values, shares, mean) / (len(values) - 1) if len(values) > 1 else 0.0
+    return mean, math.sqrt(max(1.0 / total, scatter))
+
+
+def merge_doubts(fits: Mapping[str, Fit]) -> tuple[Doubt, ...]:
+    """The doubts of all parts: what several of them have in common is said once, with their names.
+
+    Args:
+        fits: the name of each part -> its fit.
+    """
+    found: dict[str, dict[str, list[Doubt]]] = {}
+    for name, one in fits.items():
+        for doubt in one.doubts:
+            found.setdefault(doubt.code, {}).setdefault(name, []).append(doubt)
+    return tuple(doubt for several in found.values() for doubt in _merged(several, whole=len(fits)))
+
+
+def _merged(several: Mapping[str, list[Doubt]], *, whole: int) -> list[Doubt]:
+    """The doubts of one code, as few as say the same: those of the worst part."""
+    kinds = {tuple(doubts) for doubts in several.values()}
+    if len(kinds) == 1 and len(several) == whole:
+        return list(next(iter(kinds)))
+    worst = max(several.values(), key=lambda doubts: any(doubt.grave for doubt in doubts))
+    first, *others = several
+    names = f"{first} and {len(others)} more" if len(others) > 1 else ", ".join(several)
+    return [replace(doubt, message=f"{names}: {doubt.message}") for doubt in worst]
+
+
+def _faced_alike(fits: list[Fit]) -> list[Fit]:
+    """The fits with gains below zero turned, where another part has them above zero.
+
+    A part whose voltage was logged with the wrong sign has all gains below zero, and says so.
+    """
+    if all(one.gains["kV"] < 0.0 for one in fits):
+        return fits
+    return [_turned(one) if one.gains["kV"] < 0.0 else one for one in fits]
+
+
+def _turned(found: Fit) -> Fit:
+    gains = {name: value if name == "offset_rad" else -value for name, value in found.gains.items()}
+    return replace(found, gains=gains)
+
+
+def _near(first: Fit, other: Fit, name: str) -> float:
+    """A gain of another part; an angle within half a turn of the first part's."""
+    value = other.gains[name]
+    if name != "offset_rad":
+        return value
+    return value + math.tau * round((first.gains[name] - value) / math.tau)
+
+
+def _between(values: list[float], own: list[float]) -> float:
+    """The variance between parts beyond what their own errors explain; 0 if there is none."""
+    weights = [1.0 / square for square in own]
+    total = math.fsum(weights)
+    mean = math.fsum(w * value for w, value in zip(weights, values, strict=True)) / total
+    excess = _scatter(values, weights, mean) - (len(values) - 1)
+    size = total - math.fsum(w * w for w in weights) / total
+    return max(excess / size, 0.0) if size > 0.0 else 0.0
+
+
+def _scatter(values: list[float], weights: list[float], mean: float) -> float:
+    return math.fsum(w * (value - mean) ** 2 for w, value in zip(weights, values, strict=True))
+
+
+def _quality(fits: list[Fit], scores: Callable[[Fit], tuple[float, float]]) -> tuple[float, float]:
+    """R² and RMSE of all parts together, from those of each."""
+    weights = [max(sum(one.samples_used.values()), 1) for one in fits]
+    rows = [scores(one) for one in fits]
+    if not all(map(math.isfinite, (number for row in rows for number in row))):
+        return min(r2 for r2, _ in rows), max(rmse for _, rmse in rows)
+    count = sum(weights)
+    share = math.fsum(w * r2 for w, (r2, _) in zip(weights, rows, strict=True)) / count
+    missed = math.fsum(w * rmse**2 for w, (_, rmse) in zip(weights, rows, strict=True)) / count
+    return share, math.sqrt(missed)
+
+
+def _counted(fits: list[Fit]) -> dict[str, int]:
+    """Test -> how many samples of all parts were used."""
+    counts: dict[str, int] = {}
+    for one in fits:
+        for test, count in one.samples_used.items():
+            counts[test] = counts.get(test, 0) + count
+    return counts
+
+
+def _mean(values: Iterable[float]) -> float:
+    every = list(values)
+    return math.fsum(every) / len(every)

@@ -1,0 +1,50 @@
+"""Motors of one mechanism that are mounted the other way round."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from sim.core.doubt import Doubt
+from sim.core.log import Log, Run
+
+
+def turn_mirrored_motors(logs: Mapping[str, Log]) -> dict[str, Log]:
+    """The same logs, all signals of a motor reversed that runs against its tests and the others.
+
+    Args:
+        logs: the name of each motor -> its log.
+    """
+    ways = {name: _way(log) for name, log in logs.items()}
+    if not any(way > 0.0 for way in ways.values()):
+        return dict(logs)
+    return {name: _turned(log, name) if ways[name] < 0.0 else log for name, log in logs.items()}
+
+
+def _way(log: Log) -> float:
+    """[V] positive if forward tests have a positive voltage, and reverse ones a negative."""
+    return sum(
+        (1.0 if run.direction == "forward" else -1.0) * float(np.sum(run.voltage))
+        for run in log.runs
+    )
+
+
+def _turned(log: Log, name: str) -> Log:
+    doubt = Doubt(
+        "mirrored-motor",
+        f"{log.source}: motor {name!r} has a negative voltage in forward tests, and others a "
+        "positive one; its signals were reversed. If it is not mounted the other way round, look "
+        "at which motors are inverted.",
+    )
+    return replace(log, runs=tuple(map(_reversed, log.runs))).add_doubts(doubt)
+
+
+def _reversed(run: Run) -> Run:
+    current = None if run.current is None else -run.current
+    return replace(
+        run,
+        voltage=-run.voltage,
+        position=-run.position,
+        velocity=-run.velocity,
+        current=current,
+    )

@@ -1,0 +1,97 @@
+"""One sentence about which gains can be used, how sure they are, and what to record for the others.
+
+kV usable (± 0.3 %), kS usable (± 0.01 V), kA not usable (± 40 %): add a dynamic test.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from sim.core.log import Log, Run
+from sim.core.vocabulary import DIRECTIONS
+from sim.fit.result import Fit
+
+SHARES = {"kV": 0.05, "kA": 0.20}
+"""[share of the gain] one standard error up to which a gain can be used.
+
+A feedforward that is off by a twentieth leaves a twentieth of the speed to feedback; kA matters
+only while the speed changes.
+"""
+VOLTS = 0.05  # [V] the same for kS and kG: less than what carpet and temperature change
+ANGLE = 0.05  # [rad] the same for an arm's angle
+SMALL_STEP = 3.0  # [V] a dynamic test below it hardly rises above friction
+
+
+def gain_verdict(found: Fit, log: Log | None = None) -> str:
+    """The sentence about all gains of a fit.
+
+    Args:
+        found: the fit, in the unit to show.
+        log: what it was fitted to, for advice; None gives none.
+    """
+    if any(doubt.grave for doubt in found.doubts):
+        return "Do not use these gains: something is wrong."
+    usable: list[str] = []
+    others: dict[str, list[str]] = {}
+    for name in sorted(found.gains, key=lambda name: name != "kV"):  # the surest first
+        said = _said(name, found.gains[name], found.errors.get(name, math.nan))
+        label = "angle" if name == "offset_rad" else name
+        if _usable(name, found.gains[name], found.errors.get(name, math.nan)):
+            usable.append(f"{label} usable ({said})")
+        else:
+            advice = _advice(name, log) if log is not None else ""
+            others.setdefault(advice, []).append(f"{label} not usable ({said})")
+    groups = [
+        ", ".join(several) + (f": {what}" if what else "") for what, several in others.items()
+    ]
+    return "; ".join([", ".join(usable), *groups] if usable else groups) + "."
+
+
+def _usable(name: str, value: float, error: float) -> bool:
+    if not math.isfinite(error):
+        return False
+    if name in SHARES:
+        return value > 0.0 and error <= SHARES[name] * value
+    return error <= (ANGLE if name == "offset_rad" else VOLTS)
+
+
+def _said(name: str, value: float, error: float) -> str:
+    """One standard error, as a share where the gain has a size of its own."""
+    if not math.isfinite(error):
+        return "its error is not known"
+    if name in SHARES:
+        if value <= 0.0:
+            return "not above zero"
+        share = error / value
+        return "± less than 0.1 %" if share < 0.001 else f"± {_one_digit(100.0 * share)} %"  # noqa: PLR2004 - as it says
+    unit = "rad" if name == "offset_rad" else "V"
+    return f"± less than 0.001 {unit}" if error < 0.001 else f"± {_one_digit(error)} {unit}"  # noqa: PLR2004 - the same
+
+
+def _one_digit(number: float) -> str:
+    """A number to its first digit, never with an exponent: 40, 3, 0.02."""
+    return f"{float(f'{number:.1g}'):g}"
+
+
+def _advice(name: str, log: Log) -> str:
+    """What to record so that a gain becomes usable."""
+    slow, fast = (
+        [run for run in log.runs if run.kind == kind] for kind in ("quasistatic", "dynamic")
+    )
+    if name == "kA":
+        step = _largest(fast)
+        if step < SMALL_STEP and fast:
+            return f"repeat the dynamic tests with a larger step than {step:.2g} V"
+        return "repeat the dynamic tests, and log every loop" if fast else "add a dynamic test"
+    missing = [way for way in DIRECTIONS if not any(run.direction == way for run in log.runs)]
+    if missing or not slow:
+        return f"add the tests in {missing[0]}" if slow else "add a quasistatic test"
+    if _largest(slow) < SMALL_STEP:
+        return f"let the quasistatic tests run beyond {_largest(slow):.2g} V"
+    return "repeat the quasistatic tests with a slower ramp"
+
+
+def _largest(runs: Sequence[Run]) -> float:
+    """[V] the largest voltage of some runs, of either sign; 0 if there are none."""
+    return max((float(np.max(np.abs(run.voltage), initial=0.0)) for run in runs), default=0.0)

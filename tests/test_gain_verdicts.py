@@ -1,0 +1,96 @@
+"""The first sentence of an answer: which gains can be used, and what to record for the others."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import sim
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.cli import sysid
+from sim.core.doubt import Doubt
+from sim.fit import fit
+from sim.report.gain_verdicts import gain_verdict
+from sim.support.command_line import run_command
+
+LOG = simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(2))
+FOUND = replace(
+    fit(LOG),
+    gains={"kS": 0.2, "kV": 2.0, "kA": 0.5},
+    errors={"kS": 0.01, "kV": 0.02, "kA": 0.2},
+)
+USABLE = "kV usable (± 1 %), kS usable (± 0.01 V)"
+
+
+def only(*tests):
+    return replace(LOG, runs=tuple(run for run in LOG.runs if run.test in tests))
+
+
+def weaker(log, factor):
+    return replace(log, runs=tuple(replace(r, voltage=factor * r.voltage) for r in log.runs))
+
+
+@pytest.mark.parametrize(
+    ("log", "advice"),
+    [
+        (only("quasistatic-forward", "quasistatic-reverse"), "add a dynamic test"),
+        (weaker(LOG, 0.25), "repeat the dynamic tests with a larger step than 1 V"),
+        (LOG, "repeat the dynamic tests, and log every loop"),
+    ],
+)
+def test_advice_for_ka_comes_from_the_log(log, advice):
+    assert gain_verdict(FOUND, log) == f"{USABLE}; kA not usable (± 40 %): {advice}."
+
+
+@pytest.mark.parametrize(
+    ("log", "advice"),
+    [
+        (only("dynamic-forward", "dynamic-reverse"), "add a quasistatic test"),
+        (only("quasistatic-forward", "dynamic-forward"), "add the tests in reverse"),
+        (weaker(LOG, 0.2), "let the quasistatic tests run beyond"),
+        (LOG, "repeat the quasistatic tests with a slower ramp"),
+    ],
+)
+def test_gains_with_the_same_advice_stand_together(log, advice):
+    unsure = replace(FOUND, errors={"kS": 0.3, "kV": 0.5, "kA": 0.01})
+
+    said = gain_verdict(unsure, log)
+
+    start = "kA usable (± 2 %); kV not usable (± 20 %), kS not usable (± 0.3 V): "
+    assert said.startswith(start + advice)
+
+
+@pytest.mark.parametrize(
+    ("gains", "errors", "said"),
+    [
+        ({"kV": 2.0}, {"kV": 0.001}, "kV usable (± less than 0.1 %)."),
+        ({"kV": -2.0}, {"kV": 0.01}, "kV not usable (not above zero)."),
+        ({"kV": 2.0}, {"kV": float("nan")}, "kV not usable (its error is not known)."),
+        ({"offset_rad": 1.0}, {"offset_rad": 0.02}, "angle usable (± 0.02 rad)."),
+        ({"kG": 1.0}, {"kG": 1e-4}, "kG usable (± less than 0.001 V)."),
+    ],
+)
+def test_each_gain_is_judged_in_its_own_measure(gains, errors, said):
+    assert gain_verdict(replace(FOUND, gains=gains, errors=errors)) == said
+
+
+def test_what_is_wrong_stands_above_the_gains(tmp_path, capsys):
+    turned = replace(LOG, runs=tuple(replace(r, voltage=-r.voltage) for r in LOG.runs))
+    sim.write(turned, tmp_path / "a.csv")
+
+    code = run_command(sysid, name="sysid", arguments=["fit", str(tmp_path / "a.csv")])
+
+    assert code == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith("wrong: ")
+    table = next(n for n, line in enumerate(lines) if line.startswith("gain "))
+    assert lines.index("Verdict: Do not use these gains: something is wrong.") < table
+    assert not any(line.startswith("wrong: ") for line in lines[table:])
+
+
+def test_a_grave_doubt_makes_no_gain_usable():
+    grave = replace(FOUND, doubts=(Doubt("x", "It cannot be.", grave=True),))
+
+    assert gain_verdict(grave, LOG) == "Do not use these gains: something is wrong."
