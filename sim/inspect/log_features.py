@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
+from sim.estimation.velocity_lag import VelocityLag, estimate_velocity_lag
 from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
 
@@ -92,6 +93,11 @@ class LogFeatures:
         """
         both = zip(self.log.runs, self.moving, strict=True)
         return tuple(_scale(run, moving) for run, moving in both)
+
+    @cached_property
+    def velocity_lag(self) -> VelocityLag | None:
+        """How late its velocity is against its position; None if the two do not match."""
+        return estimate_velocity_lag(self.log.runs)
 
     @cached_property
     def noise(self) -> float:
