@@ -1,7 +1,6 @@
 """``sysid inspect``."""
 
 import json
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,8 @@ from sim.cli.options import FILE, as_json, read_together, reading_options
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from sim.core.doubt import Doubt
     from sim.inspect.detect_faults import Inspection
     from sim.inspect.fault import Damage
@@ -19,6 +20,7 @@ SURE, LIKELY = 0.9, 0.7  # [1] confidence from which a person would say so
 LINES = 40  # a terminal shows so many; nobody scrolls back to read a report
 WIDTH = 78  # [characters] of a line
 PLACES = 4  # that a paragraph lists; more are counted
+RUNS = 8  # that a heading lists
 ALL_IN_JSON = "Add --json to list everything."
 
 
@@ -91,22 +93,34 @@ def _show_doubts(doubts: "Iterable[Doubt]", *, room: int, cut: bool) -> None:
 
 def _paragraph(kind: "Sequence[Damage]") -> list[str]:
     """The lines on the faults of one kind: where, what happened, what to do."""
-    worst = kind[0]
-    places = [_place(damage) for damage in sorted(kind, key=_when)[:PLACES]]
-    if len(kind) > PLACES:
-        places.append(f"{len(kind) - PLACES} more")
-    several = len(kind) > 1
-    where = f"{len(kind)} times" if len(kind) > PLACES else "; ".join(places)
+    worst, several = kind[0], len(kind) > 1
+    where = _runs(kind) if several else _place(worst)
     lines = [f"{worst.fault}: {where} ({_sure(max(damage.confidence for damage in kind))})"]
-    if len(lines[0]) > WIDTH + 2:
-        lines = [f"{worst.fault}: {len(kind)} times ({_sure(worst.confidence)})"]
-    listed = several and lines[0].startswith(f"{worst.fault}: {len(kind)} times")
-    example = f"{_place(worst)}: " if several else ""
-    texts = [f"At {'; '.join(places)}."] if listed else []
-    for text in (*texts, f"{example}{worst.evidence}", worst.advice):
+    texts = [worst.evidence, worst.advice]
+    if several:
+        places = [_place(damage) for damage in sorted(kind, key=_when)[:PLACES]]
+        if len(kind) > PLACES:
+            places.append(f"{len(kind) - PLACES} more")
+        texts[:1] = [f"Found at {'; '.join(places)}.", _example(worst)]
+    for text in texts:
         wrapped = click.wrap_text(text, width=WIDTH, initial_indent="  ", subsequent_indent="  ")
         lines += wrapped.splitlines()
     return lines
+
+
+def _runs(kind: "Sequence[Damage]") -> str:
+    """In which runs the faults of a kind are, or of which tests."""
+    runs = sorted({damage.where.run for damage in kind if damage.where.run is not None})
+    if not runs:
+        return ", ".join(damage.where.test or "the whole log" for damage in kind)
+    count = f"{len(kind)} times in " if len(kind) > len(runs) else ""
+    shown = [str(run) for run in runs[:RUNS]] + ["others"] * (len(runs) > RUNS)
+    return f"{count}run{'s' * (len(runs) > 1)} {', '.join(shown)}"
+
+
+def _example(worst: "Damage") -> str:
+    run = worst.where.run
+    return worst.evidence if run is None else f"In run {run}: {worst.evidence}"
 
 
 def _when(damage: "Damage") -> tuple[int, float]:

@@ -49,6 +49,11 @@ class VelocityLag:
     scale: float
     unexplained: float
 
+    @property
+    def matched(self) -> bool:
+        """Whether velocity and position are of one and the same motion, so that a lag is one."""
+        return self.unexplained <= MATCHED
+
 
 def estimate_velocity_lag(runs: Sequence[Run]) -> VelocityLag | None:
     """Estimate the delay of velocity against position by matching integrals.
@@ -57,8 +62,8 @@ def estimate_velocity_lag(runs: Sequence[Run]) -> VelocityLag | None:
         runs: of one log, recorded by the same device; those that hardly move are left out.
 
     Returns:
-        None if no run moves, or if the integral of the velocity is not the position of the same
-        motion, whatever the delay and the scale.
+        None if no run moves. Look at ``matched`` before believing the lag: a velocity that is not
+        of this position has none.
     """
     lags = np.arange(EARLIEST, LATEST + STEP / 2.0, STEP)
     fits = [fit for run in runs if (fit := _fit_run(run, lags)) is not None]
@@ -67,12 +72,11 @@ def estimate_velocity_lag(runs: Sequence[Run]) -> VelocityLag | None:
     likelihood = sum(-0.5 * count * np.log(left + EXACT) for left, _, count in fits)
     best = int(np.argmax(likelihood))
     unexplained = float(np.median([left[best] for left, _, _ in fits]))
-    if unexplained > MATCHED:
-        return None
     scale = float(np.median([scales[best] for _, scales, _ in fits]))
     lag = _refine(lags, np.asarray(likelihood), best)
-    apart = [abs(_refine(lags, -np.log(left + EXACT), int(left.argmin())) - lag)
-             for left, _, _ in fits]
+    apart = [
+        abs(_refine(lags, -np.log(left + EXACT), int(left.argmin())) - lag) for left, _, _ in fits
+    ]
     error = float(np.median(apart)) / NORMAL / np.sqrt(len(apart)) if len(apart) > 1 else np.nan
     return VelocityLag(lag, float(error), scale, unexplained)
 

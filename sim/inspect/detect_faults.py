@@ -103,7 +103,8 @@ def inspect(log: Log) -> Inspection:
 
 def _ordinary(damages: Iterable[Damage]) -> tuple[Doubt, ...]:
     """What is ordinary, each kind said once."""
-    once = {damage.fault: damage for damage in damages if damage.ordinary}
+    ordinary = sorted((one for one in damages if one.ordinary), key=lambda one: one.confidence)
+    once = {damage.fault: damage for damage in ordinary}
     return tuple(Doubt(name, f"{one.evidence} {one.advice}") for name, one in once.items())
 
 

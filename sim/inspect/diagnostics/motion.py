@@ -104,14 +104,17 @@ def _ahead(clues: LogFeatures, index: int) -> float:
 def check_too_little_motion(clues: LogFeatures) -> list[Doubt]:
     """Tests that hardly move, and steps that are over before they are seen."""
     doubts = []
+    runs = [run for run in clues.log.runs if len(run)]
+    if runs and all(not np.ptp(run.position) and not run.velocity.any() for run in runs):
+        return [_nothing_moves(runs)]
     for index, run in enumerate(clues.log.runs):
         moving = int((clues.moving[index] & (np.abs(run.velocity) > clues.still)).sum())
         if moving < FEWEST and run.kind in ("quasistatic", "dynamic"):
             doubts.append(
                 Doubt(
                     "little-motion",
-                    f"Only {moving} of the {len(run)} samples of {run.test} are in motion: it "
-                    "tells next to nothing. Let it run longer, or ask for more voltage.",
+                    f"Only {moving} of the {len(run)} samples of {run.test} are in motion, so it "
+                    f"says next to nothing. {_more_motion(run)}",
                 )
             )
         elif run.kind == "dynamic" and (samples := _rising(run)) < RISE:
@@ -123,6 +126,29 @@ def check_too_little_motion(clues: LogFeatures) -> list[Doubt]:
                 )
             )
     return doubts
+
+
+def _more_motion(run: Run) -> str:
+    """What would make a run move more: a longer one, or more voltage than it had."""
+    most = float(np.abs(run.voltage).max(initial=0.0))
+    if run.kind == "quasistatic":
+        return f"Let the ramp run on beyond {most:.2g} V, where it had hardly begun to move."
+    return (
+        f"Let it run longer than {np.ptp(run.time):.1f} s, or use a larger step than {most:.2g} V."
+    )
+
+
+def _nothing_moves(runs: list[Run]) -> Doubt:
+    volts = max(float(np.abs(run.voltage).max()) for run in runs)
+    lasts = max(float(np.ptp(run.time)) for run in runs)
+    return Doubt(
+        "no-motion",
+        f"Nothing moves in this log: in all {len(runs)} runs, the longest of {lasts:.1f} s, "
+        f"position and velocity stay where they are under up to {volts:.2g} V. Either the "
+        "mechanism stood, or its sensor is not read: turn it by hand, and look whether the "
+        "position changes.",
+        grave=True,
+    )
 
 
 def _rising(run: Run) -> int:

@@ -27,7 +27,9 @@ def check_velocity_lag(clues: LogFeatures) -> list[Doubt]:
     """Velocities that come later than the positions beside them, by matching integrals."""
     found = clues.velocity_lag
     least = max(LAG[0], LAG[1] * clues.period)
-    if found is None or found.lag <= least or SIGMAS * found.error > found.lag:
+    if found is None or not found.matched or found.lag <= least:
+        return []
+    if SIGMAS * found.error > found.lag:
         return []
     lag = found.lag
     made = [name for name, age in FILTERS.items() if abs(lag / age - 1.0) < ALIKE]

@@ -79,6 +79,7 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     period = float(np.median(np.diff(run.time)))
     repeated = " and ".join(f"each {name} {held.mean():.1f} times" for name, held in stale.items())
     longest = max(float(np.median(held)) for held in stale.values()) * period
+    usual = max(float(held.mean()) for held in stale.values()) * period
     readings = max(held.size for held in stale.values())
     ordinary = longest <= FRAME
     advice = (
@@ -93,7 +94,7 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
         where=_whole(index, run),
         confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
         evidence=f"The log holds {repeated} in a row, because it is written every "
-        f"{period * 1e3:.3g} ms and the sensor sends about every {longest * 1e3:.0f} ms.",
+        f"{period * 1e3:.3g} ms and the sensor sends about every {usual * 1e3:.0f} ms.",
         advice=advice,
         ordinary=ordinary,
     )
