@@ -15,7 +15,8 @@ from sim.core.log import Array, Run
 
 HALF = 0.02  # [s] half of the time over which a speed is read: shorter is the encoder's own noise
 LULLS = 0.04  # [s] the same for a wait, which lasts longer
-LAUNCH = 0.8  # [s] after the voltage; a robot that is not on its way by then is no launch
+LAUNCH = 0.8  # [s] after the voltage, in which a robot gets on its way
+REST = 0.4  # [s] of a run behind that, at least, as a scale for what is ordinary in it
 ON, STAYS = 0.3, 2  # [share of the largest voltage, samples] from where a step has come
 UP = 0.3  # [share of the top speed] below it a slack chain or gear is taken up
 CLIMBING = 0.5  # [share of the top speed] from here on a wait is a wait
@@ -51,7 +52,7 @@ def find_launch_event(run: Run) -> LaunchEvent | None:
     """Find a fall or a wait in the launch of a step test; None if there is none, or no launch."""
     first = step_start(run)
     since = run.time - run.time[first]
-    if len(run) <= first + 2 * STAYS or since[-1] < LAUNCH:
+    if len(run) <= first + 2 * STAYS or since[-1] < LAUNCH + REST:
         return None
     period = float(np.median(np.diff(run.time)))
     speed = _speed(run, half=max(HALF, period), period=period)
@@ -128,14 +129,16 @@ def _largest_climb(
 ) -> _Found:
     """The largest climb after a stretch of ``LASTS`` in which the speed hardly rose."""
     best = NOTHING
+    at_end = since > since[-1] - REST  # what climbs on to there is a load that changes on the way
     for k in _between(since, (within[0], within[1] - LASTS)).tolist():
         ends = int(np.searchsorted(since, since[k] + LASTS))
         behind = int(np.searchsorted(since, min(since[k] + LAUNCH, within[1] + LASTS)))
         if speed[k] < CLIMBING * top or behind <= ends:
             continue
         waits = float(speed[k : ends + 1].max() - speed[k]) <= WAITS * top
-        climb = float(speed[ends:behind].max() - speed[ends]) / top if waits else 0.0
-        if climb > best.size:
+        reached = float(speed[ends:behind].max())
+        climb = (reached - float(speed[ends])) / top if waits else 0.0
+        if climb > best.size and float(np.median(speed[at_end])) < reached + WAITS * top:
             best = _Found(climb, k, ends, float(speed[ends]))
     return best
 

@@ -133,9 +133,8 @@ def _more_motion(run: Run) -> str:
     most = float(np.abs(run.voltage).max(initial=0.0))
     if run.kind == "quasistatic":
         return f"Let the ramp run on beyond {most:.2g} V, where it had hardly begun to move."
-    return (
-        f"Let it run longer than {np.ptp(run.time):.1f} s, or use a larger step than {most:.2g} V."
-    )
+    lasts = float(np.ptp(run.time)) if len(run) else 0.0
+    return f"Let it run longer than {lasts:.1f} s, or use a larger step than {most:.2g} V."
 
 
 def _nothing_moves(runs: list[Run]) -> Doubt:

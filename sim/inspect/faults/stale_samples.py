@@ -77,7 +77,7 @@ def _stale(runs: list[Counts], index: int) -> bool:
 
 def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     period = float(np.median(np.diff(run.time)))
-    repeated = " and ".join(f"each {name} {held.mean():.1f} times" for name, held in stale.items())
+    repeated = " and ".join(f"each {name} for {held.mean():.1f}" for name, held in stale.items())
     longest = max(float(np.median(held)) for held in stale.values()) * period
     usual = max(float(held.mean()) for held in stale.values()) * period
     readings = max(held.size for held in stale.values())
@@ -93,8 +93,8 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
         fault="stale-samples",
         where=_whole(index, run),
         confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
-        evidence=f"The log holds {repeated} in a row, because it is written every "
-        f"{period * 1e3:.3g} ms and the sensor sends about every {usual * 1e3:.0f} ms.",
+        evidence=f"The log holds {repeated} samples: it is written every {period * 1e3:.3g} ms, "
+        f"and a new reading arrives only every {usual * 1e3:.0f} ms.",
         advice=advice,
         ordinary=ordinary,
     )

@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.core.log import Log, Run
+from sim.core.log import FOUR_TESTS, Log, Run
 from sim.core.units import unit
 from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
 from sim.inspect.log_features import LogFeatures
@@ -89,18 +89,23 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
 def _no_such_drive(clues: LogFeatures) -> Iterable[Damage]:
     """A drivetrain faster or slower than any: both readings are in another unit than it says."""
     per, name = unit(clues.log.units), clues.log.mechanism
-    if clues.baseline is None or per.angular or DRIVE not in name.lower():
+    if per.angular or DRIVE not in name.lower():
         return
-    speed = FULL / clues.baseline.kv
-    if SLOWEST <= speed <= FASTEST:
+    speeds = [
+        FULL * run.top_speed / float(np.abs(run.voltage).max())
+        for run in clues.log.runs
+        if run.test in FOUR_TESTS and run.top_speed and run.voltage.any()
+    ]
+    speed = float(np.median(speeds)) if speeds else 0.0
+    if not speed or SLOWEST <= speed <= FASTEST or any(map(_named, clues.scales)):
         return
     bound = f"faster than {FASTEST:g}" if speed > FASTEST else f"slower than {SLOWEST:g}"
     yield Damage(
         fault="unit-error",
         where=Stretch(None, "", 0.0, 0.0),
         confidence=0.9,
-        evidence=f"With {FULL:g} V this drivetrain would go {speed:.3g} m/s, and no FRC robot is "
-        f"{bound} m/s: position and velocity are not in meters, or their factor is wrong.",
+        evidence=f"With {FULL:g} V this drivetrain would go about {speed:.3g} m/s, and no FRC "
+        f"robot is {bound} m/s: position and velocity are not in meters, or their factor is wrong.",
         advice="Push the robot forward by exactly 1 m and see by how much the logged position "
         "changes; then set gear ratio and wheel circumference so that it is 1.",
     )

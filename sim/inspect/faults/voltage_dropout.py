@@ -145,28 +145,28 @@ def _stories(index: int, run: Run, drops: list[_Drop]) -> list[tuple[Stretch, li
 
 
 def _damage(run: Run, where: Stretch, story: list[_Drop], *, answer: float) -> Damage:
-    samples = sum(drop.last - drop.first + 1 for drop in story)
+    lasts = 1e3 * sum(float(run.time[drop.last + 1] - run.time[drop.first]) for drop in story)
     deepest = min(float(np.abs(run.voltage[d.first : d.last + 1] / d.ought).min()) for d in story)
     if len(story) == 1:
-        said = f"For {samples} sample(s) the voltage falls to {deepest:.0%} of what it was"
+        said = f"Once, for {lasts:.0f} ms, the voltage falls to {deepest:.0%} of what it was"
     else:
         every = float(np.median(np.diff([run.time[drop.first] for drop in story])))
         said = (
-            f"{len(story)} times, every {every:.2f} s, the voltage falls to as little as "
-            f"{deepest:.0%} of what it was, {samples} samples in all"
+            f"{len(story)} times, every {every:.2f} s, the voltage falls for a moment, to as "
+            f"little as {deepest:.0%} of what it was, for {lasts:.0f} ms in all"
         )
     echo = (
-        f"the velocity follows, by {answer:.0%}: the motor really lost it"
+        f"the velocity falls with it, by {answer:.0%}, so the motor really lost it"
         if answer > CLEAR
-        else "the velocity takes no notice: only the record lost it"
+        else "the velocity does not change, so only the record lost it"
     )
     return Damage(
         fault="voltage-dropout",
         where=where,
         confidence=1.0 - 0.3 / len(story),
         evidence=f"{said}; {echo}.",
-        advice="Find what drops (a CAN frame, one of two motors, another loop), log the applied "
-        "voltage in the loop that drives, and record again.",
+        advice="Look for one motor of several that loses its command, for missing CAN frames, and "
+        "for a second loop that writes the voltage; then record again.",
     )
 
 
