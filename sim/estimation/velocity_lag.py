@@ -4,16 +4,16 @@ A motor controller averages its velocity, so the velocity of a log is often olde
 beside it. Differentiating the position to compare them amplifies its quantization; integrating the
 velocity does not. With x the position, v the velocity and τ the delay,
 
-    ∫v dt (t) = c + s·x(t - τ)
+    ∫v dt from t - w to t = s·(x(t - τ) - x(t - τ - w))
 
-for every run, with an offset c and a scale s of its own. For each τ of a grid, c and s are the
-least-squares line of the integral over the delayed position; τ is where the likelihood of all runs
-is largest, refined by a parabola. Because s is free, a velocity in another unit gives a scale, and
-no delay. An average over a window of w seconds is found as a delay of w/2.
+for every run, with a scale s of its own and a short window w, which keeps the noise of the integral
+from adding up over a run. For each τ of a grid, s is found by least squares; τ is where the
+likelihood of all runs is largest, refined by a parabola. Because s is free, a velocity in another
+unit gives a scale, and no delay. An average over some time is found as a delay of half that time.
 
-Method: output matching of time delays on integrated signals (Björklund, *A Survey and Comparison of
-Time-Delay Estimation Methods in Linear Systems*, 2003), with the concentrated likelihood
-of Gaussian errors (Ljung, *System Identification*, 1999, section 7.4).
+Method: a time delay found by matching signals over a grid of delays (Björklund, *A Survey and
+Comparison of Time-Delay Estimation Methods in Linear Systems*, 2003), with the concentrated
+likelihood of Gaussian errors (Ljung, *System Identification*, 1999, section 7.4).
 """
 
 from collections.abc import Sequence
@@ -25,7 +25,8 @@ from sim.core.log import Array, Run
 
 EARLIEST, LATEST = -0.05, 0.4  # [s] delays that are tried; the slowest published filter is 0.11
 STEP = 0.005  # [s] between two of them; the parabola tells the rest
-SAMPLES = 1000  # of a run that are compared; more tell no more
+WINDOW, FEWEST_STEPS = 0.3, 8  # [s, samples] of an integral: many frames, and a part of a run
+SAMPLES = 1000  # instants of a run that are compared; more tell no more
 FEWEST = 20  # [samples] of a run; a line, a delay and a start cannot be told from fewer
 STANDING = 0.1  # [share of the top speed] a run that begins slower than this begins at rest
 EXACT = 1e-9  # [share of the variance] below it, what is left is rounding
@@ -92,16 +93,23 @@ def _fit_run(run: Run, lags: Array) -> tuple[Array, Array, int] | None:
     inside = np.flatnonzero((run.time >= first) & (run.time <= run.time[-1] + EARLIEST))
     if inside.size < FEWEST:
         return None
-    picked = inside[:: max(1, inside.size // SAMPLES)]
-    gone = integral[picked] - integral[picked].mean()
-    total = float(gone @ gone)
+    times = run.time[inside]
+    if times.size > SAMPLES:  # not every n-th sample, which may always be the same one of a frame
+        times = np.linspace(times[0], times[-1], SAMPLES)
+    window = max(WINDOW, FEWEST_STEPS * float(np.median(np.diff(run.time))))
+
+    def gone(signal: Array, until: Array) -> Array:
+        late = np.interp(until, run.time, signal)
+        return np.asarray(late - np.interp(until - window, run.time, signal))
+
+    summed = gone(integral, times)
+    total = float(summed @ summed)
     if not total > 0.0:
         return None
-    delayed = np.interp(run.time[picked] - lags[:, None], run.time, run.position)
-    delayed -= delayed.mean(axis=1, keepdims=True)
-    along, size = delayed @ gone, np.einsum("ij,ij->i", delayed, delayed)
+    delayed = gone(run.position, times - lags[:, None])
+    along, size = delayed @ summed, np.einsum("ij,ij->i", delayed, delayed)
     slope = along / np.maximum(size, np.finfo(float).tiny)
-    return np.maximum(1.0 - slope * along / total, 0.0), slope, int(picked.size)
+    return np.maximum(1.0 - slope * along / total, 0.0), slope, int(times.size)
 
 
 def _refine(lags: Array, likelihood: Array, best: int) -> float:

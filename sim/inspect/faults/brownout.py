@@ -37,6 +37,7 @@ SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
 LOWEST = 0.6  # [V] a motor that is asked for less pulls no battery down; a dead band looks alike
 MOVED = 5  # [samples] before a cut in which it was on its way
 ENDS = 12  # ends of the cut that are tried at first
+AGREES = 0.5  # [share] of the way that the velocity lacks, which the position must lack as well
 BELIEVED = 0.7  # [share explained] less is something else
 FREE = 4.0  # a shape without a size to choose counts this much more than one that has it
 NOT_BACK = 0.9  # a cut that lasts to the end of the run may be a stop it has run into
@@ -164,6 +165,8 @@ def _unpowered(clues: LogFeatures, surprise: Anomaly) -> Damage | None:
     bus = None if run.bus_voltage is None else float(run.bus_voltage[first:last].min())
     if volts < LOWEST or (bus is not None and bus > RECOVERED):
         return None
+    if not _went_less(clues, surprise.run, first, last):
+        return None
     start = float(run.time[first])
     end = float(run.time[min(last, len(run) - 1)])
     back = bool(np.any(np.abs(run.velocity[last:]) > 2.0 * clues.still))
@@ -176,6 +179,18 @@ def _unpowered(clues: LogFeatures, surprise: Anomaly) -> Damage | None:
         f"while the log shows {volts:.1f} V{said}.",
         advice=f"{_advice(run)} Log the voltage that was applied, not the one asked for.",
     )
+
+
+def _went_less(clues: LogFeatures, index: int, first: int, last: int) -> bool:
+    """Whether the position, too, shows that it went less far than the voltage would take it."""
+    run, part = clues.log.runs[index], slice(first, min(last + 1, len(clues.log.runs[index])))
+    time, expected = run.time[part], clues.expected[index][part]
+    promised, read = (
+        float(np.sum(0.5 * np.diff(time) * (speed[1:] + speed[:-1])))
+        for speed in (expected, run.velocity[part])
+    )
+    went = float(run.position[part][-1] - run.position[part][0])
+    return bool((promised - went) * np.sign(promised) >= AGREES * abs(promised - read))
 
 
 def _confidence(share: float, *, back: bool, seen: bool) -> float:

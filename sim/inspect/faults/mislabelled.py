@@ -49,7 +49,7 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
                 fault="mislabelled-test",
                 where=_whole(index, run),
                 confidence=CONFIDENCE,
-                evidence=f"The name is {run.test}, but the run looks like {seems}: {_voltage(run)}.",
+                evidence=f"Named {run.test}, the run looks like {seems}: {_voltage(run)}.",
                 advice=f"Rename the run to {seems}, and check which button starts which test.",
             )
 
