@@ -45,6 +45,8 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
 def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Compare the signs of voltage, velocity and the slope of position in every run."""
     for index, run in enumerate(clues.log.runs):
+        if clues.copied[index]:  # a velocity that is a position has no sign of its own
+            continue
         slope, moving = clues.slopes[index], clues.moving[index]
         against_slope = _against(run.velocity, slope, moving & _hard(slope))
         against_push = _opposed(run, run.velocity, moving)
