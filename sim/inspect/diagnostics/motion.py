@@ -38,9 +38,9 @@ def check_r2_hides_misfit(clues: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "fine-r2",
-            f"The simulated velocity R² is {found.simulated_velocity_r2:.2f}, which passes for "
-            f"good, and yet the fitted gains miss the velocity by {worst:.0%} of its top in {said}"
-            ". Plot that stretch before believing kA.",
+            f"SysId would show a simulated velocity R² of {found.simulated_velocity_r2:.2f}, which "
+            f"counts as good, but its gains miss the velocity by {worst:.0%} of the top speed in "
+            f"{said}. Plot these seconds before you believe kA.",
         )
     ]
 
@@ -84,9 +84,9 @@ def check_repeated_tests(clues: LogFeatures) -> list[Doubt]:
             doubts.append(
                 Doubt(
                     "repeats-differ",
-                    f"The {len(runs)} runs of {test} differ by {apart:.0%} of their speed for the "
+                    f"The {len(runs)} runs of {test} differ by {apart:.0%} of their speed at the "
                     "same voltage, and SysId reads only the first. Find out what changed between "
-                    "them: battery, load, temperature, a slip.",
+                    "them: the battery, the load, the temperature, or a slip.",
                 )
             )
     return doubts
@@ -121,8 +121,9 @@ def check_too_little_motion(clues: LogFeatures) -> list[Doubt]:
             doubts.append(
                 Doubt(
                     "short-rise",
-                    f"{run.test} is at 90 % of its top speed within {samples} samples of moving: "
-                    "kA is read off next to nothing. Log faster, 5 ms if the controller sends it.",
+                    f"{run.test} is at 90 % of its top speed within {samples} samples of moving, "
+                    "so hardly any sample tells kA. Log every 5 ms, if the controller sends that "
+                    "fast.",
                 )
             )
     return doubts
@@ -170,8 +171,9 @@ def check_ramp_rate(clues: LogFeatures) -> list[Doubt]:
         Doubt(
             "fast-ramp",
             f"The ramp rises by {rate:.2g} V/s on a mechanism with a timescale of "
-            f"{clues.baseline.timescale:.2g} s: a line drawn through voltage over velocity meets "
-            f"the axis {shift:.2f} V above kS. SysId is not fooled, a ruler is; halve the ramp.",
+            f"{clues.baseline.timescale:.2g} s. SysId allows for that, but a line drawn through "
+            f"voltage over velocity gives a kS that is {shift:.2f} V too large: to draw one, "
+            f"halve the ramp to {0.5 * rate:.2g} V/s.",
         )
     ]
 

@@ -39,7 +39,8 @@ def check_velocity_lag(clues: LogFeatures) -> list[Doubt]:
             "velocity-lags",
             f"The velocity comes about {round(lag / TELLS) * TELLS * 1e3:.0f} ms later than the "
             f"position: most likely the motor controller averages it{likely}. kA and the feedback "
-            "gains suffer; shorten the filter, or tell SysId the measurement delay.",
+            "gains come out wrong unless it is known: shorten the filter, or enter this delay in "
+            "SysId.",
         )
     ]
 
@@ -52,9 +53,9 @@ def check_velocity_scale(clues: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "scales-differ",
-            f"Velocity is {usual:.3f} times the slope of position throughout: one of the two has "
-            "a conversion factor of its own. kV and kA follow the velocity; settle which one is "
-            "right by measuring a distance.",
+            f"The velocity is {usual:.3f} times the position's change per second in all runs: one "
+            "of the two has a wrong conversion factor. kV and kA follow the velocity; move the "
+            "mechanism by a distance you measure, and see whether the position says the same.",
         )
     ]
 
@@ -89,8 +90,8 @@ def check_rest_noise(clues: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "standstill-counted",
-            f"{passed} of the {counted} samples that SysId takes for quasistatic motion stand "
-            f"still: their noise passes its threshold of {threshold:.2g}. Set the threshold by "
+            f"Of the {counted} samples that SysId takes for quasistatic motion, {passed} stand "
+            f"still: their noise is above its threshold of {threshold:.2g}. Set the threshold by "
             "hand, above the noise.",
         )
     ]
