@@ -112,6 +112,14 @@ def test_frames_of_20_ms_are_how_a_robot_records_and_slower_ones_are_a_fault(tmp
     assert {fault.fault for fault in inspect(slow).faults} == {"stale-samples"}
 
 
+def test_a_velocity_that_is_measured_every_40_ms_is_how_its_controller_works():
+    def slow(run):
+        latest = np.arange(len(run)) // 8 * 8
+        return replace(held(run, 4), velocity=run.velocity[latest])
+
+    assert inspect(each(bench(period=0.005), slow)).clean
+
+
 # Brownouts
 
 
@@ -188,6 +196,15 @@ def test_a_velocity_that_is_the_position_is_said_to_be_one():
     assert {fault.fault for fault in faults} == {"unit-error"}
     assert [fault.where.run for fault in faults] == [0, 1, 2, 3]
     assert all("is the position, multiplied by 4.2" in fault.evidence for fault in faults)
+
+
+def test_a_factor_in_one_run_of_four_is_no_unit():
+    log = bench()
+    odd = replace(log.runs[1], velocity=log.runs[1].velocity * 60.0)
+
+    found = inspect(replace(log, runs=(log.runs[0], odd, *log.runs[2:])))
+
+    assert "unit-error" not in {fault.fault for fault in found.faults}
 
 
 @pytest.mark.parametrize(("scale", "words"), [(3.7, "faster than 9"), (0.2, "slower than 1.2")])

@@ -37,6 +37,7 @@ SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
 LOWEST = 0.6  # [V] a motor that is asked for less pulls no battery down; a dead band looks alike
 MOVED = 5  # [samples] before a cut in which it was on its way
 ENDS = 12  # ends of the cut that are tried at first
+SHORTEST = 0.14  # [s] a cut that only the motion tells: a controller keeps its motors off longer
 AGREES = 0.5  # [share] of the way that the velocity lacks, which the position must lack as well
 BELIEVED = 0.7  # [share explained] less is something else
 FREE = 4.0  # a shape without a size to choose counts this much more than one that has it
@@ -169,6 +170,8 @@ def _unpowered(clues: LogFeatures, surprise: Anomaly) -> Damage | None:
         return None
     start = float(run.time[first])
     end = float(run.time[min(last, len(run) - 1)])
+    if bus is None and end - start < SHORTEST:
+        return None
     back = bool(np.any(np.abs(run.velocity[last:]) > 2.0 * clues.still))
     said = f"; the battery is down to {bus:.1f} V" if bus is not None else ""
     return Damage(

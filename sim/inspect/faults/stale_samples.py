@@ -10,7 +10,8 @@ and are dropped. kA comes out at about 2/n of its size, kS strays, kV hardly mov
 Fingerprint: readings stay the same for several samples while the mechanism moves, and then jump
 by many times the sensor's smallest step. A coarse sensor repeats itself as well, but its jumps
 *are* the smallest step. Frames of 20 ms are what controllers send unless told otherwise, so a log
-that repeats them is ordinary; slower ones are a fault.
+that repeats them is ordinary; slower ones are a fault. A controller may measure its velocity more
+slowly than it sends: that is ordinary as well.
 """
 
 from collections.abc import Iterable
@@ -26,6 +27,7 @@ ORDINARY = 3.0  # [samples] that repeat each reading at severity 1: 20 ms frames
 JUMP = 4.0  # [smallest steps of the sensor] a smaller jump may be its resolution, not its frames
 FEWEST = 5  # [readings] with clear jumps; fewer prove nothing
 FRAME = 0.025  # [s] motor controllers send every 20 ms unless told otherwise, and logs round up
+OWN_PACE = 0.064  # [s] of a velocity alone: REV measures one every 32 ms, and a frame may miss one
 STALE = 2  # [samples] that the usual reading is held; a clean log repeats one only now and then
 
 
@@ -78,10 +80,10 @@ def _stale(runs: list[Counts], index: int) -> bool:
 def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     period = float(np.median(np.diff(run.time)))
     repeated = " and ".join(f"each {name} for {held.mean():.1f}" for name, held in stale.items())
-    longest = max(float(np.median(held)) for held in stale.values()) * period
+    longest = {name: float(np.median(held)) * period for name, held in stale.items()}
     usual = max(float(held.mean()) for held in stale.values()) * period
     readings = max(held.size for held in stale.values())
-    ordinary = longest <= FRAME
+    ordinary = longest.get("position", 0.0) <= FRAME and longest.get("velocity", 0.0) <= OWN_PACE
     advice = (
         "Nothing is wrong with that; to know kA better, raise the rate of the controller's status "
         "frames."

@@ -60,9 +60,10 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
 
 def detect(clues: LogFeatures) -> Iterable[Damage]:
     """Compare the velocity with the position, and a drivetrain's speed with what there can be."""
+    usual = _usual(clues)
     for index, (run, ratio) in enumerate(zip(clues.log.runs, clues.scales, strict=True)):
         times = clues.copied[index]
-        said = _named(ratio)
+        said = _named(ratio) if _named(usual) else ""
         if times:
             yield Damage(
                 fault="unit-error",
@@ -86,6 +87,11 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
     yield from _no_such_drive(clues)
 
 
+def _usual(clues: LogFeatures) -> float:
+    """The scale of most runs: a conversion factor is the same in all of them."""
+    return float(np.median(clues.scales)) if clues.scales else 1.0
+
+
 def _no_such_drive(clues: LogFeatures) -> Iterable[Damage]:
     """A drivetrain faster or slower than any: both readings are in another unit than it says."""
     per, name = unit(clues.log.units), clues.log.mechanism
@@ -97,7 +103,7 @@ def _no_such_drive(clues: LogFeatures) -> Iterable[Damage]:
         if run.test in FOUR_TESTS and run.top_speed and run.voltage.any()
     ]
     speed = float(np.median(speeds)) if speeds else 0.0
-    if not speed or SLOWEST <= speed <= FASTEST or any(map(_named, clues.scales)):
+    if not speed or SLOWEST <= speed <= FASTEST or _named(_usual(clues)):
         return
     bound = f"faster than {FASTEST:g}" if speed > FASTEST else f"slower than {SLOWEST:g}"
     yield Damage(
