@@ -1,4 +1,4 @@
-"""The gate: the README's two commands as printed there, then slow tests, lint, types, contracts.
+"""The gate: the README's two commands as printed, then slow tests, lint, types, contracts, pages.
 
 Everything runs in a virtual environment made for this run, so nothing that happens to be installed
 on the machine can help.
@@ -49,6 +49,7 @@ def main() -> None:
             "ruff format --check .",
             "mypy",
             "lint-imports",
+            "mkdocs build --strict",
         ):
             say(step)
             run(step.split(), environment)

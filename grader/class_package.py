@@ -4,7 +4,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.variant import same, student_name
+from grader.variant import check_student_name, normalize_name
 from sim.core.errors import BadRequest, Refusal
 
 PLACE = Path(".course") / "class.toml"
@@ -28,7 +28,7 @@ class ClassPackage:
 
     def is_for(self, student: str) -> bool:
         """Whether these are this student's own numbers."""
-        return same(student) == same(self.student)
+        return normalize_name(student) == normalize_name(self.student)
 
 
 def read_class_package(course: Path) -> ClassPackage | None:
@@ -58,7 +58,7 @@ def parse_issued(content: bytes) -> ClassPackage:
     """
     try:
         raw = tomllib.loads(content.decode("utf-8"))
-        name, student = str(raw["class"]), student_name(str(raw["student"]))
+        name, student = str(raw["class"]), check_student_name(str(raw["student"]))
         return ClassPackage(name, student, dict(raw.get("sealed", {})), str(raw.get("seal", "")))
     except (TypeError, LookupError, RecursionError, Refusal) as error:
         raise ValueError(str(error)) from None
@@ -76,7 +76,7 @@ def find_learner(course: Path, *, known: str, student: str | None) -> str:
         BadRequest: the name is none, or the class's file cannot be read.
     """
     if student is not None:
-        return student_name(student)
+        return check_student_name(student)
     of_class = read_class_package(course)
     return of_class.student if of_class else known
 

@@ -53,14 +53,14 @@ def follow_profiles(followed: "Sequence[FollowedProfile]") -> Consequence:
     Args:
         followed: at least one.
     """
-    told = " ".join(one.words for one in followed)
+    told = " ".join(one.description for one in followed)
     words = f"Your numbers as feedforward, without feedback. {told}"
 
     def draw() -> Drawn:
-        from sim.plot.consequence import consequence, profile_traces  # noqa: PLC0415 - only who draws waits for it
+        from sim.plot.consequence import make_profile_traces, plot_consequence  # noqa: PLC0415 - only who draws waits for it
 
-        return consequence(
-            [trace for one in followed for trace in profile_traces(one)], words=words
+        return plot_consequence(
+            [trace for one in followed for trace in make_profile_traces(one)], words=words
         )
 
     return Consequence(words, draw)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from grader.class_package import PLACE as ISSUED
 from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
-from grader.variant import student_name
+from grader.variant import check_student_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 
@@ -150,7 +150,7 @@ def _parsed(raw: dict[str, object]) -> Progress:
         raise TypeError
     for student, exercises in tables.items():
         standings[student] = {name: _standing(one) for name, one in exercises.items()}
-    return Progress(student_name(str(raw.get("student", NOBODY))), standings)
+    return Progress(check_student_name(str(raw.get("student", NOBODY))), standings)
 
 
 def _standing(one: Mapping[str, object]) -> Standing:

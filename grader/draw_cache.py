@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from grader.fingerprint import fingerprint
-from grader.variant import is_self_study, same
+from grader.variant import is_self_study, normalize_name
 from sim.support.work import cache as kept_files
 
 Drawn = TypeVar("Drawn")
@@ -70,7 +70,7 @@ def cache_path(exercise: Path, student: str, what: str) -> Path | None:
     """
     if not (_KEEPING.get() and is_self_study()):
         return None
-    whole = f"{exercise.resolve()}\0{same(student)}\0{_code(exercise)}"
+    whole = f"{exercise.resolve()}\0{normalize_name(student)}\0{_code(exercise)}"
     name = f"{exercise.name}-{hashlib.sha256(whole.encode()).hexdigest()[:20]}.{what}"
     return kept_files.cache_folder() / "drawn" / name
 
@@ -85,4 +85,4 @@ def write_draw(place: Path, content: bytes) -> None:
     """Keep it, if there is a place for it; the oldest of many are forgotten."""
     with suppress(OSError):
         kept_files.write_cached(place, content)
-        kept_files.remove_files(kept_files.all_but_newest(place.parent.iterdir(), than=MOST))
+        kept_files.remove_files(kept_files.select_older(place.parent.iterdir(), than=MOST))

@@ -22,6 +22,9 @@ UNITS_OF = {
 }
 DIVIDES_BY_ZERO = re.compile(r"/\s*0(?:\.0*)?(?![\w.])")
 SIZE = re.compile(r"gear|ratio|diameter|radius|circumference", re.IGNORECASE)
+GEARS = re.compile(r"gear|ratio|reduction", re.IGNORECASE)
+WHEEL = re.compile(r"diameter|radius", re.IGNORECASE)
+ONE_TURN = re.compile(r"per_?(turn|rot|rev)|circumference|conversion|factor", re.IGNORECASE)
 CLOSE = 1e-6  # relative
 LONGEST = 2.0  # [m] no wheel or drum lays so much behind it in one rotation of its motor
 SHARE = 1 / 6  # of the log's points: one wrong signal
@@ -218,6 +221,12 @@ def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
     Raises:
         Wrong: one is turned round and another is not.
     """
+    for one in signals:
+        if one.unsigned and one.signal in {*MOVING, "voltage"}:
+            raise Wrong(
+                f"{_at(one)}: the {one.signal} of {one.motor} loses its sign",
+                hint="Half of the tests run backward. Log the number with its sign.",
+            )
     for name in dict.fromkeys(one.motor for one in signals):
         found = [
             (one, one.scale > 0)
@@ -388,6 +397,35 @@ def check_constants(facts: RoutineFacts, given: dict[str, float]) -> None:
                     hint=f"Multiply by {name} exactly once.",
                     misconception="M-UNITS",
                 )
+
+
+def check_circumference(facts: RoutineFacts) -> None:
+    """Whether the way of one turn is π diameters of the wheel, or 2π radii, the gears apart.
+
+    Raises:
+        Wrong: it is one of the two mistaken for the other, or made without π.
+    """
+    gears = [value for name, value in facts.constants if GEARS.search(name) and value]
+    wheels = [one for one in facts.constants if WHEEL.search(one[0]) and one[1] > 0.0]
+    for (name, way), (wheel, size) in itertools.product(facts.constants, wheels):
+        if not ONE_TURN.search(name) or name == wheel:
+            continue
+        turns = [abs(way) / size * by for by in (1.0, *gears, *(1.0 / one for one in gears))]
+        radius = "radi" in wheel.lower()
+        right = 2.0 * math.pi if radius else math.pi
+        slips = (1.0, 2.0, math.pi / 2.0, math.pi, 2.0 * math.pi, 4.0 * math.pi)
+        if not _among(turns, (right,)) and _among(turns, slips):
+            formula = f"2π times {wheel}" if radius else f"π times {wheel}"
+            raise Wrong(
+                f"{name} is {way:.4g}, and {wheel} {size:.4g}",
+                hint=f"In one turn a wheel rolls its circumference: {formula}, over the gears.",
+                misconception="M-UNITS",
+            )
+
+
+def _among(found: Sequence[float], expected: Sequence[float]) -> bool:
+    pairs = itertools.product(found, expected)
+    return any(math.isclose(one, other, rel_tol=CLOSE) for one, other in pairs)
 
 
 def check_numbers(facts: RoutineFacts) -> None:

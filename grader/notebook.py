@@ -16,12 +16,12 @@ from grader.submission import read_answers
 from grader.terminal import Line, complain, line
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
-from sim.support.printable import printable
+from sim.support.printable import make_printable
 
 
 def escape(text: str) -> str:
     """A text as HTML shows it, with nothing in it that commands."""
-    return html.escape(printable(text))
+    return html.escape(make_printable(text))
 
 
 STYLE = {  # of the line that leads a check; colors that are legible on light and on dark pages
@@ -50,7 +50,7 @@ class ShownGrade:
     def __str__(self) -> str:
         """As on a terminal."""
         rows = ("".join(span.text for span in row).rstrip() for row in self.lines)
-        return printable("\n".join(rows))
+        return make_printable("\n".join(rows))
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         return {"text/plain": str(self), "text/html": self.html}

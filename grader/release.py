@@ -18,7 +18,7 @@ from grader.classroom.bundle import Bundle
 from grader.classroom.secret import identity_seal, seal
 from grader.exercise import exercises
 from grader.package_files import select_package_files
-from grader.variant import class_secret, folder_name
+from grader.variant import class_secret, make_folder_name
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def student_package(package: Package) -> tuple[str, bytes]:
         made = {
             path.relative_to(course).as_posix(): path.read_bytes()
             for path in sorted(
-                (course / "exercises").glob(f"*/data/{folder_name(package.student)}/*")
+                (course / "exercises").glob(f"*/data/{make_folder_name(package.student)}/*")
             )
         }
     sealed = {

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from grader.class_package import ClassPackage, read_class_package
 from grader.draw_cache import cache_path, write_draw
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 from sim.core.errors import BadRequest
 from sim.support.work.cache import read_cached
 
@@ -53,7 +53,7 @@ def write_student_files(
     Raises:
         BadRequest: they cannot be written, or a class issued them and they are gone.
     """
-    folder = exercise / "data" / folder_name(student)
+    folder = exercise / "data" / make_folder_name(student)
     of_class = read_class_package(exercise.parents[1])
     if of_class and of_class.is_for(student):
         _whole(files, folder, of_class)

@@ -134,6 +134,11 @@ def check_driven(motor: str, calls: Sequence[DriveCall]) -> None:
         hint += "too large."
         raise Wrong(f"{motor} gets no voltage", hint=hint)
     for call in mine:
+        if call.condition:
+            raise Wrong(
+                cannot_tell(f"when {motor} gets the voltage", f"behind `{call.condition}`"),
+                hint="Send every voltage that the test asks for, whatever it is.",
+            )
         hint, misconception = "setVoltage() takes the volts as they come.", ""
         if call.output is Output.VOLTAGE and call.uses_parameter and call.scaled is False:
             continue
@@ -150,6 +155,20 @@ def check_driven(motor: str, calls: Sequence[DriveCall]) -> None:
         else:
             hint = f"The voltage is changed on its way. {hint}"
         raise Wrong(quote_code(call), hint=hint, misconception=misconception)
+
+
+def check_alone(facts: RoutineFacts) -> None:
+    """Whether nothing but the test moves its motors.
+
+    Raises:
+        Wrong: periodic() commands one as well.
+    """
+    for call in facts.in_periodic:
+        raise Wrong(
+            f"periodic() calls {quote_code(call)}",
+            hint=f"It runs in every loop, during a test too, and takes {call.motor} away from it. "
+            "Leave the motors to commands.",
+        )
 
 
 def check_open_loop(call: DriveCall) -> None:
@@ -193,6 +212,12 @@ def check_recorded(motor: str, signals: Sequence[LoggedSignal], *, points: float
             "voltage, or in Python getVoltage().",
             misconception="M-CMDVOLT",
             earned=earned - points * _SHARE["voltage"],
+        )
+    if hidden := next((one for one in signals if one.condition), None):
+        raise Wrong(
+            cannot_tell(f"when {quote_code(hidden)} is reached", f"behind `{hidden.condition}`"),
+            hint="Record every signal each time the callback is called.",
+            earned=0.0,
         )
     if lacking:
         hint = "A fit needs all three of every motor: voltage, position and velocity."

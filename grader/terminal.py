@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from sim.support import command_line
-from sim.support.printable import printable
+from sim.support.printable import make_printable
 
 WIDEST = 80  # [columns] longer lines are harder to read
 NARROWEST = 40  # [columns] below this, words would stand alone
@@ -60,7 +60,7 @@ def show(lines: Iterable[Line]) -> None:
     """Print lines to standard output."""
     if not sys.stdout.isatty() or "NO_COLOR" in os.environ:
         for spans in lines:
-            text = printable("".join(span.text for span in spans))
+            text = make_printable("".join(span.text for span in spans))
             print(text.rstrip())  # noqa: T201 - a command prints
         sys.stdout.flush()  # a server's lines are read while it goes on
         return
@@ -69,9 +69,9 @@ def show(lines: Iterable[Line]) -> None:
 
     console = Console(highlight=False, soft_wrap=True)
     for spans in lines:
-        console.print(Text.assemble(*((printable(span.text), span.style) for span in spans)))
+        console.print(Text.assemble(*((make_printable(span.text), span.style) for span in spans)))
 
 
 def complain(said: str) -> None:
     """One line to standard error."""
-    command_line.complain(said, name="grade")
+    command_line.print_error(said, name="grade")

@@ -14,7 +14,7 @@ from contextvars import ContextVar
 from functools import lru_cache, wraps
 from typing import TYPE_CHECKING, TypeVar
 
-from sim.bench.dataset.student import folder_name, same, student_name
+from sim.bench.dataset.student import check_student_name, make_folder_name, normalize_name
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 __all__ = [
     "SELF_STUDY",
     "cache_draws",
+    "check_student_name",
     "class_secret",
-    "folder_name",
     "is_self_study",
-    "same",
-    "student_name",
+    "make_folder_name",
+    "normalize_name",
     "student_rng",
     "student_seed",
 ]  # fmt: skip
@@ -62,7 +62,7 @@ def student_seed(student: str, exercise: str, *, secret: bytes | None = None) ->
         secret: a class's own; None takes that of the class at hand, or of self-study.
     """
     secret = _SECRET.get() if secret is None else secret
-    message = f"{same(student)}/{exercise}".encode()
+    message = f"{normalize_name(student)}/{exercise}".encode()
     return int.from_bytes(hmac.new(secret, message, hashlib.sha256).digest(), "big")
 
 
@@ -99,6 +99,6 @@ def cache_draws(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
 
     @wraps(draw)
     def drawn(student: str) -> Drawn:
-        return kept(same(student), _SECRET.get())
+        return kept(normalize_name(student), _SECRET.get())
 
     return drawn

@@ -68,11 +68,11 @@ from sim.fit import fit
 from sim.plot import (
     Picture,
     Table,
-    live,
     measure_tracking_error,
-    misses,
-    time_series,
-    tracking_error,
+    plot_misses,
+    plot_time_series,
+    plot_tracking_error,
+    show_interactive,
 )
 from sim.teaching.prediction import Prediction
 
@@ -162,10 +162,10 @@ def attempt(ks: float, kv: float) -> Picture:
         tries.append((monotonic(), ks, kv, measure_tracking_error(TARGET, velocity).typical))
     left = SECONDS - (tries[-1][0] - tries[0][0] if tries else 0.0)
     title = f"try {len(tries)}: {left:.0f} s left" if left >= 0 else "time is up: this one is late"
-    return tracking_error(TIME, TARGET, {"your robot": velocity}, title=title)
+    return plot_tracking_error(TIME, TARGET, {"your robot": velocity}, title=title)
 
 
-live(
+show_interactive(
     attempt,
     ks=widgets.FloatSlider(
         min=0, max=1, step=0.02, value=START[0], description="kS [V]", continuous_update=False
@@ -198,7 +198,7 @@ followed = drive(robot, measured)
 # the steps is drawn. Lesson 3 says why just these four.)
 
 # %%
-time_series(log, dynamic_seconds=1.0)
+plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
 # And the finish:
@@ -210,7 +210,7 @@ guessed = {"kS": best_ks, "kV": best_kv, "kA": 0.0}
 
 print(f"You said: {guess_race}.")
 print(f"You made {len(counted)} tries in time." if counted else "You have not tried yet.")
-tracking_error(
+plot_tracking_error(
     TIME, TARGET, {"your best try": drive(robot, guessed), "three lines": followed}, title="Finish"
 )
 
@@ -304,7 +304,9 @@ def steady_speed(volts: float) -> float:
 
 speeds = np.array([steady_speed(volts) for volts in VOLTS])
 slope, start = np.polyfit(speeds, VOLTS, 1)  # the ruler: the straight line that misses least
-misses(speeds, VOLTS, intercept=start, slope=slope, xlabel="velocity [m/s]", ylabel="voltage [V]")
+plot_misses(
+    speeds, VOLTS, intercept=start, slope=slope, xlabel="velocity [m/s]", ylabel="voltage [V]"
+)
 
 # %%
 pencil = {"kS": float(start), "kV": float(slope), "kA": 0.0}
@@ -415,10 +417,10 @@ def week_three(kg: float) -> Picture:
         "three lines, kept": drive(heavy, measured),
         "three lines, measured again": drive(heavy, again),
     }
-    return tracking_error(TIME, TARGET, racers, title=f"+{kg:g} kg")
+    return plot_tracking_error(TIME, TARGET, racers, title=f"+{kg:g} kg")
 
 
-live(
+show_interactive(
     week_three,
     kg=widgets.FloatSlider(
         min=0, max=40, step=1, value=4, description="brace [kg]", continuous_update=False
@@ -722,8 +724,8 @@ quick
 #
 # **More, if you like.**
 #
-# - Race with a third knob: give `attempt` a `ka`, and `live` a slider for it. Can you tie with the
-#   three lines now? How long does it take?
+# - Race with a third knob: give `attempt` a `ka`, and `show_interactive` a slider for it. Can
+#   you tie with the three lines now? How long does it take?
 # - Use your neighbor's gains on your robot: `drive(robot, {...})`. Which of the three hurts most?
 # - Write another name above, and run the page again: *Run*, *Run All Cells*.
 #

@@ -50,7 +50,15 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
 from sim.physics.motors import MOTORS, theoretical_kv
-from sim.plot import Picture, Table, budget, curves, gauge, live, relative_change
+from sim.plot import (
+    Picture,
+    Table,
+    plot_budget,
+    plot_curves,
+    plot_gauge,
+    plot_relative_change,
+    show_interactive,
+)
 from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
@@ -188,10 +196,10 @@ def voltage_budget(drive: str, mass: float, friction: float, look: float) -> Pic
     """Where the volts of a drive go; ``look`` is a moment, in percent of the drive."""
     time, terms, applied = spent(drive, mass, friction)
     moment = round(look / 100 * float(time[-1]), 2)
-    return budget(time, terms, applied=applied, moment=moment)
+    return plot_budget(time, terms, applied=applied, moment=moment)
 
 
-live(
+show_interactive(
     voltage_budget,
     drive=widgets.Dropdown(options=list(DRIVES), description="drive"),
     mass=widgets.FloatSlider(
@@ -338,10 +346,10 @@ def built(mass: float, ratio: float, motors: int, wheel: float) -> dict[str, flo
 def other_parts(mass: float, ratio: float, motors: int, wheel: float) -> Picture:
     """The gains of another robot, divided by those of ours."""
     now = built(mass, ratio, motors, wheel)
-    return relative_change({name: now[name] / gains[name] for name in gains})
+    return plot_relative_change({name: now[name] / gains[name] for name in gains})
 
 
-live(
+show_interactive(
     other_parts,
     mass=widgets.FloatSlider(
         min=20, max=80, step=1, value=60, description="mass [kg]", continuous_update=False
@@ -499,10 +507,10 @@ def above(story: str) -> float:
 def verdict(story: str) -> Picture:
     """Where the kV of a robot lies."""
     marks = {story: above(story)}
-    return gauge(marks, VERDICTS, label="kV above paper [%]", good="ok", least=-20.0)
+    return plot_gauge(marks, VERDICTS, label="kV above paper [%]", good="ok", least=-20.0)
 
 
-live(
+show_interactive(
     verdict,
     story=widgets.Dropdown(options=list(STORIES), description="robot", layout={"width": "25em"}),
 )
@@ -593,7 +601,7 @@ def rise(kind: str) -> Picture:
     price = MECHANISMS[kind].gains
     _, velocity = move_gains_only(price, time=time, voltage=np.full(time.size, 4.0))
     share = 100 * velocity / ((4.0 - price["kS"]) / price["kV"])
-    return curves(
+    return plot_curves(
         1000 * time,
         {kind: share},
         xlabel="time since the step [ms]",
@@ -603,7 +611,7 @@ def rise(kind: str) -> Picture:
     )
 
 
-live(rise, kind=widgets.Dropdown(options=KINDS, description="mechanism"))
+show_interactive(rise, kind=widgets.Dropdown(options=KINDS, description="mechanism"))
 
 # %% [markdown]
 # No menu on your screen? Change the name here:
@@ -668,10 +676,10 @@ print(f"of a 12 V battery, for friction alone. Ours has {gains['kS']:.2f} V.")
 def red_flag(left: float, right: float, typical: float) -> Picture:
     """Where the kS of both sides lies, for a typical speed [m/s]."""
     bands = {"fine": 0.5, "watch": gains["kV"] * typical, "stop": gains["kV"] * typical + 1.0}
-    return gauge({"left": left, "right": right}, bands, label="kS [V]", good="fine")
+    return plot_gauge({"left": left, "right": right}, bands, label="kS [V]", good="fine")
 
 
-live(
+show_interactive(
     red_flag,
     left=widgets.FloatSlider(
         min=0, max=4, step=0.05, value=0.15, description="left [V]", continuous_update=False

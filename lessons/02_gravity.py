@@ -49,10 +49,19 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.fit.information_matrix import information_matrix
+from sim.fit.information_matrix import compute_information
 from sim.fit.sysid_rows import prepare_rows
-from sim.physics.engine import State, move
-from sim.plot import Picture, Table, curves, ellipses, hold_angles, hold_window, live, time_series
+from sim.physics.engine import State, simulate_run
+from sim.plot import (
+    Picture,
+    Table,
+    plot_curves,
+    plot_ellipses,
+    plot_hold_angles,
+    plot_hold_window,
+    plot_time_series,
+    show_interactive,
+)
 from sim.teaching.prediction import Prediction
 
 elevator, arm = MECHANISMS["elevator"], MECHANISMS["arm"]
@@ -63,8 +72,8 @@ print(elevator.summary)
 def let_go(volts: float, *, height: float = 0.6, lasts: float = 0.4) -> float:
     """The speed [m/s] of the elevator after a while under a constant voltage; up is positive."""
     time = np.arange(0.0, lasts, 0.02)
-    track = move(
-        elevator.model, time=time, voltage=np.full(time.size, volts), state=State.at(height)
+    track = simulate_run(
+        elevator.model, time=time, voltage=np.full(time.size, volts), state=State.cold_at(height)
     )
     return float(track.velocity[-1])
 
@@ -184,7 +193,7 @@ recipes = {
 def window_picture(volts: float) -> Picture:
     """The window that holds, what the recipes find, and a voltage of your choice."""
     shown = slice(round(100 * not_falling) % 10 + 110, 311, 10)  # both edges are among them
-    return hold_window(
+    return plot_hold_window(
         steps[shown],
         speeds[shown],
         window=(truth["kG"] - truth["kS"], truth["kG"] + truth["kS"]),
@@ -193,7 +202,7 @@ def window_picture(volts: float) -> Picture:
     )
 
 
-live(
+show_interactive(
     window_picture,
     volts=widgets.FloatSlider(
         min=1.2, max=3.0, step=0.01, value=1.5, description="voltage [V]", continuous_update=False
@@ -255,7 +264,7 @@ Table(
 def edges_picture(friction: float) -> Picture:
     """Both edges over the friction, with a friction of your choice marked on the upper one."""
     ks = np.round(np.arange(0.0, 0.61, 0.05), 2)
-    return curves(
+    return plot_curves(
         ks,
         {"upper edge, kG + kS": truth["kG"] + ks, "lower edge, kG − kS": truth["kG"] - ks},
         xlabel="kS [V]",
@@ -265,7 +274,7 @@ def edges_picture(friction: float) -> Picture:
     )
 
 
-live(
+show_interactive(
     edges_picture,
     friction=widgets.FloatSlider(
         min=0.0, max=0.6, step=0.05, value=0.25, description="kS [V]", continuous_update=False
@@ -320,7 +329,7 @@ def edges_at(degrees: float) -> tuple[float, float]:
 
     def stays(volts: float) -> bool:
         held = np.full(time.size, volts)
-        track = move(arm.model, time=time, voltage=held, state=State.at(angle))
+        track = simulate_run(arm.model, time=time, voltage=held, state=State.cold_at(angle))
         return abs(float(track.velocity[-1])) < STILL
 
     tried = np.arange(-1.0, 2.5, 0.01)
@@ -334,10 +343,10 @@ measured = [(float(angle), *edges_at(angle)) for angle in true_angles]
 
 def arm_picture(angle: float) -> Picture:
     """The windows of the arm, and an angle of your choice."""
-    return hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"], here=angle)
+    return plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"], here=angle)
 
 
-live(
+show_interactive(
     arm_picture,
     angle=widgets.IntSlider(
         min=-90, max=90, step=5, value=60, description="angle [deg]", continuous_update=False
@@ -393,10 +402,10 @@ print(f"offset = {found_offset:.1f}°, to be added to every reading")
 # %%
 def askew_picture(offset: float) -> Picture:
     """The readings of the encoder that is askew, and the cosine with an offset of your choice."""
-    return hold_angles(table, kg=found_kg, ks=float(half_width.mean()), offset=offset)
+    return plot_hold_angles(table, kg=found_kg, ks=float(half_width.mean()), offset=offset)
 
 
-live(
+show_interactive(
     askew_picture,
     offset=widgets.IntSlider(
         min=-60, max=60, step=5, value=0, description="offset [deg]", continuous_update=False
@@ -443,7 +452,7 @@ print(f"At a reading of 0° the middle is {at_zero:.2f} V; kG is {arm.gains['kG'
 # %%
 routine = sim.Routine(ramp=1.0, step=4.5)
 log = simulate(elevator, routine, rng=np.random.default_rng(2))
-time_series(log)
+plot_time_series(log)
 
 # %% [markdown]
 # **Predict:**
@@ -572,8 +581,10 @@ down = all_rows["quasistatic-reverse"]
 def up_and(down_rows: int) -> Picture:
     """How well kS and kG are known from the way up and some rows of the way down."""
     used = {**forward, "quasistatic-reverse": down.where(slice(down_rows))}
-    told = information_matrix(used, type="elevator", noise=noise_of(elevator)).about(*SIDES)
-    return ellipses(
+    told = compute_information(used, type="elevator", noise=noise_of(elevator)).information_on_pair(
+        *SIDES
+    )
+    return plot_ellipses(
         {f"the way up; rows of the way down: {down_rows}": told},
         names=("kS [V]", "kG [V]"),
         truth=(truth["kS"], truth["kG"]),
@@ -581,7 +592,7 @@ def up_and(down_rows: int) -> Picture:
     )
 
 
-live(
+show_interactive(
     up_and,
     down_rows=widgets.SelectionSlider(
         options=[0, 1, 2, 5, 20, len(down)], value=0, description="rows down"
@@ -610,7 +621,7 @@ for name, mechanism, tests in (
     every = quiet_rows(mechanism, tests)
     for which, ways in (("all four tests", ("forward", "reverse")), ("up only", ("forward",))):
         used = {test: part for test, part in every.items() if test.endswith(ways)}
-        errors = information_matrix(used, type=mechanism.type, noise=noise_of(mechanism)).errors
+        errors = compute_information(used, type=mechanism.type, noise=noise_of(mechanism)).errors
         cells = (errors[gain] if np.isfinite(errors[gain]) else "anything" for gain in SIDES)
         rows.append((f"{name}, {which}", *cells))
 Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard error of each")
@@ -635,7 +646,7 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard erro
 
 # %%
 falls = (truth["kG"] - truth["kS"]) / truth["kV"]
-down_run = log.of("quasistatic-reverse")[0]
+down_run = log.runs_of_test("quasistatic-reverse")[0]
 print(f"At 0 V it goes down at {falls:.2f} m/s.")
 print(f"The slow ramp down had {down_run.time[-1] - down_run.time[0]:.1f} s before the end.")
 print(f"The slow ramp up had {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.")

@@ -46,19 +46,19 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.fit.information_matrix import information_matrix
+from sim.fit.information_matrix import compute_information
 from sim.fit.sysid_rows import prepare_rows
 from sim.physics.model import Part
-from sim.physics.motors import motor
+from sim.physics.motors import find_motor
 from sim.plot import (
     Line,
     Picture,
     Table,
-    curves,
-    information_map,
-    live,
-    time_series,
-    voltage_velocity,
+    plot_curves,
+    plot_information_map,
+    plot_time_series,
+    plot_voltage_velocity,
+    show_interactive,
 )
 from sim.teaching.prediction import Prediction
 
@@ -87,7 +87,7 @@ Table(
 # %%
 routine = sim.Routine(ramp=1.0, step=2.0, timeout=8.0)
 log = simulate(drivetrain, routine, rng=np.random.default_rng(3))
-time_series(log, dynamic_seconds=1.0)
+plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
 # Only the first second of the steps is drawn. **Predict** how the speed rises in it, before you
@@ -113,7 +113,7 @@ print(f"You said: {guess_rise}.")
 print(
     f"kA/kV = {1000 * tau:.0f} ms (the star). By then: {100 * at_tau / top:.0f} % of its top speed."
 )
-curves(
+plot_curves(
     since,
     {
         "speed after the step": speed,
@@ -168,7 +168,7 @@ guess_drift
 def read_off(mechanism: Mechanism, ramp: float) -> tuple[sim.Log, Line]:
     """A log with this ramp, and the straight line through its moving samples, per meter or turn."""
     slow = simulate(mechanism, sim.Routine(ramp=ramp, step=2.0), rng=np.random.default_rng(1))
-    run = slow.of("quasistatic-forward")[0]
+    run = slow.runs_of_test("quasistatic-forward")[0]
     per = 1.0 if mechanism.units == "meters" else 2.0 * np.pi
     moving = np.abs(run.velocity) > 0.05 * np.abs(run.velocity).max()
     slope, intercept = np.polyfit(run.velocity[moving] / per, run.voltage[moving], 1)
@@ -189,8 +189,8 @@ def drift_picture(name: str, ramp: float) -> list[Picture]:
     slow, line = read_off(SHOWN[name], ramp)
     rule = [gains["kS"] + gains["kA"] / gains["kV"] * one for one in RAMPS]
     return [
-        voltage_velocity(slow, lines={"straight line": line}),
-        curves(
+        plot_voltage_velocity(slow, lines={"straight line": line}),
+        plot_curves(
             RAMPS,
             {"kS read off": drifts[name], "true kS + τ·ramp": rule},
             xlabel="ramp [V/s]",
@@ -201,7 +201,7 @@ def drift_picture(name: str, ramp: float) -> list[Picture]:
     ]
 
 
-live(
+show_interactive(
     drift_picture,
     name=widgets.Dropdown(options=list(SHOWN), description="mechanism"),
     ramp=widgets.SelectionSlider(
@@ -296,8 +296,8 @@ UNIT = {"kS": "kS [V]", "kV": "kV [V·s/m]", "kA": "kA [V·s²/m]"}
 def map_of(tests: list[str], pair: tuple[str, str]) -> Picture:
     """Where the rows of some runs lie, and how well two gains follow from them."""
     rows = {test: all_rows[test] for test in tests}
-    told = information_matrix(rows, type="simple", noise=NOISE).about(*pair)
-    return information_map(
+    told = compute_information(rows, type="simple", noise=NOISE).information_on_pair(*pair)
+    return plot_information_map(
         rows,
         told,
         names=(UNIT[pair[0]], UNIT[pair[1]]),
@@ -326,7 +326,7 @@ def map_picture(runs: str, gains: str) -> Picture:
     return map_of(SETS[runs], (first, second))
 
 
-live(
+show_interactive(
     map_picture,
     runs=widgets.Dropdown(options=list(SETS), description="runs", layout={"width": "25em"}),
     gains=widgets.Dropdown(options=["kS and kA", "kS and kV", "kV and kA"], description="gains"),
@@ -346,7 +346,7 @@ map_picture("all four", "kS and kA")
 # %%
 rows = []
 for name, tests in SETS.items():
-    errors = information_matrix(
+    errors = compute_information(
         {test: all_rows[test] for test in tests}, type="simple", noise=NOISE
     ).errors
     shares = (100 * errors[gain] / truth[gain] for gain in ("kS", "kV", "kA"))
@@ -539,7 +539,7 @@ Table(
 # %%
 rows = []
 for name, count, motor_name in (("4 Kraken X60", 4, "krakenX60"), ("4 NEO", 4, "neo")):
-    built = replace(drivetrain, motor=motor(motor_name), motor_count=count)
+    built = replace(drivetrain, motor=find_motor(motor_name), motor_count=count)
     gains = built.gains
     slip = gains["kS"] + gains["kA"] * 1.1 * 9.81
     scatter = built.sensor.velocity_noise / (np.sqrt(2) * 0.02)
@@ -601,7 +601,7 @@ rows = []
 for seconds in (0.2, 0.5, 1.0, 2.0, 7.0):
     cut = replace(hall, runs=tuple(first_seconds(run, seconds) for run in hall.runs))
     found = fit(cut, method="sysid")
-    step = cut.of("dynamic-forward")[0]
+    step = cut.runs_of_test("dynamic-forward")[0]
     used = found.samples_used["dynamic-forward"]
     rows.append((f"{seconds:g} s", len(step), used, found.gains["kA"], float(step.position[-1])))
 Table(
@@ -664,7 +664,7 @@ def plan(ramp: float, step: float, mark: float, room: float) -> Picture:
     rows = tuple(
         (rule, value, bound, "yes" if kept else "NO") for rule, value, bound, kept in rules
     )
-    drawn = curves(
+    drawn = plot_curves(
         time,
         {"ramp": slow, "step": hard, "the mark on the floor": np.full(time.size, mark)},
         xlabel="time [s]",
@@ -674,7 +674,7 @@ def plan(ramp: float, step: float, mark: float, room: float) -> Picture:
     return replace(drawn, table=Table(("rule", "your plan", "asked for", "kept"), rows))
 
 
-live(
+show_interactive(
     plan,
     ramp=widgets.FloatSlider(
         min=0.2, max=2.0, step=0.05, value=0.5, description="ramp [V/s]", continuous_update=False

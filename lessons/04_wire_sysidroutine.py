@@ -52,7 +52,7 @@ from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.plot import Picture, Table, choices, live, time_series
+from sim.plot import Picture, Table, plot_choices, plot_time_series, show_interactive
 from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
@@ -98,7 +98,7 @@ Table(
 routine = sim.Routine(ramp=0.5, step=3.5, timeout=10.0)
 right = simulate(drivetrain, routine, rng=np.random.default_rng(4))
 
-time_series(right, dynamic_seconds=1.0)
+plot_time_series(right, dynamic_seconds=1.0)
 
 # %% [markdown]
 # Two slow ramps (*quasistatic*, "almost standing still") and two sudden steps (*dynamic*), each
@@ -445,7 +445,7 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is not zero:
 
 # %%
-ramp = right.of("quasistatic-forward")[0]
+ramp = right.runs_of_test("quasistatic-forward")[0]
 print(f"rows in {routine.timeout:.0f} s: {len(ramp)}")
 print(f"first voltage: {ramp.voltage[0]:.3f} V, two loops of 20 ms into a {routine.ramp} V/s ramp")
 
@@ -544,12 +544,14 @@ def virtual_robot(program: str) -> list[Picture]:
     found = fit(logged, method="sysid").gains
     ratios = {gain: found[gain] / truth[gain] for gain in ("kS", "kV", "kA")}
     return [
-        time_series(logged, beside=happened, dynamic_seconds=1.0),
-        choices(ratios, truth=1.0, name="found ÷ true"),
+        plot_time_series(logged, beside=happened, dynamic_seconds=1.0),
+        plot_choices(ratios, truth=1.0, name="found ÷ true"),
     ]
 
 
-live(virtual_robot, program=widgets.Dropdown(options=list(programs), description="program"))
+show_interactive(
+    virtual_robot, program=widgets.Dropdown(options=list(programs), description="program")
+)
 
 # %% [markdown]
 # No menu on your screen? Change the name in this cell and run it:

@@ -71,7 +71,7 @@ from sim.fit import fit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.physics.battery import CONTROLLERS, Battery
-from sim.plot import Picture, Table, live, runway, time_series
+from sim.plot import Picture, Table, plot_runway, plot_time_series, show_interactive
 from sim.teaching.prediction import Prediction
 from sim.teaching.runway import GRIP, THUMB, Floor, drive_test
 
@@ -137,7 +137,8 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
 
 slow = drive_test(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=HALL)
 print(f"You said: {guess_room}; {guess_ten}.")
-print(f"0.5 V/s for 10 s goes {slow.rests:.1f} m, that is {slow.rests / FOOT:.0f} feet.")
+gone = slow.final_position
+print(f"0.5 V/s for 10 s goes {gone:.1f} m, that is {gone / FOOT:.0f} feet.")
 Table(
     ("ramp [V/s]", "2 m/s after [s]", "distance until then [m]", "kV·v²/(2·ramp) [m]"), tuple(rows)
 )
@@ -230,10 +231,10 @@ WALL = 12.0  # [m]
 def run_it(test: str, tape: float, thumb: float, moment: float) -> Picture:
     """One test in our hall."""
     floor = Floor(wall=WALL, tape=tape, thumb=thumb)
-    return runway(drive_test(ROBOT, routine, test=test, floor=floor), moment=moment)
+    return plot_runway(drive_test(ROBOT, routine, test=test, floor=floor), moment=moment)
 
 
-live(
+show_interactive(
     run_it,
     test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], description="test"),
     tape=widgets.FloatSlider(
@@ -258,8 +259,8 @@ went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
 top = float(went.velocity.max())
 print(f"You said: {guess_stop}.")
 let_go = float(np.interp(went.released, went.time, went.position))
-print(f"It stands {went.rests - 7.0:.2f} m past the tape:")
-print(f"  the thumb costs {let_go - 7.0:.2f} m, the brakes {went.rests - let_go:.2f} m.")
+print(f"It stands {went.final_position - 7.0:.2f} m past the tape:")
+print(f"  the thumb costs {let_go - 7.0:.2f} m, the brakes {went.final_position - let_go:.2f} m.")
 print(f"  v²/(2·μ·g) at {top:.2f} m/s would be {top**2 / (2 * GRIP * 9.81):.2f} m.")
 
 # %% [markdown]
@@ -292,10 +293,10 @@ def morning(skipped: str, test: str, moment: float) -> Picture:
     if skipped == "5 guard":
         floor = Floor(wall=1.5, watched=1.0)
     robot = TIRED if skipped == "2 battery" else ROBOT
-    return runway(drive_test(robot, routine, test=test, floor=floor), moment=moment)
+    return plot_runway(drive_test(robot, routine, test=test, floor=floor), moment=moment)
 
 
-live(
+show_interactive(
     morning,
     skipped=widgets.Dropdown(options=SKIPS, description="skipped"),
     test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], description="test"),
@@ -326,7 +327,7 @@ morning("2 battery", STEP, moment=1.0)
 
 # %%
 sound = simulate(ROBOT, routine, rng=np.random.default_rng(5))
-hit = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL)).hit
+hit = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL)).hit_wall
 backward = replace(
     sound,
     runs=tuple(replace(r, position=-r.position, velocity=-r.velocity) for r in sound.runs),
@@ -398,7 +399,7 @@ def as_asked(log: sim.Log, routine: sim.Routine) -> sim.Log:
     runs = []
     for run in log.runs:
         since = run.time - run.time[0] + 0.04  # a test drives from its third loop on
-        asked = np.array([routine.voltage(run.test, t) for t in since])
+        asked = np.array([routine.command_voltage(run.test, t) for t in since])
         runs.append(replace(run, voltage=asked))
     return replace(log, runs=tuple(runs))
 
@@ -587,7 +588,7 @@ with TemporaryDirectory() as place:
 
 checked = inspect(mine)
 print(f"{len(mine.runs)} runs, {len(checked.damages) or 'no'} fault found")
-time_series(mine, dynamic_seconds=1.0)
+plot_time_series(mine, dynamic_seconds=1.0)
 
 # %%
 gains = fit(mine, method="sysid").in_log_units()
@@ -667,7 +668,7 @@ Table(
 # %%
 seconds = sum(float(run.time[-1] - run.time[0]) for run in sound.runs)
 print(f"The four tests take {seconds:.0f} s, {seconds / (8 * 60):.0%} of eight minutes.")
-print(f"They need up to {slow.rests / FOOT:.0f} feet, even at 0.5 V/s.")
+print(f"They need up to {slow.final_position / FOOT:.0f} feet, even at 0.5 V/s.")
 
 # %% [markdown]
 # What takes long is all the rest: room, carpet, a battery, a log, and a second try.

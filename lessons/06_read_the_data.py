@@ -54,14 +54,14 @@ from sim.inspect.faults import FAULTS
 from sim.plot import (
     Picture,
     Table,
-    acceleration_velocity,
-    choices,
-    curves,
-    live,
-    r2_vs_gain_error,
-    time_series,
-    timesteps,
-    voltage_velocity,
+    plot_acceleration_velocity,
+    plot_choices,
+    plot_curves,
+    plot_r2_vs_gain_error,
+    plot_time_series,
+    plot_timesteps,
+    plot_voltage_velocity,
+    show_interactive,
 )
 from sim.teaching.prediction import Prediction
 from sim.teaching.r2_cases import GOOD, make_cases
@@ -91,7 +91,7 @@ guess_rise = Prediction(
 guess_rise
 
 # %%
-time_series(sound, dynamic_seconds=0.6)
+plot_time_series(sound, dynamic_seconds=0.6)
 
 # %% [markdown]
 # **A sound quasistatic test** (left):
@@ -111,7 +111,7 @@ time_series(sound, dynamic_seconds=0.6)
 # In both, the samples come every 20 ms, and the position is what the velocity adds up to.
 
 # %%
-voltage_velocity(sound)
+plot_voltage_velocity(sound)
 
 # %% [markdown]
 # > **Lesson says:** "Voltage vs. velocity forms a straight line with low scatter. The forward and
@@ -129,10 +129,10 @@ voltage_velocity(sound)
 # shows all four tests, and first takes off what the voltage and friction account for.)
 
 # %%
-acceleration_velocity(sound)
+plot_acceleration_velocity(sound)
 
 # %%
-rise = sound.of("dynamic-forward")[0]
+rise = sound.runs_of_test("dynamic-forward")[0]
 slope = np.gradient(rise.velocity, rise.time)
 early, later = (int(np.searchsorted(rise.time, rise.time[0] + wait)) for wait in (0.02, 0.02 + TAU))
 print(f"You said: {guess_rise}.")
@@ -227,21 +227,21 @@ gallery = {
 
 def position_slope(log: sim.Log) -> Picture:
     """The first half second of a step: the logged velocity, and what the position says."""
-    run = log.of(STEP)[0]
+    run = log.runs_of_test(STEP)[0]
     since = run.time - run.time[0]
     part = since < 0.5
     lines = {
         "velocity in the log": run.velocity[part],
         "slope of the position": np.gradient(run.position, run.time)[part],
     }
-    return curves(np.round(since[part], 2), lines, xlabel="time [s]", ylabel="velocity [m/s]")
+    return plot_curves(np.round(since[part], 2), lines, xlabel="time [s]", ylabel="velocity [m/s]")
 
 
 PLOTS = {
-    "over time": lambda log: time_series(log, dynamic_seconds=0.6),
-    "voltage over velocity": voltage_velocity,
-    "acceleration over velocity": acceleration_velocity,
-    "time steps": timesteps,
+    "over time": lambda log: plot_time_series(log, dynamic_seconds=0.6),
+    "voltage over velocity": plot_voltage_velocity,
+    "acceleration over velocity": plot_acceleration_velocity,
+    "time steps": plot_timesteps,
     "velocity and position's slope": position_slope,
 }
 
@@ -251,7 +251,7 @@ def look(log: str, plot: str) -> Picture:
     return PLOTS[plot](gallery[log])
 
 
-live(
+show_interactive(
     look,
     log=widgets.Dropdown(options=list(gallery), description="log"),
     plot=widgets.Dropdown(options=list(PLOTS), description="plot"),
@@ -382,12 +382,12 @@ messy = contaminate(
     sound, "hard-stop", severity=2, test=RAMP, at=4.5, rng=np.random.default_rng(2)
 ).log
 messy = contaminate(messy, "noisy-standstill", test=RAMP, rng=np.random.default_rng(2)).log
-ramp = messy.of(RAMP)[0]
+ramp = messy.runs_of_test(RAMP)[0]
 wild = ramp.velocity.copy()
 wild[[90, 150, 200]] += np.array([1.2, -1.0, 1.5])
 messy = replace(messy, runs=(replace(ramp, velocity=wild), *messy.runs[1:]))
 
-time_series(messy, dynamic_seconds=0.6)
+plot_time_series(messy, dynamic_seconds=0.6)
 
 
 # %%
@@ -410,12 +410,12 @@ def ratios(end: float, threshold: float, median: int) -> dict[str, float]:
 
 def trimmed(end: float, threshold: float, median: int) -> Picture:
     """The same as a picture."""
-    return choices(ratios(end, threshold, median), truth=1.0, name="found ÷ true")
+    return plot_choices(ratios(end, threshold, median), truth=1.0, name="found ÷ true")
 
 
 WHOLE = {"description_width": "initial"}  # a slider's name is not cut off
 
-live(
+show_interactive(
     trimmed,
     threshold=widgets.FloatSlider(
         min=0, max=1, step=0.05, description="threshold [m/s]", style=WHOLE, continuous_update=False
@@ -467,7 +467,7 @@ Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tr
 rows = []
 for end in (6.0, 4.0, 2.0, 1.0):
     part = kept(sound, end=end, threshold=0.05)
-    top = float(part.of(RAMP)[0].velocity.max())
+    top = float(part.runs_of_test(RAMP)[0].velocity.max())
     errors = fit(part, method="sysid").errors
     rows.append((f"{end:g} s of each ramp", top, errors["kV"], errors["kS"]))
 Table(
@@ -513,7 +513,9 @@ SCORES = {
     SIM: {case.name: case.fit.simulated_velocity_r2 for case in all_cases},
     ACC: {case.name: case.fit.acceleration_r2 for case in all_cases},
 }
-OFF = {gain: {case.name: case.off(gain) for case in all_cases} for gain in ("kS", "kV", "kA")}
+OFF = {
+    gain: {case.name: case.gain_error(gain) for case in all_cases} for gain in ("kS", "kV", "kA")
+}
 KEYS = {
     "as made": lambda _: 0.0,
     SIM: lambda name: -SCORES[SIM][name],
@@ -525,10 +527,12 @@ KEYS = {
 def grid(sort: str, truth: str) -> Picture:
     """All logs with their badges, and how far off their gains are if that is to be told."""
     scores = {name: SCORES[SIM][name] for name in sorted(SCORES[SIM], key=KEYS[sort])}
-    return r2_vs_gain_error(scores, good=GOOD, score=SIM, off=OFF if truth == "reveal" else None)
+    return plot_r2_vs_gain_error(
+        scores, good=GOOD, score=SIM, off=OFF if truth == "reveal" else None
+    )
 
 
-live(
+show_interactive(
     grid,
     truth=widgets.Dropdown(options=["hide", "reveal"], description="truth"),
     sort=widgets.Dropdown(options=list(KEYS), description="sort by"),
@@ -562,7 +566,7 @@ display(
         tuple(
             (
                 case.name,
-                *(percent(case.off(gain)) for gain in OFF),
+                *(percent(case.gain_error(gain)) for gain in OFF),
                 case.fit.acceleration_r2,
                 case.fit.simulated_velocity_r2,
             )
@@ -573,9 +577,11 @@ display(
 )
 
 # %%
-passing = [case for case in wrong if case.good]
-damage = [case for case in wrong if abs(case.off("kV")) < 0.2]  # without mere changes of units
-typical = {gain: float(np.median([abs(case.off(gain)) for case in damage])) for gain in OFF}
+passing = [case for case in wrong if case.has_good_r2]
+damage = [
+    case for case in wrong if abs(case.gain_error("kV")) < 0.2
+]  # without mere changes of units
+typical = {gain: float(np.median([abs(case.gain_error(gain)) for case in damage])) for gain in OFF}
 best = max(wrong, key=lambda case: case.fit.acceleration_r2)
 print(f"You said: {guess_count}; {guess_robust}.")
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
@@ -617,8 +623,8 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 # %%
 CHECKS = {
     "signs": lambda case: min(case.fit.gains.values()) < 0,
-    "kV": lambda case: abs(case.off("kV")) > 0.10,
-    "kA": lambda case: abs(case.off("kA")) > 0.25,
+    "kV": lambda case: abs(case.gain_error("kV")) > 0.10,
+    "kA": lambda case: abs(case.gain_error("kA")) > 0.25,
     "acceleration R²": lambda case: case.fit.acceleration_r2 < 0.2,
     "looked": lambda case: bool(inspect(case.log).damages),
 }
@@ -650,7 +656,7 @@ print(f"Caught by their signs alone: {by_signs}.  By nothing: {'; '.join(escaped
 # %%
 leaning = by_name["friction differs"].log
 for way in ("forward", "reverse"):
-    run = leaning.of(f"quasistatic-{way}")[0]
+    run = leaning.runs_of_test(f"quasistatic-{way}")[0]
     moving = np.abs(run.velocity) > 0.1
     _, volts = np.polyfit(np.abs(run.velocity[moving]), np.abs(run.voltage[moving]), 1)
     print(f"{way}: the ramp's line leaves standstill at {volts:.2f} V")
@@ -670,7 +676,7 @@ for damage in seen.damages:
     print(f"{damage.fault} in {damage.where.test}, confidence {damage.confidence:.2f}")
     for text in (damage.evidence, damage.advice):
         print(fill(text, width=90, initial_indent="  ", subsequent_indent="  "))
-time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
+plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 
 # %% [markdown]
 # In a terminal: `sysid inspect drive.wpilog`. It is a second pair of eyes. It has never seen *your*

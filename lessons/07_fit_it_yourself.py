@@ -48,20 +48,20 @@ from sim.bench.duty_cycle import simulate_duty_cycle
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
-from sim.core.units import unit
-from sim.feedback import allowed_velocity_error, velocity_loop
+from sim.core.units import find_unit
+from sim.feedback import allowed_velocity_error, design_velocity_loop
 from sim.fit import fit
 from sim.fit.sysid_rows import median_filter, prepare_rows
 from sim.plot import (
     Line,
     Picture,
     Table,
-    choices,
-    curves,
-    live,
-    misses,
-    time_series,
-    voltage_velocity,
+    plot_choices,
+    plot_curves,
+    plot_misses,
+    plot_time_series,
+    plot_voltage_velocity,
+    show_interactive,
 )
 from sim.teaching.prediction import Prediction
 
@@ -78,7 +78,7 @@ truth = robot.gains
 routine = sim.Routine(ramp=1.0, step=3.5, timeout=10.0)
 log = simulate(robot, routine, rng=np.random.default_rng(7))
 
-time_series(log, dynamic_seconds=1.0)
+plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
 # ## 2 Look first: voltage over velocity
@@ -124,14 +124,14 @@ def ramp_picture(ramp: float) -> Picture:
     """The line that a ramp of so many volts per second gives, beside the true one."""
     slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
     lines = {
-        "straight line": line_through(slow.of("quasistatic-forward")[0]),
+        "straight line": line_through(slow.runs_of_test("quasistatic-forward")[0]),
         "truth": Line(truth["kS"], truth["kV"]),
     }
-    return voltage_velocity(slow, lines=lines)
+    return plot_voltage_velocity(slow, lines=lines)
 
 
 RAMPS = [0.25, 0.5, 1.0, 2.0]
-live(
+show_interactive(
     ramp_picture,
     ramp=widgets.SelectionSlider(
         options=RAMPS, value=1.0, description="V per s", continuous_update=False
@@ -152,7 +152,7 @@ timescale = truth["kA"] / truth["kV"]
 rows = []
 for ramp in RAMPS:
     slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
-    read_off = line_through(slow.of("quasistatic-forward")[0]).intercept
+    read_off = line_through(slow.runs_of_test("quasistatic-forward")[0]).intercept
     rule = truth["kS"] + timescale * ramp
     rows.append((ramp, read_off, rule, rule + 0.010 * ramp))
 
@@ -198,7 +198,7 @@ Table(
 # divided by the change of time.
 
 # %%
-slow, step = log.of("quasistatic-forward")[0], log.of("dynamic-forward")[0]
+slow, step = log.runs_of_test("quasistatic-forward")[0], log.runs_of_test("dynamic-forward")[0]
 slow_a, step_a = np.gradient(slow.velocity, slow.time), np.gradient(step.velocity, step.time)
 
 solutions = []
@@ -237,10 +237,10 @@ six_v, six_volts = slow.velocity[some], slow.voltage[some]
 def by_hand(intercept: float, slope: float) -> Picture:
     """How far a line of your choice misses six samples."""
     labels = {"xlabel": "velocity [m/s]", "ylabel": "voltage [V]"}
-    return misses(six_v, six_volts, intercept=intercept, slope=slope, **labels)
+    return plot_misses(six_v, six_volts, intercept=intercept, slope=slope, **labels)
 
 
-live(
+show_interactive(
     by_hand,
     intercept=widgets.FloatSlider(
         min=0, max=1, step=0.01, value=0.8, description="V at v = 0", continuous_update=False
@@ -374,7 +374,7 @@ for level in NOISE:
     for name, method in sides.items():
         found[name].append(float(np.mean([method(one)["kA"] for one in logs])))
 
-curves(
+plot_curves(
     NOISE,
     found,
     xlabel="noise of the velocity [m/s]",
@@ -536,7 +536,7 @@ for seed in range(8):
 
 results = {way: [my_fit(one, **s)["kA"] for one in gappy] for way, s in WAYS.items()}
 print(f"You said: {guess_choice}.")
-choices(
+plot_choices(
     {way: float(np.mean(values)) for way, values in results.items()},
     spreads={way: float(np.std(values)) for way, values in results.items()},
     truth=truth["kA"],
@@ -559,10 +559,10 @@ def try_choices(left: str, threshold: float, median: int, *, mean_dt: bool, trim
         "as SysId does it": my_fit(gappy[0])["kA"],
         "your choice": my_fit(gappy[0], left=left, **settings)["kA"],
     }
-    return choices(values, truth=truth["kA"], name="kA", unit="V·s²/m")
+    return plot_choices(values, truth=truth["kA"], name="kA", unit="V·s²/m")
 
 
-live(
+show_interactive(
     try_choices,
     left=widgets.Dropdown(options=["acceleration", "voltage"], description="left side"),
     threshold=widgets.FloatSlider(
@@ -625,7 +625,7 @@ def simulated(log: sim.Log, gains: dict[str, float]) -> sim.Log:
 
 
 model = simulated(log, recipe.gains)
-time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds=1.0)
+plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds=1.0)
 
 # %% [markdown]
 # Now both numbers, by hand. The textbook defines
@@ -642,8 +642,8 @@ unknowns = 3
 adjusted = 1 - (1 - acceleration_r2) * (a.size - 1) / (a.size - unknowns - 1)
 
 forward = ("quasistatic-forward", "dynamic-forward")
-seen = np.concatenate([log.of(test)[0].velocity for test in forward])
-said = np.concatenate([model.of(test)[0].velocity for test in forward])
+seen = np.concatenate([log.runs_of_test(test)[0].velocity for test in forward])
+said = np.concatenate([model.runs_of_test(test)[0].velocity for test in forward])
 rmse = np.sqrt(np.mean((seen - said) ** 2))
 textbook = 1 - np.sum((seen - said) ** 2) / np.sum((seen - seen.mean()) ** 2)
 sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
@@ -772,7 +772,7 @@ for name, level in levels.items():
 
 print(f"You said: {guess_filter}.")
 print(f"kA/kV = {1000 * timescale:.0f} ms, which is {timescale / 0.02:.1f} samples of 20 ms.")
-curves(
+plot_curves(
     WINDOWS,
     by_window,
     xlabel="window of the median filter [samples]",
@@ -823,12 +823,12 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
     """The suggested kP over the allowed error, for the source lesson's gains."""
 
     def suggested(error: float) -> float:
-        loop = velocity_loop(
+        loop = design_velocity_loop(
             kv=lesson_kv, ka=lesson_ka, velocity_error=error, volts=r, delay=delay / 1000
         )
         return loop.kp
 
-    return curves(
+    return plot_curves(
         QS,
         {f"{r:g} V, {delay} ms late": [suggested(float(error)) for error in QS]},
         xlabel="q, the allowed velocity error [m/s]",
@@ -838,7 +838,7 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
     )
 
 
-live(
+show_interactive(
     kp_picture,
     q=widgets.FloatSlider(
         min=0.5, max=4, step=0.05, value=1.5, description="q [m/s]", continuous_update=False
@@ -866,7 +866,9 @@ for name, q, delay in (
     ("what the source lesson's kP stands for", 3.43, 0.0),
     ("1.5 m/s, 112 ms late: SysId's number for a NEO's encoder", 1.5, 0.112),
 ):
-    kp = velocity_loop(kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay).kp
+    kp = design_velocity_loop(
+        kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay
+    ).kp
     rows.append((name, q, kp))
 Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 
@@ -899,7 +901,7 @@ else:
     print("No log of your own yet. Make it in a terminal, in the course's folder:  grade start")
     print("Until then, here is a shooter from the bench.")
 
-time_series(own, dynamic_seconds=1.0)
+plot_time_series(own, dynamic_seconds=1.0)
 
 # %% [markdown]
 # Fit it with SysId's recipe, and with your own five lines. For a log in rotations, gains per radian
@@ -908,7 +910,7 @@ time_series(own, dynamic_seconds=1.0)
 
 # %%
 best = fit(own, method="sysid").in_log_units()
-per = unit(own.units)
+per = find_unit(own.units)
 scale = {"kS": 1.0, "kV": per.si, "kA": per.si}
 top_speed = max(float(np.abs(run.velocity).max()) for run in own.runs)
 hand = my_fit(own, threshold=0.02 * top_speed)

@@ -50,8 +50,15 @@ from sim.bench.simulate import simulate
 from sim.core.units import gains_per
 from sim.fit import fit
 from sim.physics.motors import MOTORS
-from sim.plot import Picture, Table, curves, live, measure_tracking_error, tracking_error
-from sim.report.robot_code_snippet import CLASSES, ORDER, robot_code_snippet
+from sim.plot import (
+    Picture,
+    Table,
+    measure_tracking_error,
+    plot_curves,
+    plot_tracking_error,
+    show_interactive,
+)
+from sim.report.robot_code_snippet import CLASSES, ORDER, write_robot_code
 from sim.teaching.prediction import Prediction
 
 shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
@@ -110,7 +117,7 @@ Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows
 # Here is the same for our shooter. Each number has as many digits as its error allows:
 
 # %%
-print(robot_code_snippet(found, language="java", season=2026, name="shooter"))
+print(write_robot_code(found, language="java", season=2026, name="shooter"))
 
 # %% [markdown]
 # (No buttons on your screen? Type `guess_season.value = "nothing"` in a cell.) **Predict** what
@@ -129,7 +136,7 @@ guess_season
 # %%
 for language in ("java", "python"):
     old, new = (
-        robot_code_snippet(found, language=language, season=season, name="shooter").splitlines()
+        write_robot_code(found, language=language, season=season, name="shooter").splitlines()
         for season in (2026, 2027)
     )
     print(f"{language}, lines that are in one season only:")
@@ -322,12 +329,12 @@ display(guess_radian, guess_rotation)
 def follower(gains: str, kp: float) -> Picture:
     """The profile, and what the wheel makes of it."""
     title = f"kP = {kp:g} V per rot/s"
-    return tracking_error(
+    return plot_tracking_error(
         TIME, TARGET, {gains: follow(GAINS[gains], kp)}, unit="rot/s", title=title
     )
 
 
-live(
+show_interactive(
     follower,
     gains=widgets.Dropdown(options=list(GAINS), description="gains"),
     kp=widgets.FloatSlider(
@@ -414,7 +421,7 @@ DROOP = [left_over(kp) for kp in KPS.tolist()]
 
 def droop(kp: float) -> Picture:
     """What is left of the error, over kP."""
-    return curves(
+    return plot_curves(
         KPS,
         {"simulated": DROOP, "error without kP ÷ (1 + kP/kV)": DROOP[0] / (1 + KPS / wheel["kV"])},
         xlabel="kP [V per rot/s]",
@@ -423,7 +430,7 @@ def droop(kp: float) -> Picture:
     )
 
 
-live(
+show_interactive(
     droop,
     kp=widgets.FloatSlider(
         min=0, max=0.6, step=0.02, value=0.12, description="kP", continuous_update=False
@@ -457,7 +464,7 @@ late = {0: "measured at once", 2: "measured 40 ms late", 6: "measured 120 ms lat
 suggested = found.feedback()["velocity"].kp
 print(f"kP that the fit suggests, for WPILib's own loop: {suggested:.3f} V per rot/s.")
 shaking = follow(measured, 0.6, late=6)
-tracking_error(
+plot_tracking_error(
     TIME, TARGET, {"kP = 0.6, 120 ms late": shaking, "kP = 0": follow(measured)}, unit="rot/s"
 )
 

@@ -64,28 +64,28 @@ from sim.bench.duty_cycle import Battery, simulate_duty_cycle
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.fit import fit
-from sim.physics.effects import EFFECTS, effect
+from sim.physics.effects import EFFECTS, find_effect
 from sim.physics.model import Model, Part
-from sim.physics.replay import replay
+from sim.physics.replay import replay_log
 from sim.physics.voltage_residual import compute_voltage_residual
 from sim.plot import (
     Picture,
     Table,
-    curves,
-    gap_bars,
-    live,
+    make_residual_views,
+    plot_curves,
+    plot_gap_bars,
+    plot_time_series,
     plot_voltage_residual,
-    residual_views,
-    time_series,
+    show_interactive,
 )
-from sim.plot.story import findings_table, gap_by_round, residual_maps
+from sim.plot.story import make_findings_table, plot_gap_by_round, plot_residual_maps
 from sim.reconcile import reconcile
 from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
 # What is hidden is written backward, so that nobody reads it by accident.
-robot = drivetrain.hiding("retlif-yticolev"[::-1], 1.5).hiding("kcebirts"[::-1], 1.0)
+robot = drivetrain.hide("retlif-yticolev"[::-1], 1.5).hide("kcebirts"[::-1], 1.0)
 
 FOUR = ("quasistatic", "dynamic")
 rng = np.random.default_rng(2)
@@ -116,7 +116,7 @@ print(fill(f"{len(EFFECTS)} effects are in the bench's catalogue: {', '.join(EFF
 # ## 2 Measure the gap
 #
 # **Simulate:** give the model the log's voltages and let it run, from the first sample of a test to
-# its last. It gets no look at the robot on the way. `replay` does that.
+# its last. It gets no look at the robot on the way. `replay_log` does that.
 #
 # **Fit:** change kS, kV and kA until the simulated velocity misses the measured one least. Lesson 7
 # fitted accelerations row by row; this fit follows the whole run.
@@ -125,7 +125,7 @@ print(fill(f"{len(EFFECTS)} effects are in the bench's catalogue: {', '.join(EFF
 # %%
 def simulated(model: Model, one: sim.Log) -> list[np.ndarray]:
     """The velocity that a model's sensor would show, for each run of a log."""
-    return [track.seen for track in replay(model, one)]
+    return [track.seen for track in replay_log(model, one)]
 
 
 def off(model: Model, one: sim.Log) -> np.ndarray:
@@ -140,16 +140,16 @@ def fitted(names: Sequence[str], begin: Model, one: sim.Log) -> Model:
     seen = compute_voltage_residual(
         one, begin.gains, type="simple"
     )  # what the log shows: for a good start
-    starts = [known.get(name) or next(iter(effect(name).starts(seen))) for name in names]
+    starts = [known.get(name) or next(iter(find_effect(name).start_values(seen))) for name in names]
     first = np.array([*begin.gains.values(), *(v for start in starts for v in start.values())])
-    bounds = [(p.least, p.most) for name in names for p in effect(name).parameters]
+    bounds = [(p.least, p.most) for name in names for p in find_effect(name).parameters]
     least, most = np.array([(0.0, np.inf), (1e-6, np.inf), (1e-6, np.inf), *bounds]).T
     size = np.maximum(np.abs(first), 1e-6)
 
     def model(values: np.ndarray) -> Model:
         left = iter(np.clip(values * size, least, most).tolist())
         gains = {gain: next(left) for gain in begin.gains}
-        parts = (Part(name, {p: next(left) for p in effect(name).names}) for name in names)
+        parts = (Part(name, {p: next(left) for p in find_effect(name).names}) for name in names)
         return Model("simple", gains, tuple(parts))
 
     found = least_squares(
@@ -200,7 +200,7 @@ model_log = replace(
     ),
 )
 print(f"You said: {guess_ka}.")
-time_series(log, beside=model_log, names=("log", "simulation"), dynamic_seconds=1.0)
+plot_time_series(log, beside=model_log, names=("log", "simulation"), dynamic_seconds=1.0)
 
 # %% [markdown]
 # The colored curves are the log, the dotted black ones the simulation. Look at the start of the
@@ -278,7 +278,7 @@ rng = np.random.default_rng(3)
 
 def with_one(backward: str, size: float) -> sim.Log:
     """A log of a drivetrain that hides one effect; its name is written backward."""
-    return simulate(drivetrain.hiding(backward[::-1], size), all_tests, rng=rng, electrical=True)
+    return simulate(drivetrain.hide(backward[::-1], size), all_tests, rng=rng, electrical=True)
 
 
 sagging = simulate_duty_cycle(drivetrain, replace(all_tests, step=5.0), battery=tired, rng=rng)
@@ -315,7 +315,9 @@ def under_the_microscope(which: str) -> Picture:
     return plot_voltage_residual(one, simulated(true_model, one), truth)
 
 
-live(under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="look at"))
+show_interactive(
+    under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="look at")
+)
 
 # %% [markdown]
 # No menu on your screen? Change the name here:
@@ -330,7 +332,7 @@ under_the_microscope("robot B")
 # %%
 rows = []
 for name, one in suspects.items():
-    seen = residual_views(one, simulated(true_model, one), truth)
+    seen = make_residual_views(one, simulated(true_model, one), truth)
     rows.append((name, *(f"{100 * view.explains:.0f} %" for view in seen.values())))
 sides = tuple(seen)
 
@@ -404,7 +406,7 @@ def both_gaps(model: Model) -> dict[str, float]:
 
 
 print(f"You said: {guess_first}.")
-gap_bars({name: both_gaps(model) for name, model in models.items()})
+plot_gap_bars({name: both_gaps(model) for name, model in models.items()})
 
 # %% [markdown]
 # **Read the bars.**
@@ -423,10 +425,10 @@ def with_it(model: str) -> list[Picture]:
     """What is missing once a model is in place, and its gaps beside those of gains alone."""
     chosen = models[model]
     shown = {"gains alone": both_gaps(base), model: both_gaps(chosen)}
-    return [plot_voltage_residual(log, simulated(chosen, log), chosen.gains), gap_bars(shown)]
+    return [plot_voltage_residual(log, simulated(chosen, log), chosen.gains), plot_gap_bars(shown)]
 
 
-live(with_it, model=widgets.Dropdown(options=list(models), description="model"))
+show_interactive(with_it, model=widgets.Dropdown(options=list(models), description="model"))
 
 # %% [markdown]
 # No menu? Change the name:
@@ -443,7 +445,7 @@ first = models["+ velocity-filter"]
 pairs = {"+ velocity-filter": first}
 for name in ("stribeck", "drag", "delay", "current-limit", "asymmetric-friction"):
     pairs[f"  … and {name}"] = fitted(("velocity-filter", name), first, log)
-gap_bars({name: both_gaps(model) for name, model in pairs.items()})
+plot_gap_bars({name: both_gaps(model) for name, model in pairs.items()})
 
 # %%
 second = pairs["  … and stribeck"]
@@ -465,7 +467,7 @@ def position_off(model: Model) -> float:
     """How far the simulated position is from the measured one, typically [cm]."""
     off_by = [
         (run.position - run.position[0]) - (track.position - track.position[0])
-        for run, track in zip(log.runs, replay(model, log), strict=True)
+        for run, track in zip(log.runs, replay_log(model, log), strict=True)
     ]
     return 100 * float(np.sqrt(np.mean(np.concatenate(off_by) ** 2)))
 
@@ -516,7 +518,9 @@ every = {
     "+ velocity-filter": first,
     "+ stribeck": second,
 }
-gap_bars({name: {"log": gap(m, log), "held out": gap(m, held_out)} for name, m in every.items()})
+plot_gap_bars(
+    {name: {"log": gap(m, log), "held out": gap(m, held_out)} for name, m in every.items()}
+)
 
 # %% [markdown]
 # The bars shrink term by term, on motions that nothing was fitted to. That is what "we understood
@@ -563,7 +567,7 @@ def gaps_of(one: sim.Log) -> list[float]:
 
 
 print(f"You said: {guess_limit}.")
-curves(
+plot_curves(
     LIMITS,
     {"2.5 V step (fitted)": gaps_of(gentle), "6 V step (other data)": gaps_of(hard)},
     xlabel="limit in the model [V that drive the current]",
@@ -599,17 +603,17 @@ Table(
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
 print(f"Verdict: {story.verdict}.")
-findings_table(story)
+make_findings_table(story)
 
 # %%
-gap_by_round(story)
+plot_gap_by_round(story)
 
 # %% [markdown]
 # Where simulation and log disagree, before (left) and after (right). It is a microscope, too: blue
 # where the robot is slower than the model says, orange where it is faster.
 
 # %%
-residual_maps(story)
+plot_residual_maps(story)
 
 # %% [markdown]
 # ### Compare with yours

@@ -8,6 +8,14 @@ Nothing heavy is imported until it is used, so a command that only prints its he
 """
 
 from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from sim.bench.mechanisms import MECHANISMS
+    from sim.bench.routine import Routine
+    from sim.core.errors import Refusal
+    from sim.core.log import Log, Run
+    from sim.io import read, write
 
 _HOME = {
     "Log": "sim.core.log",

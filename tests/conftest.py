@@ -24,6 +24,7 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_hostile_answers",
     "test_adding_an_effect",
     "test_mutation",
+    "test_mutation_toml",
     "test_serve",
     "test_autograder",
     "test_sysid",
@@ -38,6 +39,7 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_robotcode_fuzz",
     "test_release",
     "test_workers",
+    "test_everyday_effects",
 )
 
 

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from sim.cli import sysid as command
-from sim.support.command_line import run
+from sim.support.command_line import run_command
 
 PLAIN = """
 name = "week3"
@@ -67,7 +67,7 @@ def spec(folder: Path, text: str = PLAIN, *, secret: str = SECRET) -> Path:
 
 def sysid(*arguments: object) -> int:
     """The command, in this process; its exit code."""
-    return run(command, name="sysid", arguments=[str(one) for one in arguments])
+    return run_command(command, name="sysid", arguments=[str(one) for one in arguments])
 
 
 def make(path: Path, name: str = "data", *more: object) -> Path:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from sim.core.log import Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 
 ANSWERS = Path(__file__).parent / "sysid_answers"
 NAMES = (
@@ -46,7 +46,7 @@ def known_answer(name: str) -> KnownAnswer:
             np.array([float(row[column]) for row in part])
             for column in ("time_s", "voltage", "position", "velocity")
         )
-        si = unit(units).si
+        si = find_unit(units).si
         runs.append(Run(test, time, voltage, position * si, velocity * si))
     return KnownAnswer(
         Log(tuple(runs), units=units), answer["type"].lower(), answer["median_window"], answer

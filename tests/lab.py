@@ -97,13 +97,15 @@ def panels(page):
 
 
 def drawn_by(panel, notebook):
-    """The function that draws a panel's picture, as its cell calls it: ``live(NAME, …)``."""
+    """The function that draws a panel's picture, from ``show_interactive(NAME, …)`` in its cell."""
     index = panel.evaluate(
         """panel => [...document.querySelectorAll('.jp-Notebook .jp-Cell')]
             .indexOf(panel.closest('.jp-Cell'))"""
     )
     cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
-    return re.findall(r"^live\(\s*(\w+)", "".join(cells[index]["source"]), flags=re.MULTILINE)[-1]
+    return re.findall(
+        r"^show_interactive\(\s*(\w+)", "".join(cells[index]["source"]), flags=re.MULTILINE
+    )[-1]
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
 from sim.physics.battery import Battery
 from sim.physics.effects import EFFECTS
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model, Part
 from sim.reconcile import reconcile
 
@@ -35,7 +35,7 @@ PERIOD = 0.01  # [s], of what `recorded` records
 NOWHERE = Estimate(
     ModelStructure("simple"),
     {},
-    RunNuisance.seen(0),
+    RunNuisance.at_first_samples(0),
     0.0,
     np.zeros((2, 2)),
     np.empty((0, 2)),
@@ -62,7 +62,7 @@ def recorded(kind, model, *, step, state, noise, rng, began=0.0, still=0):
     time = np.arange(0.0, 1.5 if quick else 6.0, PERIOD)
     volts = way * (np.full(time.size, step) if quick else 0.5 * time)
     volts[:still] = 0.0
-    track = move(model, time=time, voltage=volts, state=state)
+    track = simulate_run(model, time=time, voltage=volts, state=state)
     noisy = (
         one + size * rng.standard_normal(time.size)
         for one, size in zip((track.position, track.velocity), noise, strict=True)
@@ -79,7 +79,7 @@ def rubbing(gains, shares, *parts, noise, step, seed):
     runs, clock = [], 0.0
     for test, share in zip(TESTS, shares, strict=True):
         model = Model("simple", {**gains, "kS": share * gains["kS"]}, parts)
-        begun = {"state": State.at(0.0), "began": clock}
+        begun = {"state": State.cold_at(0.0), "began": clock}
         runs.append(recorded(test, model, step=step, noise=noise, rng=rng, **begun))
         clock = float(runs[-1].time[-1]) + 2.0
     return Log(tuple(runs), units="meters", type="simple")
@@ -87,9 +87,11 @@ def rubbing(gains, shares, *parts, noise, step, seed):
 
 def based(log, gains):
     """The problem of a log, and the point of gains without effects."""
-    problem = PredictionErrorProblem.of(run_records(log))
-    begun = RunNuisance.seen(len(problem.records))
-    return problem, problem.at(ModelStructure("simple"), gains, begun, problem.noise.velocity**2)
+    problem = PredictionErrorProblem.from_records(run_records(log))
+    begun = RunNuisance.at_first_samples(len(problem.records))
+    return problem, problem.evaluate(
+        ModelStructure("simple"), gains, begun, problem.noise.velocity**2
+    )
 
 
 def bench(name, effect="", *, size=1.0, simple=False):

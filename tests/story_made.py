@@ -7,7 +7,7 @@ import numpy as np
 from sim.core.log import Log, Run
 from sim.gap import Place
 from sim.physics.model import Model, Part
-from sim.reconcile.story import Chapter, Finding, ParameterEstimate, Story, Tried
+from sim.reconcile.story import Chapter, Finding, ParameterEstimate, Story, TriedCandidate
 
 FOOT = 0.3048  # [m]
 NOISE = 0.01  # [m/s]
@@ -89,10 +89,10 @@ UNSURE = replace(
     DRAG, ambiguous_with=("stribeck",), separating_test="Record a coast: only drag is felt there."
 )
 TRIED = (
-    Tried("drag", 812.0, 0.03, admitted=True, why=""),
-    Tried("stribeck", 400.0, 1.2, admitted=False, why="widens the gap"),
-    Tried("battery-sag", 120.0, 0.9, admitted=True, why=""),
-    Tried("delay", -9.0, 1.0, admitted=False, why="explains too little"),
+    TriedCandidate("drag", 812.0, 0.03, admitted=True, why=""),
+    TriedCandidate("stribeck", 400.0, 1.2, admitted=False, why="widens the gap"),
+    TriedCandidate("battery-sag", 120.0, 0.9, admitted=True, why=""),
+    TriedCandidate("delay", -9.0, 1.0, admitted=False, why="explains too little"),
 )
 PLACE = Place("run", "dynamic-reverse, 0.2 to 0.4 s", -12.0, 31.0)
 

@@ -26,15 +26,15 @@ def force(v, churn):
     return churn * math.copysign(math.sqrt(abs(v)), v) if v else 0.0
 
 
-def ordinary(scale, size):
+def ordinary_parameters(scale, size):
     """Half a volt at the speed of a step."""
     return {"churn": 0.5 * size / math.sqrt(scale.speed)}
 
 
-def starts(seen):
+def find_start_values(seen):
     """Its share in what is missing."""
     column = np.sign(seen.velocity) * np.sqrt(np.abs(seen.velocity))
-    yield {"churn": max(float(seen.share(column)[0]), 0.01)}
+    yield {"churn": max(float(seen.fit_columns(column)[0]), 0.01)}
 
 
 EFFECT = Effect(
@@ -46,9 +46,9 @@ EFFECT = Effect(
     fingerprint="What is missing rises fast and then slowly.",
     inspect="Bearings.",
     apart={"drag": "A faster run: drag grows faster than speed, churn more slowly."},
-    example=ordinary,
-    starts=starts,
-    acts={"force": force},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"force": force},
 )
 '''
 WRONG = {

@@ -67,7 +67,7 @@ def test_a_complete_mechanism_moves_as_mujoco_moves_it(moved, name):
 def test_an_effect_does_what_it_does_in_mujoco(moved, effect):
     plain = MECHANISMS["turret"]
 
-    theirs, ours = (moved(plain.hiding(effect), who) for who in ("mujoco", "bench"))
+    theirs, ours = (moved(plain.hide(effect), who) for who in ("mujoco", "bench"))
 
     assert off(theirs, ours) < SOFT.get(effect, CLOSE)
     assert off(theirs, moved(plain, "bench")) > off(theirs, ours)

@@ -4,7 +4,7 @@ import click
 import pytest
 
 from sim.core.errors import BadRequest
-from sim.support.command_line import run
+from sim.support.command_line import run_command
 
 
 def command(outcome):
@@ -25,7 +25,7 @@ def raiser(error):
     ids=["nothing said", "done", "not right", "Ctrl+C"],
 )
 def test_a_command_leaves_with_the_code_its_work_earned(outcome, code, capsys):
-    assert run(command(outcome), name="try", arguments=[]) == code
+    assert run_command(command(outcome), name="try", arguments=[]) == code
     assert capsys.readouterr().err.strip() == ""  # click ends the line of a typed ^C
 
 
@@ -43,7 +43,7 @@ def test_a_command_leaves_with_the_code_its_work_earned(outcome, code, capsys):
     ids=lambda value: type(value).__name__,
 )
 def test_whatever_goes_wrong_is_one_line_and_exit_code_2(error, said, capsys):
-    assert run(command(raiser(error)), name="try", arguments=[]) == 2
+    assert run_command(command(raiser(error)), name="try", arguments=[]) == 2
 
     shown = capsys.readouterr()
     assert shown.out == ""
@@ -52,7 +52,7 @@ def test_whatever_goes_wrong_is_one_line_and_exit_code_2(error, said, capsys):
 
 
 def test_a_wrong_option_names_the_help_to_read(capsys):
-    assert run(command(lambda: None), name="try", arguments=["--wrong"]) == 2
+    assert run_command(command(lambda: None), name="try", arguments=["--wrong"]) == 2
 
     assert capsys.readouterr().err == "try: No such option '--wrong'. See 'try --help'.\n"
 
@@ -61,4 +61,4 @@ def test_a_developer_can_have_the_traceback(monkeypatch):
     monkeypatch.setenv("SYSID_TRACEBACK", "1")
 
     with pytest.raises(ZeroDivisionError):
-        run(command(raiser(ZeroDivisionError())), name="try", arguments=[])
+        run_command(command(raiser(ZeroDivisionError())), name="try", arguments=[])

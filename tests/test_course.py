@@ -13,7 +13,7 @@ from small_course import HALF, RIGHT, answer, lay_out
 
 from grader.cli import run
 from grader.course import PLACE, Progress, Standing, find_course, load_progress, update_progress
-from grader.variant import folder_name, student_name, student_rng, student_seed
+from grader.variant import check_student_name, make_folder_name, student_rng, student_seed
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 
@@ -181,21 +181,21 @@ def test_where_only_a_students_numbers_are_unpacked_no_other_course_is_taken(tmp
 
 def test_a_student_who_is_someone_else_is_somewhere_else():
     names = ["ann", "a.nn", "ann ", "con", "a:b", "a*b", "ä", "😀", "x" * 64, "..", "a.", "Straße"]
-    folders = {folder_name(name) for name in names}
+    folders = {make_folder_name(name) for name in names}
 
     assert len(folders) == len(names) - 1  # "ann " is ann
     assert all(not set(folder) & set('<>:"/\\|?*') for folder in folders)
     assert all(len(folder.encode()) < 200 for folder in folders)
-    assert folder_name("Ann") == folder_name("ann")
+    assert make_folder_name("Ann") == make_folder_name("ann")
 
 
 @given(st.text(max_size=70))
 def test_any_name_has_a_folder_or_is_refused(name):
     try:
-        student_name(name)
+        check_student_name(name)
     except BadRequest:
         return
-    assert folder_name(name).strip(". ") == folder_name(name) != ""
+    assert make_folder_name(name).strip(". ") == make_folder_name(name) != ""
 
 
 def test_numbers_are_drawn_from_who_one_is():

@@ -140,14 +140,14 @@ def test_a_moment_that_cannot_be_is_drawn_again(tmp_path):
     made = [making.make_log(job) for job in jobs_of(spec(tmp_path, text))]
 
     assert len(made) == 40  # each draws a moment after the end 1 time in 15
-    assert all(isinstance(one, making.Made) for one in made)
+    assert all(isinstance(one, making.MadeLog) for one in made)
 
 
 def test_every_purpose_has_a_source_of_chance_of_its_own(tmp_path):
     jobs = jobs_of(spec(tmp_path, DAMAGED))
     purposes = [(MECHANISM,), (RECORD,), (DAMAGE, 0, 0), (DAMAGE, 1, 0), (DAMAGE, 0, 1), (FAULT, 0)]
 
-    drawn = {job.stream(*which).random() for job in jobs for which in purposes}
+    drawn = {job.random_stream(*which).random() for job in jobs for which in purposes}
 
     assert len(drawn) == len(jobs) * len(purposes)
 

@@ -122,7 +122,7 @@ def unfinished(path):
     folder = make(path)
     truth = key(folder)
     journal = Journal(folder.with_name("data.key.json"), secret=secret_of(path))
-    journal.begin(truth["logs"])
+    journal.start(truth["logs"])
     journal.close()
     folder.with_name("data.key.json").unlink()
     return folder, truth, journal
@@ -174,7 +174,7 @@ def test_half_a_line_does_not_stay_in_the_journal(tmp_path):
             raise OSError(28, "No space left on device")
 
     _, truth, journal = unfinished(spec(tmp_path))
-    journal.begin(truth["logs"][:1])
+    journal.start(truth["logs"][:1])
     before = journal.path.read_bytes()
     journal._stream = Full(journal._stream)
 

@@ -6,7 +6,7 @@ import shutil
 import pytest
 from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 
-from sim.bench.dataset.folder import Shelf
+from sim.bench.dataset.folder import DatasetFolder
 from sim.core.errors import BadRequest
 
 
@@ -80,12 +80,12 @@ def test_files_of_another_spec_are_foreign(tmp_path, capsys, other):
 
 
 def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path):
-    shelf = Shelf(tmp_path / "data", mine=())
-    shelf.put({"log-01.csv": b"ours"})
+    shelf = DatasetFolder(tmp_path / "data", mine=())
+    shelf.write_files({"log-01.csv": b"ours"})
     (tmp_path / "data" / "log-02.csv").write_bytes(b"somebody else's")
 
     with pytest.raises(BadRequest, match="log-02.csv: has come there meanwhile. Let the other"):
-        shelf.put({"log-02.csv": b"ours"})
+        shelf.write_files({"log-02.csv": b"ours"})
 
     assert files(tmp_path / "data") == {"log-01.csv": b"ours", "log-02.csv": b"somebody else's"}
 

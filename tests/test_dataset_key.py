@@ -10,7 +10,7 @@ from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
 import sim
 from sim.bench.dataset.secret import Secret
 from sim.bench.mechanisms import MECHANISMS
-from sim.core.units import unit
+from sim.core.units import find_unit
 
 
 @pytest.fixture(autouse=True)
@@ -32,7 +32,7 @@ def test_the_key_holds_the_true_gains_in_the_units_of_the_log(tmp_path):
         MECHANISMS["shooter"].gains["kV"] * turn
     )
     log = sim.read(folder / next(iter(truth["shooter"]["files"])))
-    (step,) = log.of("dynamic-forward")
+    (step,) = log.runs_of_test("dynamic-forward")
     top = step.velocity[-10:].mean() / turn  # [rot/s] near its end, where kA has nothing to do
     gains = truth["shooter"]["gains"]
     assert gains["kS"] + gains["kV"] * top == pytest.approx(3.0, rel=0.02)
@@ -92,10 +92,10 @@ def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
     for log in key(folder)["logs"]:
         (hidden,) = log["hidden"]
         built = replace(MECHANISMS[log["mechanism"]], **log["built"])
-        again = built.hiding(hidden["effect"], size=hidden["size"])
+        again = built.hide(hidden["effect"], size=hidden["size"])
         found[hidden["effect"]] = hidden["size"]
         assert 1.5 <= hidden["size"] <= 2.0
-        assert again.hidden[0].said(unit(log["units"])) == hidden["parameters"]
+        assert again.hidden[0].to_json(find_unit(log["units"])) == hidden["parameters"]
     assert set(found) == {"drag", "stribeck"}  # four logs with this seed draw both
     assert not [name for name, data in files(folder).items() if clean[name] == data]
 

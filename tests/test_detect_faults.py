@@ -19,7 +19,7 @@ from sim.core.doubt import Doubt
 from sim.core.log import FOUR_TESTS, TESTS, Log, Run
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import Inspection, inspect
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, rescale_motion
+from sim.inspect.fault import Damage, DamagedLog, Fault, LogInterval, rescale_motion
 from sim.inspect.faults import FAULTS
 from sim.io import write
 
@@ -60,9 +60,9 @@ def fake(name, *, whole=False, about="motion", says=()):
         name=name,
         summary=name,
         ordinary="1",
-        spoil=lambda log, _blow, _rng: Spoilt(log, ()),
-        detect=lambda _clues: [
-            Damage(name, Stretch(run, "dynamic-forward", start, end), sure, "seen", "act")
+        spoil=lambda log, _blow, _rng: DamagedLog(log, ()),
+        detect=lambda _features: [
+            Damage(name, LogInterval(run, "dynamic-forward", start, end), sure, "seen", "act")
             for run, start, end, sure in says
         ],
         whole=whole,
@@ -116,16 +116,16 @@ def test_what_is_found_comes_in_the_order_of_time(drive):
     assert [(damage.fault, damage.where.run) for damage in found.damages] == [
         ("loop-overrun", 0), ("encoder-slip", 1), ("hard-stop", 3),
     ]  # fmt: skip
-    assert not found.clean
+    assert not found.is_clean
 
 
 def test_the_doubts_of_the_log_come_along(drive):
     doubt = Doubt("odd", "The file was odd.")
 
-    found = inspect(drive.with_doubts(doubt))
+    found = inspect(drive.add_doubts(doubt))
 
     assert doubt in found.doubts
-    assert found.clean
+    assert found.is_clean
 
 
 def test_times_are_the_logs_own(drive):
@@ -246,7 +246,7 @@ def test_a_clock_no_robot_has_is_said_and_nothing_is_made_up_from_it(step, drive
     assert (doubt.code, doubt.grave) == ("odd-clock", True)
     assert doubt.message.endswith("Give times in seconds.")
     assert not found.damages
-    assert not found.clean
+    assert not found.is_clean
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
@@ -262,12 +262,12 @@ def test_a_coarser_unit_or_clock_changes_nothing(name):
         type="simple" if log.type == "arm" else log.type,  # an arm's angle has no other scale
     )
 
-    assert inspect(log).clean
+    assert inspect(log).is_clean
     if log.mechanism == "drivetrain":  # of a drive one knows how fast it can be in meters
         assert [fault.fault for fault in inspect(feet).faults] == ["unit-error"]
-        assert inspect(replace(feet, mechanism="")).clean
+        assert inspect(replace(feet, mechanism="")).is_clean
     elif log.type != "arm":
-        assert inspect(feet).clean
+        assert inspect(feet).is_clean
 
 
 def test_a_pace_of_one_changes_not_a_digit(drive):
@@ -357,5 +357,5 @@ def test_every_fault_says_what_to_do_in_an_imperative(drive):
 
 
 def test_an_inspection_of_nothing_is_clean():
-    assert Inspection(()).clean
+    assert Inspection(()).is_clean
     assert Inspection(()).to_json() == {"faults": [], "clean": True, "doubts": []}

@@ -84,7 +84,7 @@ PLANTED = {
     ),
     "fine-r2": (lambda: only(drawn("shooter"), "dynamic-forward", slowed), "dynamic-forward at"),
     "repeats-differ": (
-        lambda: drawn("turret").and_also(each(drawn("turret"), lambda run: scaled(run, 0.85))),
+        lambda: drawn("turret").join(each(drawn("turret"), lambda run: scaled(run, 0.85))),
         "SysId reads only the first",
     ),
     "little-motion": (

@@ -14,8 +14,8 @@ from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.core.log import KINDS, Log, Run
 from sim.physics.effect import Effect, Parameter
-from sim.physics.effects import EFFECTS, effect
-from sim.physics.engine import State, finest_step, move
+from sim.physics.effects import EFFECTS, find_effect
+from sim.physics.engine import State, find_finest_step, simulate_run
 from sim.physics.model import Model, Part
 from sim.physics.voltage_residual import compute_voltage_residual
 
@@ -23,7 +23,7 @@ PAIRS = [
     (name, kind)
     for name in EFFECTS
     for kind in MECHANISMS
-    if not EFFECTS[name].cannot(MECHANISMS[kind].scale)
+    if not EFFECTS[name].reason_against(MECHANISMS[kind].scale)
 ]
 TIME = np.arange(0.0, 2.0, 0.02)
 
@@ -34,7 +34,7 @@ def some(seed=0):
 
 def hidden(name, kind, size=1.0):
     """The model of a mechanism with one effect, without friction's help from stops."""
-    return replace(MECHANISMS[kind].hiding(name, size).model, travel=None)
+    return replace(MECHANISMS[kind].hide(name, size).model, travel=None)
 
 
 def middle(kind):
@@ -66,7 +66,7 @@ def test_the_catalogue_holds_every_effect_that_other_programs_call_by_name():
 def test_an_effect_is_written_as_the_contract_asks(name):
     found = EFFECTS[name]
 
-    assert found.faults() == []
+    assert found.contract_breaches() == []
     assert found.name == name
     for said in (found.summary, found.formula, found.fingerprint, found.inspect):
         assert len(said) > 3, said
@@ -93,7 +93,7 @@ def test_an_ordinary_case_is_physics_and_shows(name, kind):
     bare = replace(MECHANISMS[kind], sensor=silent)
     routine = Routine(ramp=0.5, step=6.0, kinds=KINDS)  # every kind of test, so that heat shows too
 
-    logs = [simulate(one, routine, rng=some()) for one in (bare.hiding(name), bare)]
+    logs = [simulate(one, routine, rng=some()) for one in (bare.hide(name), bare)]
 
     apart = max(
         float(np.abs(a.velocity[: len(b)] - b.velocity[: len(a)]).max())
@@ -110,12 +110,14 @@ def test_an_effect_at_its_neutral_values_is_not_there(name):
     values = dict(EFFECTS[name].neutral)
     start = middle(kind)
 
-    there = move(base, time=TIME, voltage=wave(1), state=State.at(start))
-    with_it = move(
-        base + Part(name, values), time=TIME, voltage=wave(1), state=State.at(start),
-        step=finest_step(base),
+    there = simulate_run(base, time=TIME, voltage=wave(1), state=State.cold_at(start))
+    with_it = simulate_run(
+        base + Part(name, values), time=TIME, voltage=wave(1), state=State.cold_at(start),
+        step=find_finest_step(base),
     )  # fmt: skip
-    alone = move(base, time=TIME, voltage=wave(1), state=State.at(start), step=finest_step(base))
+    alone = simulate_run(
+        base, time=TIME, voltage=wave(1), state=State.cold_at(start), step=find_finest_step(base)
+    )
 
     assert with_it.seen == pytest.approx(alone.seen, abs=1e-9)
     assert with_it.position == pytest.approx(there.position, abs=2e-3 * np.ptp(there.position))
@@ -126,8 +128,8 @@ def test_a_joint_that_is_stiff_or_tight_moves_as_one_body(name):
     base = MECHANISMS["drivetrain"].model
     tight = {"backlash": {"slack": 0.0}, "compliance": {"softness": 1e-5}}[name]
 
-    one = move(base, time=TIME, voltage=np.full(TIME.size, 3.0), state=State())
-    two = move(
+    one = simulate_run(base, time=TIME, voltage=np.full(TIME.size, 3.0), state=State())
+    two = simulate_run(
         base + Part(name, {**tight, "share": 0.3}),
         time=TIME, voltage=np.full(TIME.size, 3.0), state=State(),
     )  # fmt: skip
@@ -143,9 +145,13 @@ def test_halving_the_step_changes_a_trajectory_by_less_than_a_thousandth(name, k
     volts = wave(3)
     start = middle(kind)
 
-    coarse = move(model, time=TIME, voltage=volts, state=State.at(start))
-    fine = move(
-        model, time=TIME, voltage=volts, state=State.at(start), step=0.5 * finest_step(model)
+    coarse = simulate_run(model, time=TIME, voltage=volts, state=State.cold_at(start))
+    fine = simulate_run(
+        model,
+        time=TIME,
+        voltage=volts,
+        state=State.cold_at(start),
+        step=0.5 * find_finest_step(model),
     )
 
     assert np.abs(coarse.position - fine.position).max() < 1e-3 * np.ptp(fine.position)
@@ -164,8 +170,8 @@ def test_mirrored_volts_give_mirrored_motion(name, kind, seed):
     model = hidden(name, kind)
     volts = wave(seed)
 
-    there = move(model, time=TIME, voltage=volts, state=State())
-    back = move(model, time=TIME, voltage=-volts, state=State())
+    there = simulate_run(model, time=TIME, voltage=volts, state=State())
+    back = simulate_run(model, time=TIME, voltage=-volts, state=State())
 
     assert (there.position == -back.position).all()
     assert (there.seen == -back.seen).all()
@@ -182,7 +188,7 @@ def energy(model, track):
         moving = 0.5 * inertia * share * track.velocity**2
         _ = load  # the load's own motion is counted by the test of two bodies
     stored = np.zeros_like(track.position)
-    if (stores := EFFECTS[part.effect].stores) is not None:
+    if (stores := EFFECTS[part.effect].stored_energy) is not None:
         stored = np.array([stores(float(x), **part.parameters) for x in track.position])
     kg = model.gains.get("kG", 0.0)
     if model.type == "elevator":
@@ -200,22 +206,22 @@ def test_energy_never_appears_from_nowhere(name, kind, seed):
     # stored than the battery gave: the volts times the way, sample by sample.
     model = hidden(name, kind, float(some(seed).uniform(0.3, 2.0)))
     volts = wave(seed)
-    state = State.at(middle(kind))
-    fine = 0.1 * finest_step(model)
+    state = State.cold_at(middle(kind))
+    fine = 0.1 * find_finest_step(model)
 
-    driven = move(model, time=TIME, voltage=volts, state=state, step=fine)
+    driven = simulate_run(model, time=TIME, voltage=volts, state=state, step=fine)
     spent = np.abs(volts[:-1]) * np.abs(np.diff(driven.position))
     slack = 1e-6 + 1e-3 * float(np.abs(energy(model, driven)).max())
     gained = np.diff(energy(model, driven))
     speeds = np.maximum(np.abs(driven.velocity[1:]), np.abs(driven.velocity[:-1]))
     turned = np.sign(driven.velocity[1:]) != np.sign(driven.velocity[:-1])
-    late = EFFECTS[name].acts.keys() & {"late"}
+    late = EFFECTS[name].hooks.keys() & {"command_delay"}
     given_most = spent + np.where(turned, np.abs(volts[:-1]) * speeds * 0.02, 0.0)
     if late:  # what arrives now was asked for before
         given_most = np.abs(volts).max() * speeds * 0.02 + slack
     assert (gained <= given_most + slack).all()
 
-    coasting = move(model, time=TIME, voltage=np.zeros_like(TIME), state=state, step=fine)
+    coasting = simulate_run(model, time=TIME, voltage=np.zeros_like(TIME), state=state, step=fine)
     lost = np.diff(energy(model, coasting))
     first = 3 if late else 0  # the last command is still on its way
     assert (lost[first:] <= slack).all()
@@ -227,7 +233,7 @@ def asked(act, **known):
     return act(**{name: known[name] for name in names})
 
 
-@pytest.mark.parametrize(("name", "kind"), [p for p in PAIRS if "force" in EFFECTS[p[0]].acts])
+@pytest.mark.parametrize(("name", "kind"), [p for p in PAIRS if "force" in EFFECTS[p[0]].hooks])
 def test_a_term_never_pushes_harder_than_the_back_emf_holds_back(name, kind):
     # beyond what it stores and gives back, kV·v and the term together never feed the motion
     found, scale = EFFECTS[name], MECHANISMS[kind].scale
@@ -235,12 +241,13 @@ def test_a_term_never_pushes_harder_than_the_back_emf_holds_back(name, kind):
     for v in (scale.speed * np.geomspace(1e-4, 2.0, 30)).tolist():
         for x, way in ((0.0, v), (0.3 * scale.reach, -v)):
             slope = 0.0
-            if found.stores is not None:
+            if found.stored_energy is not None:
                 step = 1e-6 * scale.reach
-                slope = (found.stores(x + step, **values) - found.stores(x - step, **values)) / (
-                    2.0 * step
-                )
-            force = asked(found.acts["force"], x=x, v=way, **values)
+                slope = (
+                    found.stored_energy(x + step, **values)
+                    - found.stored_energy(x - step, **values)
+                ) / (2.0 * step)
+            force = asked(found.hooks["force"], x=x, v=way, **values)
             tiny = 1e-6 * abs(force)
             assert (scale.kv * way + force - slope) * way >= -tiny * abs(way), (x, way)
 
@@ -254,7 +261,7 @@ def test_two_bodies_left_alone_only_slow_down(name, seed):
     ka = model.gains["kA"]
     soft = part.get("softness", 0.0)
     state = State()
-    move(model, time=TIME, voltage=wave(seed), state=state)
+    simulate_run(model, time=TIME, voltage=wave(seed), state=state)
     before = math.inf
     for _ in range(150):
         x, v, y, w, _ = state.body
@@ -266,30 +273,32 @@ def test_two_bodies_left_alone_only_slow_down(name, seed):
         own = 0.5 * ka * (part["share"] * v * v + (1.0 - part["share"]) * w * w) + bent
         assert own <= before * (1.0 + 1e-3) + 1e-9
         before = own
-        move(
+        simulate_run(
             model, time=np.array([0.0, 0.005]), voltage=np.zeros(2), state=state,
-            step=0.2 * finest_step(model),
+            step=0.2 * find_finest_step(model),
         )  # fmt: skip
 
 
-@pytest.mark.parametrize("name", [n for n in EFFECTS if EFFECTS[n].stores is not None])
+@pytest.mark.parametrize("name", [n for n in EFFECTS if EFFECTS[n].stored_energy is not None])
 def test_what_a_term_pulls_is_the_slope_of_what_it_stores(name):
     kind = next(kind for one, kind in PAIRS if one == name)
-    values = MECHANISMS[kind].hiding(name).hidden[0].parameters
+    values = MECHANISMS[kind].hide(name).hidden[0].parameters
     found = EFFECTS[name]
     for x in np.linspace(-2.0, 2.0, 17).tolist():
-        slope = (found.stores(x + 1e-5, **values) - found.stores(x - 1e-5, **values)) / 2e-5
-        force = asked(found.acts["force"], x=x, v=0.0, **values)
+        slope = (
+            found.stored_energy(x + 1e-5, **values) - found.stored_energy(x - 1e-5, **values)
+        ) / 2e-5
+        force = asked(found.hooks["force"], x=x, v=0.0, **values)
         assert force == pytest.approx(slope, abs=1e-6)
 
 
 @pytest.mark.parametrize(("name", "kind"), PAIRS)
 def test_a_search_starts_from_physics(name, kind):
-    mechanism = MECHANISMS[kind].hiding(name)
+    mechanism = MECHANISMS[kind].hide(name)
     log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
     seen = compute_voltage_residual(log, MECHANISMS[kind].gains, type=mechanism.type)
 
-    starts = list(EFFECTS[name].starts(seen))
+    starts = list(EFFECTS[name].start_values(seen))
 
     assert starts
     for start in starts:
@@ -311,13 +320,13 @@ NEAR = {  # parameter that the best start should have nearly right, and how near
 @pytest.mark.parametrize("name", NEAR)
 def test_the_best_start_is_near_the_truth(name):
     kind = "turret" if name == "gravity-cosine" else "drivetrain"
-    mechanism = MECHANISMS[kind].hiding(name)
+    mechanism = MECHANISMS[kind].hide(name)
     truth = mechanism.hidden[0].parameters
     log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
     wanted, factor = NEAR[name]
 
     starts = list(
-        EFFECTS[name].starts(
+        EFFECTS[name].start_values(
             compute_voltage_residual(log, MECHANISMS[kind].gains, type=mechanism.type)
         )
     )
@@ -327,13 +336,13 @@ def test_the_best_start_is_near_the_truth(name):
 
 
 def test_where_a_load_draws_it_along_a_ramp_that_turns_it_tells_the_deadband():
-    mechanism = MECHANISMS["drivetrain"].hiding("constant-load", 1.2).hiding("deadband", 1.2)
+    mechanism = MECHANISMS["drivetrain"].hide("constant-load", 1.2).hide("deadband", 1.2)
     load, deadband = (part.parameters for part in mechanism.hidden)
     assert load["load"] > MECHANISMS["drivetrain"].gains["kS"]  # else nothing is drawn along
     log = simulate(mechanism, Routine(ramp=0.5, step=3.5), rng=some(5))
     seen = compute_voltage_residual(log, MECHANISMS["drivetrain"].gains, type="simple")
 
-    starts = [one["band"] for one in EFFECTS["deadband"].starts(seen)]
+    starts = [one["band"] for one in EFFECTS["deadband"].start_values(seen)]
 
     assert min(abs(one / deadband["band"] - 1.0) for one in starts) < 0.1, starts
 
@@ -345,7 +354,7 @@ def test_starts_survive_a_log_in_which_nothing_moves():
     log = Log(tuple(Run(test, time, still, still, still) for test in tests))
     seen = compute_voltage_residual(log, {"kS": 0.1, "kV": 2.0, "kA": 0.2}, type="simple")
     for name, found in EFFECTS.items():
-        for start in found.starts(seen):
+        for start in found.start_values(seen):
             Part(name, start)
 
 
@@ -353,29 +362,32 @@ def test_starts_survive_a_log_in_which_nothing_moves():
     ("change", "said"),
     [
         (dict(kind="magic"), "kind is 'magic'; choose one of: term"),
-        (dict(acts={}), "acts is empty"),
-        (dict(acts={"forces": lambda v: v}), "'forces', which is not one of: force"),
-        (dict(acts={"force": lambda speed: speed}), "force asks for 'speed'; it may ask for: x, v"),
-        (dict(acts={"transform_voltage": lambda u: u}), "order is 0"),
+        (dict(hooks={}), "hooks is empty"),
+        (dict(hooks={"forces": lambda v: v}), "'forces', which is not one of: force"),
+        (
+            dict(hooks={"force": lambda speed: speed}),
+            "force asks for 'speed'; it may ask for: x, v",
+        ),
+        (dict(hooks={"transform_voltage": lambda u: u}), "order is 0"),
     ],
     ids=["kind", "nothing", "hook", "argument", "order"],
 )
 def test_an_effect_written_wrongly_is_named_with_what_is_wrong(change, said):
-    assert any(said in line for line in replace(EFFECTS["drag"], **change).faults())
+    assert any(said in line for line in replace(EFFECTS["drag"], **change).contract_breaches())
 
 
 @pytest.mark.parametrize(
     ("make", "said"),
     [
-        (lambda: effect("magic"), "unknown effect 'magic'. Choose one of: asymmetric-back-emf"),
+        (lambda: find_effect("magic"), "unknown effect 'magic'. Choose one of: asymmetric-back"),
         (lambda: Part("drag", {}), "drag with no parameters. Give: drag."),
         (lambda: Part("drag", {"drag": -1.0}), "drag: drag is -1. Choose 0 to inf."),
         (lambda: Model("simple", {}) + Part("drag", {"drag": 1.0}) + Part("drag", {"drag": 1.0}),
          "drag twice"),
-        (lambda: MECHANISMS["shooter"].hiding("spring"), "a shooter cannot have spring: it turns"),
-        (lambda: MECHANISMS["drivetrain"].hiding("drag", 9.0), "drag of size 9. Choose 0 to 5"),
-        (lambda: MECHANISMS["drivetrain"].hiding("drag", math.nan), "drag of size nan"),
-        (lambda: MECHANISMS["drivetrain"].hiding("drag").hiding("drag"), "drag is hidden twice"),
+        (lambda: MECHANISMS["shooter"].hide("spring"), "a shooter cannot have spring: it turns"),
+        (lambda: MECHANISMS["drivetrain"].hide("drag", 9.0), "drag of size 9. Choose 0 to 5"),
+        (lambda: MECHANISMS["drivetrain"].hide("drag", math.nan), "drag of size nan"),
+        (lambda: MECHANISMS["drivetrain"].hide("drag").hide("drag"), "drag is hidden twice"),
     ],
     ids=["unknown", "missing", "sign", "twice", "cannot", "size", "nan", "hidden twice"],
 )  # fmt: skip
@@ -387,7 +399,7 @@ def test_what_is_no_physics_is_refused(make, said):
 
 
 def test_size_zero_hides_nothing():
-    assert MECHANISMS["drivetrain"].hiding("drag", 0.0) == MECHANISMS["drivetrain"]
+    assert MECHANISMS["drivetrain"].hide("drag", 0.0) == MECHANISMS["drivetrain"]
 
 
 def test_parameters_say_their_unit_and_power():

@@ -17,18 +17,18 @@ from sim.physics.effects import EFFECTS
 from sim.physics.effects.drag import EFFECT as DRAG
 from sim.physics.engine import (
     EXACT,
-    NO_TRUST,
+    NO_CORRECTION,
     NO_WIRES,
     State,
     effect_arrays,
-    finest_step,
+    find_finest_step,
     model_constants,
-    move,
+    simulate_run,
 )
 from sim.physics.engine import kernel as kernel_room
-from sim.physics.engine.compose import compose, is_compiled
+from sim.physics.engine.compose import compose_engine, is_compiled
 from sim.physics.engine.kernel import NO_USE
-from sim.physics.engine.machine_code import Code, link_code
+from sim.physics.engine.machine_code import ObjectCode, link_code
 from sim.physics.engine.power_path import CUT
 from sim.physics.engine.two_body_modes import WAYS
 from sim.physics.model import Model, Part
@@ -45,13 +45,13 @@ def steady(volts):
 
 @pytest.mark.parametrize("name", EFFECTS)
 def test_the_compiled_engine_does_what_the_plain_text_says(name):
-    kind = next(k for k in MECHANISMS if not EFFECTS[name].cannot(MECHANISMS[k].scale))
-    model = MECHANISMS[kind].hiding(name).model
+    kind = next(k for k in MECHANISMS if not EFFECTS[name].reason_against(MECHANISMS[k].scale))
+    model = MECHANISMS[kind].hide(name).model
     volts = np.where(TIME < 0.4, 3.0, -2.0)
     wires = power_path_arrays(MECHANISMS[kind])
 
     fast, slow = (
-        move(model, time=TIME, voltage=volts, state=State(), wires=wires, plain=plain)
+        simulate_run(model, time=TIME, voltage=volts, state=State(), wires=wires, plain=plain)
         for plain in (False, True)
     )
 
@@ -64,7 +64,7 @@ def test_an_arm_that_is_let_go_swings_through_and_settles_below():
     arm = Model("arm", {"kS": 0.0, "kV": 0.05, "kA": 0.1, "kG": 1.0, "offset_rad": 0.0})
     time = np.arange(0.0, 60.0, 0.02)
 
-    track = move(arm, time=time, voltage=np.zeros(time.size), state=State.at(0.3))
+    track = simulate_run(arm, time=time, voltage=np.zeros(time.size), state=State.cold_at(0.3))
 
     assert track.position[-1] == pytest.approx(-math.pi / 2.0, abs=1e-3)
     assert track.position.min() < -math.pi / 2.0 - 0.5
@@ -74,11 +74,11 @@ def test_an_elevator_on_its_stop_lifts_when_the_ramp_exceeds_weight_and_friction
     lift = Model("elevator", {"kS": 0.2, "kV": 4.0, "kA": 0.2, "kG": 1.0}, travel=(0.0, 1.0))
     time = np.arange(0.0, 4.0, 0.02)
 
-    track = move(lift, time=time, voltage=0.5 * time, state=State())
+    track = simulate_run(lift, time=time, voltage=0.5 * time, state=State())
 
     assert not track.velocity[time < 2.38].any()  # (kG + kS)/0.5 V/s = 2.4 s
     assert track.velocity[time > 2.5].all()
-    held = move(lift, time=time, voltage=np.full(time.size, 8.0), state=State())
+    held = simulate_run(lift, time=time, voltage=np.full(time.size, 8.0), state=State())
     assert held.position.max() == 1.0
     assert held.velocity[-1] == 0.0
 
@@ -87,7 +87,7 @@ def test_a_current_limit_makes_the_rise_a_straight_line():
     # |u - kV·v| ≤ 1: a = (1 - 0.2)/0.3 until u - kV·v falls below the limit, at v = (3 - 1)/2
     limited = PLAIN + Part("current-limit", {"limit": 1.0})
 
-    track = move(limited, time=TIME, voltage=steady(3.0), state=State())
+    track = simulate_run(limited, time=TIME, voltage=steady(3.0), state=State())
 
     rising = track.velocity < 0.98
     assert track.velocity[rising] == pytest.approx(0.8 / 0.3 * TIME[rising], rel=1e-4, abs=1e-12)
@@ -95,7 +95,7 @@ def test_a_current_limit_makes_the_rise_a_straight_line():
 
 def test_drag_ends_at_the_speed_at_which_the_volts_are_spent():
     # 4 = 0.2 + 2 v + 0.5 v² has v = (-2 + √(4 + 7.6))/1
-    track = move(
+    track = simulate_run(
         PLAIN + Part("drag", {"drag": 0.5}),
         time=np.arange(0.0, 5.0, 0.02), voltage=np.full(250, 4.0), state=State(),
     )  # fmt: skip
@@ -104,21 +104,25 @@ def test_drag_ends_at_the_speed_at_which_the_volts_are_spent():
 
 
 def test_a_delay_shifts_the_motion_and_nothing_else():
-    late = move(PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=steady(3.0), state=State())
-    prompt = move(PLAIN, time=TIME, voltage=steady(3.0), state=State())
+    late = simulate_run(
+        PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=steady(3.0), state=State()
+    )
+    prompt = simulate_run(PLAIN, time=TIME, voltage=steady(3.0), state=State())
 
     assert late.velocity[3:] == pytest.approx(prompt.velocity[:-3], abs=1e-12)
     assert not late.velocity[:4].any()
 
 
 def test_a_hidden_delay_is_not_in_the_voltage_that_is_recorded():
-    late = move(PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=3.0 * TIME, state=State())
+    late = simulate_run(
+        PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=3.0 * TIME, state=State()
+    )
 
     assert (late.applied == 3.0 * TIME).all()
 
 
 def test_a_filter_reports_the_mean_velocity_of_its_window():
-    track = move(
+    track = simulate_run(
         PLAIN + Part("velocity-filter", {"window": 0.1}),
         time=TIME, voltage=steady(3.0), state=State(),
     )  # fmt: skip
@@ -130,10 +134,10 @@ def test_inertia_that_joins_shares_its_momentum():
     joined = PLAIN + Part(
         "inertia-change", {"extra": 0.3, "onset": 0.5, "until": 1e6, "shared": 1.0}
     )
-    state = State.at(0.0, 1.0)
+    state = State.cold_at(0.0, 1.0)
     free = replace(joined, gains={"kS": 0.0, "kV": 1e-9, "kA": 0.3})
 
-    track = move(free, time=TIME, voltage=steady(0.0), state=state)
+    track = simulate_run(free, time=TIME, voltage=steady(0.0), state=state)
 
     assert track.velocity[TIME < 0.49] == pytest.approx(1.0, abs=1e-6)
     assert track.velocity[TIME > 0.51] == pytest.approx(0.5, abs=1e-6)
@@ -145,7 +149,7 @@ def test_what_happens_between_two_samples_happens_at_its_moment(until):
     model, finer = PLAIN + Part("inertia-change", values), np.union1d(TIME, [0.413, 0.537])
 
     track, every = (
-        move(model, time=time, voltage=np.full(time.size, 6.0), state=State())
+        simulate_run(model, time=time, voltage=np.full(time.size, 6.0), state=State())
         for time in (TIME, finer)
     )
 
@@ -158,9 +162,9 @@ def test_heat_stays_from_run_to_run_and_fades_in_a_pause():
     warm = PLAIN + Part("heating", {"rate": 0.05})
     state = State()
 
-    first = move(warm, time=TIME, voltage=steady(4.0), state=state)
+    first = simulate_run(warm, time=TIME, voltage=steady(4.0), state=state)
     state.body[:] = 0.0
-    again = move(warm, time=TIME, voltage=steady(4.0), state=state)
+    again = simulate_run(warm, time=TIME, voltage=steady(4.0), state=state)
 
     assert (again.velocity[1:10] < first.velocity[1:10]).all()
 
@@ -171,9 +175,9 @@ def test_wires_keep_every_limit_and_ohms_law(asked, speed):
     built = MECHANISMS["drivetrain"]
     wires = power_path_arrays(built)
     wires[7] = 0.0  # no brownout here
-    state = State.at(0.0, speed)
+    state = State.cold_at(0.0, speed)
 
-    track = move(
+    track = simulate_run(
         built.model, time=np.array([0.0, 1e-6]), voltage=np.full(2, asked), state=state, wires=wires
     )
     u, current, bus = (float(part[0]) for part in (track.applied, track.current, track.bus))
@@ -193,7 +197,7 @@ def test_a_brownout_takes_the_motors_off_for_a_loop():
     built = replace(MECHANISMS["drivetrain"], stator=400.0, supply=400.0)
     time = np.arange(0.0, 0.5, 0.005)
 
-    track = move(
+    track = simulate_run(
         built.model, time=time, voltage=np.full(time.size, 11.0), state=State(),
         wires=power_path_arrays(built),
     )  # fmt: skip
@@ -208,7 +212,7 @@ def test_a_brownout_takes_the_motors_off_for_a_loop():
 
 
 def test_no_wires_apply_what_is_asked():
-    track = move(PLAIN, time=TIME, voltage=steady(30.0), state=State(), wires=NO_WIRES)
+    track = simulate_run(PLAIN, time=TIME, voltage=steady(30.0), state=State(), wires=NO_WIRES)
 
     assert (track.applied == 30.0).all()
     assert not track.bus.any()
@@ -217,7 +221,7 @@ def test_no_wires_apply_what_is_asked():
 def test_the_faster_an_effect_acts_the_finer_the_step():
     quick = PLAIN + Part("stribeck", {"extra": 2.0, "slow": 0.01})
 
-    assert 5e-5 <= finest_step(quick) < 0.5 * finest_step(PLAIN)
+    assert 5e-5 <= find_finest_step(quick) < 0.5 * find_finest_step(PLAIN)
 
 
 def new_effect(**change):
@@ -225,7 +229,7 @@ def new_effect(**change):
 
 
 def test_a_new_effect_is_composed_into_the_engine_and_called():
-    module = compose(new_effect(), compiled=False)
+    module = compose_engine(new_effect(), compiled=False)
 
     on = np.zeros(len(EFFECTS) + 1 + len(module.__dict__))
     assert module.force(on, np.ones(99), 0.0, 2.0) == 0.0
@@ -238,14 +242,14 @@ def test_a_new_effect_is_composed_into_the_engine_and_called():
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (dict(acts={"force": lambda speed: speed}), "effect new-one: force asks for 'speed'"),
-        (dict(acts={}), "effect new-one: acts is empty"),
+        (dict(hooks={"force": lambda speed: speed}), "effect new-one: force asks for 'speed'"),
+        (dict(hooks={}), "effect new-one: hooks is empty"),
     ],
     ids=["argument", "nothing"],
 )
 def test_an_effect_written_wrongly_stops_the_engine_with_a_sentence(change, said):
     with pytest.raises(BadRequest) as refused:
-        compose(new_effect(**change))
+        compose_engine(new_effect(**change))
 
     assert said in str(refused.value)
     assert "sim/physics/effects/drag.py" in str(refused.value)
@@ -319,10 +323,10 @@ def test_what_was_compiled_is_loaded_without_the_compiler(cache):
 def test_a_damaged_engine_is_never_loaded(cache, damage):
     (kept,) = cache.glob("*.kernel")
 
-    code = Code.read(damage(kept.read_bytes()))
+    code = ObjectCode.from_bytes(damage(kept.read_bytes()))
 
     assert code is None or link_code(code) is None
-    assert link_code(Code.read(kept.read_bytes()))
+    assert link_code(ObjectCode.from_bytes(kept.read_bytes()))
 
 
 def test_a_damaged_engine_is_compiled_anew(cache, tmp_path):
@@ -332,7 +336,7 @@ def test_a_damaged_engine_is_compiled_anew(cache, tmp_path):
 
     assert started({**os.environ, CACHE: str(tmp_path)}) == (0, ENDS, "")
 
-    assert Code.read(copy.read_bytes())
+    assert ObjectCode.from_bytes(copy.read_bytes())
 
 
 def test_where_object_files_do_not_work_the_compiler_keeps_its_own(cache, tmp_path):
@@ -386,10 +390,10 @@ def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
         "rubs": np.zeros(1), "sessions": np.zeros(1), "c": model_constants(PLAIN), "w": NO_WIRES,
         "on": on, "p": parameters,
         "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS), "began": np.zeros(1),
-        "steps": EXACT, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_TRUST,
+        "steps": EXACT, "plain": True, "measured": np.zeros((0, 2)), "trust": NO_CORRECTION,
         "out": np.zeros((TIME.size, 8)),
     }  # fmt: skip
-    engine = compose(EFFECTS)
+    engine = compose_engine(EFFECTS)
     engine.move(**given)
 
     with pytest.raises(TypeError):
@@ -406,7 +410,10 @@ def test_a_home_that_cannot_be_written_to_is_no_obstacle(tmp_path):
 def test_threads_that_ask_at_once_get_one_engine():
     with ThreadPoolExecutor(4) as pool:
         tracks = list(
-            pool.map(lambda _: move(PLAIN, time=TIME, voltage=steady(3.0), state=State()), range(8))
+            pool.map(
+                lambda _: simulate_run(PLAIN, time=TIME, voltage=steady(3.0), state=State()),
+                range(8),
+            )
         )
 
     assert all((track.velocity == tracks[0].velocity).all() for track in tracks)

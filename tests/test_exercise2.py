@@ -13,13 +13,13 @@ import pytest
 from grader.check import Wrong
 from grader.cli import run
 from grader.exercise import Exercise
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.physics.battery import Battery
-from sim.physics.motors import motor, theoretical_kv
+from sim.physics.motors import find_motor, theoretical_kv
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")
@@ -62,7 +62,7 @@ def solved(exercise, student):
     """The grade of the solution, made from what the learner is given and nothing else."""
     exercise.prepare(student, say=lambda _: None)
     solve = runpy.run_path(str(ROOT / "solutions" / exercise.name / "solve.py"))["solve"]
-    (text,) = solve(OWN.folder, exercise.folder / "data" / folder_name(student)).values()
+    (text,) = solve(OWN.folder, exercise.folder / "data" / make_folder_name(student)).values()
     (exercise.folder / "answers.toml").write_text(text, "utf-8")
     return exercise.grade(None, student=student)
 
@@ -104,10 +104,10 @@ def test_between_them_they_get_every_trouble_verdict_and_flag():
 def test_theory_is_what_the_bench_says_of_the_same_parts():
     """Kraken X60, 6.75:1, 4 inches: 2.538 V·s/m on paper, 2.524 with the free current's drop."""
     parts = type(OWN.module.draw("ann").parts)
-    made = parts("Kraken X60", 6000, motor("krakenX60").back_emf, 4, 6.75, 0.1016)
+    made = parts("Kraken X60", 6000, find_motor("krakenX60").back_emf, 4, 6.75, 0.1016)
 
     assert made.paper == pytest.approx(
-        theoretical_kv(motor("krakenX60"), ratio=6.75, radius=0.0508), rel=1e-9
+        theoretical_kv(find_motor("krakenX60"), ratio=6.75, radius=0.0508), rel=1e-9
     )
     assert (made.paper, made.exact) == (pytest.approx(2.538, abs=5e-4), pytest.approx(2.524, 1e-3))
 
@@ -135,7 +135,7 @@ def test_the_file_tells_of_every_planted_trouble_and_of_no_other(copy):
     """Ratio, radius, what was logged and what is hot: two lines disagree where something is off."""
     for student in CLASS:
         copy.prepare(student, say=lambda _: None)
-        text = (copy.folder / "data" / folder_name(student) / "given.toml").read_text("utf-8")
+        text = (copy.folder / "data" / make_folder_name(student) / "given.toml").read_text("utf-8")
         given, variant = tomllib.loads(text), OWN.module.draw(student)
         parts, code = given["parts"], given["code"]
         diameter = parts.get("wheel_diameter", parts.get("drum_diameter", 0.0))
@@ -159,7 +159,7 @@ def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
         run(["2", "--student", student])
         run(["2", "--student", student, "--json"])
     said += capsys.readouterr().out
-    said += (copy.folder / "data" / folder_name(student) / "given.toml").read_text("utf-8")
+    said += (copy.folder / "data" / make_folder_name(student) / "given.toml").read_text("utf-8")
     said = said.replace(f"{1.03 * variant.parts.paper:.4g}", "")
     numbers = [abs(float(text)) for text in re.findall(r"\d+\.\d+", said)]
     percent = abs(variant.percent(variant.parts.paper))
@@ -350,7 +350,7 @@ def test_every_list_of_causes_in_every_order_is_graded_by_what_the_file_says(cop
     assert len({(kind, planted) for kind, planted, _ in seen}) == 17
     for student, variant in seen.values():
         copy.prepare(student, say=lambda _: None)
-        path = copy.folder / "data" / folder_name(student) / "given.toml"
+        path = copy.folder / "data" / make_folder_name(student) / "given.toml"
         left, shown = allowed(variant, tomllib.loads(path.read_text("utf-8")))
         for causes in lists:
             possible = [one for one in causes if one in left]

@@ -7,7 +7,7 @@ import pytest
 
 from grader.cli import run
 from grader.exercise import Exercise
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise3", ROOT / "exercises" / "exercise3")
@@ -64,7 +64,7 @@ def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
         run(["3", "--student", student])
         run(["3", "--student", student, "--json"])
     said += capsys.readouterr().out
-    said += (copy.folder / "data" / folder_name(student) / "given.toml").read_text("utf-8")
+    said += (copy.folder / "data" / make_folder_name(student) / "given.toml").read_text("utf-8")
     numbers = [abs(float(text)) for text in re.findall(r"\d+\.\d+", said)]
 
     assert len(numbers) > 20

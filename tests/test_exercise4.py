@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from grader.cli import run
-from grader.exercise import Exercise
+from grader.exercise import Exercise, find_exercise
 from grader.robotcode import bench
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -230,3 +230,29 @@ def test_whatever_is_cut_out_of_code_our_checks_do_not_break(tmp_path, name, beg
 
     assert "error" not in {check.status for check in result.checks}
     assert 0 <= result.score <= result.max_score == 15
+
+
+SENT = "m_left.setVoltage(voltage.in(Volts));"
+HELPER = "  private double getMeters("
+FAR = "m_left.getPosition().getValueAsDouble() > 90"
+PRINTS = "  @Override\n  public void periodic() {\n    System.out.println(m_left);\n  }\n"
+RIGHT_TOO = {
+    "bounds that no test reaches": (
+        SENT,
+        "m_left.setVoltage(Math.max(-12.0, Math.min(voltage.in(Volts), 12.0)));",
+    ),
+    "a condition without the voltage": (SENT, f"if (m_left.isConnected()) {{ {SENT} }}"),
+    "a stop at the end of a way": (SENT, f"{SENT} if ({FAR}) {{ m_left.stopMotor(); }}"),
+    "a periodic() that moves nothing": (HELPER, f"{PRINTS}\n{HELPER}"),
+}
+
+
+@pytest.mark.parametrize("case", RIGHT_TOO)
+def test_guards_that_leave_the_voltage_alone_lose_nothing(case, tmp_path):
+    old, new = RIGHT_TOO[case]
+    text = SOLUTIONS[JAVA]
+    assert old in text
+    (tmp_path / JAVA).write_text(text.replace(old, new, 1), "utf-8")
+    grade = find_exercise("exercise4", ROOT).grade(tmp_path / JAVA, student="ann")
+
+    assert {one.id: one.seen for one in grade.checks if one.status != "passed"} == {}

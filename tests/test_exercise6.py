@@ -14,13 +14,13 @@ import pytest
 
 from grader.cli import run
 from grader.exercise import Exercise
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit import fit
 from sim.physics.battery import Battery
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -78,7 +78,7 @@ def solved(exercise, student):
     """The grade of the solution, made from what the learner is given and nothing else."""
     exercise.prepare(student, say=lambda _: None)
     solve = runpy.run_path(str(ROOT / "solutions" / exercise.name / "solve.py"))["solve"]
-    (text,) = solve(OWN.folder, exercise.folder / "data" / folder_name(student)).values()
+    (text,) = solve(OWN.folder, exercise.folder / "data" / make_folder_name(student)).values()
     (exercise.folder / "answers.toml").write_text(text, "utf-8")
     return exercise.grade(None, student=student)
 
@@ -151,7 +151,7 @@ def test_the_closed_form_is_where_the_bench_goes_under_the_routine(kind):
     """The bench's own routine begins to drive two loops late; its sensor rounds."""
     variant = OWN.module.draw("ann")
     machine, built = variant.machines[kind], variant.built[kind]
-    per = unit(UNITS[machine.symbol]).si
+    per = find_unit(UNITS[machine.symbol]).si
     plan = replace(DRAWN.sound(machine), release=math.inf)
     sensor = replace(built.sensor, velocity_noise=0.0, jitter=0.0)
     strong = Battery(14.0, 0.0)
@@ -162,7 +162,7 @@ def test_the_closed_form_is_where_the_bench_goes_under_the_routine(kind):
     log = simulate(quiet, routine, rng=np.random.default_rng(1))
 
     for test, name in ((PLAN.quasistatic, "quasistatic"), (PLAN.dynamic, "dynamic")):
-        (ran,) = log.of(f"{name}-forward")
+        (ran,) = log.runs_of_test(f"{name}-forward")
         begins = ran.time[0] - (0.04 if name == "quasistatic" else 0.0)
         moving = ran.time - begins - test(machine, plan).still
         places = [test(machine, plan).place(max(float(t), 0.0)) for t in moving]
@@ -185,7 +185,9 @@ def test_the_bench_stands_where_the_plan_says(kind):
             off = test.still + test.lasts
             time = np.arange(0.0, off + 12.0 * machine.tau + 0.2, 0.002)
             drive = plan.ramp * (time + 0.001) if test.ramp else np.full(time.size, plan.step)
-            track = move(model, time=time, voltage=np.where(time < off, drive, 0.0), state=State())
+            track = simulate_run(
+                model, time=time, voltage=np.where(time < off, drive, 0.0), state=State()
+            )
 
             assert np.max(track.position) == pytest.approx(test.rests, rel=0.01)
             assert np.max(track.velocity) == pytest.approx(test.fastest, rel=0.01)
@@ -198,7 +200,7 @@ def test_a_log_made_by_a_plan_that_keeps_the_rules_tells_the_gains(kind):
         variant = OWN.module.draw(student)
         machine, built = variant.machines[kind], variant.built[kind]
         if machine.travel is not None:
-            built = replace(built, travel=machine.travel * unit(UNITS[machine.symbol]).si)
+            built = replace(built, travel=machine.travel * find_unit(UNITS[machine.symbol]).si)
         built = replace(built, lowest=0.0) if machine.kg else built
         plan = DRAWN.sound(machine)
         routine = Routine(ramp=plan.ramp, step=plan.step, timeout=plan.timeout)
@@ -327,6 +329,15 @@ def test_a_number_may_be_written_in_many_ways(copy, written_as, status):
     assert graded(copy, **comma)["turret"].status == status
 
 
+@pytest.mark.parametrize("part", ["ramp", "step", "timeout", "release"])
+def test_a_part_of_a_plan_that_is_next_to_nothing_earns_nothing(copy, part):
+    plan = written("shooter", DRAWN.sound(OWN.module.draw("ann").machines["shooter"]))
+    found = graded(copy, **plan | {f"shooter_{part}": "1e-320"})["shooter"]
+
+    assert found.points == 0
+    assert "Choose a number above 0.001" in found.hint
+
+
 @pytest.mark.parametrize("extreme", ["1e-300", "1e-9", "1e4", "1e300"])
 def test_extreme_numbers_are_told_what_is_wrong(copy, extreme):
     plan = written("drivetrain", DRAWN.sound(OWN.module.draw("ann").machines["drivetrain"]))
@@ -392,7 +403,7 @@ def test_a_limit_in_the_controller_called_bypassed_is_named_and_the_other_is_not
 def test_numbers_that_were_changed_are_written_anew(copy):
     said = []
     copy.prepare("ann", say=said.append)
-    given = copy.folder / "data" / folder_name("ann") / "given.toml"
+    given = copy.folder / "data" / make_folder_name("ann") / "given.toml"
     made = given.read_bytes()
     given.write_bytes(made.replace(b"kS = ", b"kS = 1"))
     copy.prepare("ann", say=said.append)

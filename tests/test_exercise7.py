@@ -16,7 +16,7 @@ from grader.exercise import Exercise
 from grader.variant import class_secret
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.inspect.detect_faults import inspect
-from sim.inspect.fault import Stretch
+from sim.inspect.fault import LogInterval
 from sim.inspect.faults import FAULTS
 from sim.io import read
 
@@ -56,7 +56,9 @@ def case(*damage):
     return DRAWN.Case(
         Log(tuple(runs)),
         tuple(
-            DRAWN.Damaged(name, (Stretch(run, FOUR_TESTS[run], start, end),), FAULTS[name].whole)
+            DRAWN.Damaged(
+                name, (LogInterval(run, FOUR_TESTS[run], start, end),), FAULTS[name].whole
+            )
             for name, run, start, end in damage
         ),
     )

@@ -15,7 +15,7 @@ from grader.cli import run
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import class_secret
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit import fit
 from sim.io import read
 
@@ -77,7 +77,7 @@ def test_the_standstill_may_be_trimmed_instead_of_dropped_by_a_threshold():
         mine = variant(student)
         keep = dict(mine.reference.keep)
         for ramp in RAMPS:
-            (one,) = mine.log.of(ramp)
+            (one,) = mine.log.runs_of_test(ramp)
             first = one.time[np.argmax(mine.valid[ramp])] - one.time[0]
             keep[ramp] = (first, keep.get(ramp, (0.0, 99.0))[1])
         trimmed = replace(mine.reference, keep=keep, threshold=0.0)
@@ -148,7 +148,7 @@ def test_a_window_may_be_written_in_many_ways(raw, expected):
 
 def test_a_threshold_is_read_in_the_unit_of_the_log():
     given = dict.fromkeys((one.replace("-", "_") for one in PREPARATION.TESTS), "all")
-    degrees = unit("degrees")
+    degrees = find_unit("degrees")
 
     for written in (20, "20 deg/s", "0.34907 rad/s"):
         given |= {"threshold": written, "median": 1}
@@ -233,6 +233,16 @@ def test_a_window_with_a_word_that_is_none_is_refused(written):
         PREPARATION._window("quasistatic-forward", written)
 
 
-@pytest.mark.parametrize("written", ["0,4 to 5,2", "0.4 s - 5.2 s", [0.4, 5.2], "(0.4; 5.2)"])
+@pytest.mark.parametrize("written", ["1,5,5", "0,4,5,2", "from 1,5,5 s"])
+def test_commas_that_can_be_read_in_two_ways_are_refused(written):
+    with pytest.raises(Wrong) as refused:
+        PREPARATION._window("quasistatic-forward", written)
+
+    assert "can be read as two times in two ways" in refused.value.hint
+
+
+@pytest.mark.parametrize(
+    "written", ["0,4 to 5,2", "0,4, 5,2", "0.4,5.2", "0.4 s - 5.2 s", [0.4, 5.2], "(0.4; 5.2)"]
+)
 def test_a_window_may_be_written_with_units_or_brackets(written):
     assert PREPARATION._window("quasistatic-forward", written) == (0.4, 5.2)

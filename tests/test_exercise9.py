@@ -236,6 +236,15 @@ def test_explaining_the_voltage_is_recognized(copy):
     pytest.fail("no student's log shows the difference")
 
 
+def test_an_r2_of_one_is_no_measurement(copy):
+    expected = OWN.module.draw("ann").fit.simulated_velocity_r2
+    for text, points in ((f"{expected:.4f}", 0.5), (f"{expected:.2f}", 0.5), ("1", 0), ("1.0", 0)):
+        (copy.folder / "answers.toml").write_text(f"simulated_velocity_r2 = {text}", "utf-8")
+        (check,) = (one for one in copy.grade(None, student="ann").checks if one.id == "metrics")
+
+        assert (check.points, round(expected, 2) < 1) == (points, True)
+
+
 def test_the_log_is_made_on_first_use_and_said_so_beside_the_result(copy, capsys):
     assert run(["9", "--student", "ann", "--json"]) == 1
     out, err = capsys.readouterr()

@@ -24,9 +24,9 @@ from sim.core.errors import BadRequest
 from sim.core.log import Log
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
-from sim.inspect.fault import Fault, fault_of
-from sim.inspect.faults import FAULTS, fault
-from sim.support.catalogue import members
+from sim.inspect.fault import Fault, load_fault
+from sim.inspect.faults import FAULTS, find_fault
+from sim.support.catalogue import list_members
 
 SEEDS = 100  # damaged logs for each fault
 CLEAN = 300  # sound logs
@@ -106,7 +106,7 @@ def test_the_catalogue_holds_the_faults_of_the_lesson():
 
 def test_an_unknown_fault_lists_the_known():
     with pytest.raises(BadRequest, match="Choose one of: brownout, "):
-        fault("gremlin")
+        find_fault("gremlin")
 
 
 @pytest.mark.parametrize("name", FAULTS)
@@ -199,7 +199,7 @@ FAULT = Fault(
     summary="they bite",
     ordinary="3 bites",
     spoil=lambda log, blow, rng: Spoilt(log, ()),
-    detect=lambda clues: (),
+    detect=lambda features: (),
 )
 '''
 
@@ -213,7 +213,7 @@ FAULT = Fault(
         (('summary="they bite"', 'summary=""'), "has no summary of one line"),
         (('"they bite"', '"they\\nbite"'), "has no summary of one line"),
         (("3 bites", "many bites"), "says what severity 1 means without a number"),
-        (("detect=lambda clues: ()", "detect=None"), "has a detect that cannot be called"),
+        (("detect=lambda features: ()", "detect=None"), "has a detect that cannot be called"),
         (("detect=", 'kinds=("static",), detect='), "strikes kinds ('static',)"),
         (("detect=", "kinds=(), detect="), "strikes no kind of test"),
         (("detect=", 'types=("crane",), detect='), "strikes types ('crane',)"),
@@ -230,7 +230,7 @@ def test_a_bad_file_in_the_folder_is_refused_with_a_sentence_that_says_why(
     monkeypatch.delitem(sys.modules, "sim.inspect.faults.gremlins", raising=False)
 
     with pytest.raises(BadRequest) as refused:
-        [fault_of(module, name=name) for name, module in members(sim.inspect.faults).items()]
+        [load_fault(module, name=name) for name, module in list_members(sim.inspect.faults).items()]
 
     sys.modules.pop("sim.inspect.faults.gremlins", None)
     assert said in str(refused.value)
@@ -244,7 +244,7 @@ def test_a_good_file_in_the_folder_is_a_fault_and_nothing_else_is_touched(tmp_pa
     module = importlib.util.module_from_spec(place)
     place.loader.exec_module(module)
 
-    assert isinstance(fault_of(module, name="gremlins"), Fault)
+    assert isinstance(load_fault(module, name="gremlins"), Fault)
 
 
 EVERY = ("quasistatic", "dynamic", "coast", "triangle", "multistep", "chirp")

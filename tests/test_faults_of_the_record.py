@@ -161,7 +161,10 @@ def test_a_sign_is_missed_in_the_runs_that_have_it_wrong(name, change, runs):
 def test_a_weight_that_beats_the_voltage_has_no_sign_wrong():
     # an elevator that 0.5 V cannot lift: it sinks, in the forward test as in the reverse one
     log = made("elevator")
-    forward, reverse = log.of("dynamic-forward")[0], log.of("dynamic-reverse")[0]
+    forward, reverse = (
+        log.runs_of_test("dynamic-forward")[0],
+        log.runs_of_test("dynamic-reverse")[0],
+    )
     sinks = replace(reverse, test="dynamic-forward", velocity=reverse.velocity * 0.2)
     sinks = replace(
         sinks,
@@ -288,7 +291,9 @@ def test_damage_grows_with_severity(name):
         + sum(len(run) for run in log.runs if run not in kept)
         for severity in (0.3, 1.0, 3.0)
         for spoilt in (contaminate(log, name, severity=severity, rng=np.random.default_rng(6)).log,)
-        for kept in ([run for run in log.runs if len(spoilt.runs) == 4 or spoilt.of(run.test)],)
+        for kept in (
+            [run for run in log.runs if len(spoilt.runs) == 4 or spoilt.runs_of_test(run.test)],
+        )
     ]
 
     assert hurt[0] <= hurt[1] < hurt[2]

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.core.errors import BadRequest
-from sim.feedback import PRESETS, position_loop, velocity_loop
+from sim.feedback import PRESETS, design_position_loop, design_velocity_loop
 
 ALLOWED = {"velocity_error": 1.5, "volts": 7.0}  # SysId's test settings
 
@@ -26,7 +26,9 @@ ALLOWED = {"velocity_error": 1.5, "volts": 7.0}  # SysId's test settings
     ],
 )
 def test_a_velocity_loop_is_sysids_own(preset, kv, ka, factor, kp):
-    gains = velocity_loop(kv=kv, ka=ka, preset=PRESETS[preset], encoder_factor=factor, **ALLOWED)
+    gains = design_velocity_loop(
+        kv=kv, ka=ka, preset=PRESETS[preset], encoder_factor=factor, **ALLOWED
+    )
 
     assert gains.kp == pytest.approx(kp, rel=1e-10)
     assert gains.kd == 0.0
@@ -42,7 +44,7 @@ def test_a_velocity_loop_is_sysids_own(preset, kv, ka, factor, kp):
     ],
 )
 def test_a_position_loop_is_sysids_own(preset, ka, delay, kp, kd):
-    gains = position_loop(
+    gains = design_position_loop(
         kv=3.060, ka=ka, preset=PRESETS[preset], position_error=1.0, delay=delay, **ALLOWED
     )
 
@@ -51,23 +53,25 @@ def test_a_position_loop_is_sysids_own(preset, ka, delay, kp, kd):
 
 @given(kv=st.floats(0.01, 20.0), ka=st.floats(1e-4, 5.0), error=st.floats(0.1, 10.0))
 def test_allowing_a_larger_error_never_raises_kp(kv, ka, error):
-    strict = velocity_loop(kv=kv, ka=ka, velocity_error=error)
-    loose = velocity_loop(kv=kv, ka=ka, velocity_error=2 * error)
+    strict = design_velocity_loop(kv=kv, ka=ka, velocity_error=error)
+    loose = design_velocity_loop(kv=kv, ka=ka, velocity_error=2 * error)
 
     assert 0.0 <= loose.kp <= strict.kp
 
 
 @given(kv=st.floats(0.01, 20.0), ka=st.floats(1e-4, 5.0), delay=st.floats(0.0, 0.2))
 def test_a_delay_never_raises_kp(kv, ka, delay):
-    assert velocity_loop(kv=kv, ka=ka, delay=delay).kp <= velocity_loop(kv=kv, ka=ka).kp
+    assert (
+        design_velocity_loop(kv=kv, ka=ka, delay=delay).kp <= design_velocity_loop(kv=kv, ka=ka).kp
+    )
 
 
 @pytest.mark.parametrize(("kv", "ka"), [(-1.0, 0.1), (1.0, -0.1), (float("nan"), 0.1)])
 def test_gains_no_motor_has_are_refused(kv, ka):
     with pytest.raises(BadRequest, match="does a positive voltage give a positive velocity"):
-        velocity_loop(kv=kv, ka=ka)
+        design_velocity_loop(kv=kv, ka=ka)
 
 
 def test_an_allowed_error_of_zero_is_refused():
     with pytest.raises(BadRequest, match="Give numbers above zero"):
-        position_loop(kv=1.0, ka=0.1, position_error=0.0)
+        design_position_loop(kv=1.0, ka=0.1, position_error=0.0)

@@ -7,13 +7,13 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from sim.feedback import PRESETS, Feedback, Plant, judge_step_response, step_response
+from sim.feedback import PRESETS, Feedback, Plant, judge_step_response, simulate_step_response
 from sim.fit import Fit
 from sim.fit.feedback_trial import (
     OWN,
     SUGGESTED,
     OwnGains,
-    delay_of,
+    feedback_delay,
     trial_doubts,
     try_feedback_gains,
 )
@@ -50,11 +50,11 @@ def doubts(fit, preset="default"):
 def test_what_settles_is_handed_over_without_a_word():
     tried = try_feedback_gains(found(), PRESETS["default"])
 
-    assert [(one.whose, one.loop) for one in tried] == [
+    assert [(one.owner, one.loop) for one in tried] == [
         (SUGGESTED, "velocity"),
         (SUGGESTED, "position"),
     ]
-    assert all(one.good for one in tried)
+    assert all(one.is_good for one in tried)
     assert doubts(found()) == ()
 
 
@@ -66,12 +66,12 @@ def test_a_suggestion_that_turns_the_wrong_way_comes_with_one_that_settles():
     assert "position loop (REV brushless port); simulated with 112 ms of delay" in doubt.message
     kp, kd = map(float, re.findall(r"Start from kP (\S+), kD (\S+) instead", doubt.message)[0])
     plant = Plant("simple", LIGHT)
-    took = step_response(
-        plant, loop="position", feedback=Feedback(kp, kd), target=plant.step("position"),
+    took = simulate_step_response(
+        plant, loop="position", feedback=Feedback(kp, kd), target=plant.target_step("position"),
         preset=PRESETS["rev-brushless"],
     )  # fmt: skip
     assert kp > 0.0
-    assert judge_step_response(took).good
+    assert judge_step_response(took).is_good
 
 
 def test_where_nothing_settles_it_says_so_and_what_to_do():
@@ -99,8 +99,8 @@ def test_the_learners_own_gains_are_tried_and_told_but_not_doubted():
         found(), PRESETS["default"], own=OwnGains("position", Feedback(600.0, 0.0))
     )
 
-    (own,) = [one for one in tried if one.whose == OWN]
-    (suggested,) = [one for one in tried if one.whose == SUGGESTED and one.loop == "position"]
+    (own,) = [one for one in tried if one.owner == OWN]
+    (suggested,) = [one for one in tried if one.owner == SUGGESTED and one.loop == "position"]
     assert own.response.target == suggested.response.target
     assert own.verdict.kind == "oscillates"
     assert trial_doubts(found(), tried) == ()
@@ -109,9 +109,9 @@ def test_the_learners_own_gains_are_tried_and_told_but_not_doubted():
 def test_the_logs_delay_is_the_default_presets_and_no_others():
     late = found(velocity_delay=0.14, position_delay=0.02)
 
-    assert delay_of(late, PRESETS["default"], loop="velocity") == 0.14
-    assert delay_of(late, PRESETS["default"], loop="position") == 0.02
-    assert delay_of(late, PRESETS["venom"], loop="velocity") == 5e-3
+    assert feedback_delay(late, PRESETS["default"], loop="velocity") == 0.14
+    assert feedback_delay(late, PRESETS["default"], loop="position") == 0.02
+    assert feedback_delay(late, PRESETS["venom"], loop="velocity") == 5e-3
 
 
 @pytest.mark.parametrize(
@@ -124,7 +124,7 @@ def test_gains_that_nothing_can_be_suggested_for_are_not_tried(gains):
 def test_a_friction_below_zero_pushes_nothing():
     tried = try_feedback_gains(found(DRIVE | {"kS": -0.02}), PRESETS["default"])
 
-    assert all(one.good for one in tried)
+    assert all(one.is_good for one in tried)
 
 
 @settings(max_examples=30)  # each tries up to ten loops
@@ -141,5 +141,5 @@ def test_a_negative_gain_is_never_handed_over_in_silence(kv, timescale, preset):
     said = " ".join(doubt.message for doubt in trial_doubts(fit, tried))
 
     for one in tried:
-        if min(one.gains.kp, one.gains.kd) < 0.0 or not one.verdict.good:
+        if min(one.gains.kp, one.gains.kd) < 0.0 or not one.verdict.is_good:
             assert f"the {one.loop} loop" in said

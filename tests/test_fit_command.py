@@ -14,8 +14,8 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
-from sim.cli.fit.sides import sides_of
-from sim.support.command_line import run
+from sim.cli.fit.sides import split_sides
+from sim.support.command_line import run_command
 
 SHORT = Routine(ramp=0.5, step=3.5, timeout=3.0)
 DRIVE = MECHANISMS["drivetrain"]
@@ -34,7 +34,7 @@ def fit(capsys):
 
     def ran(*arguments):
         capsys.readouterr()
-        code = run(sysid, name="sysid", arguments=["fit", *map(str, arguments)])
+        code = run_command(sysid, name="sysid", arguments=["fit", *map(str, arguments)])
         said = capsys.readouterr()
         return code, said.out, said.err
 
@@ -53,7 +53,7 @@ def two_sided(folder, *, right=DRIVE, name="drive.json"):
     sides = [simulate(one, SHORT, rng=np.random.default_rng(4)) for one in (DRIVE, right)]
     document = {"test": "Drivetrain", "units": "Meters", "unitsPerRotation": 1.0, "sysid": True}
     for key, test in RUNS.items():
-        (a,), (b,) = (side.of(test) for side in sides)
+        (a,), (b,) = (side.runs_of_test(test) for side in sides)
         n = min(len(a), len(b))
         columns = (a.time, a.voltage, b.voltage, a.position, b.position, a.velocity, b.velocity)
         still = np.zeros(n)
@@ -174,7 +174,7 @@ def test_a_side_that_is_asked_for_is_not_compared(fit, tmp_path):
 def test_two_motors_of_a_wpilog_are_found_by_their_sides(tmp_path):
     path = saved(tmp_path, Motor("left"), Motor("right"))
 
-    pair = sides_of(sim.read(path), lambda side: sim.read(path, motor=side))
+    pair = split_sides(sim.read(path), lambda side: sim.read(path, motor=side))
 
     assert pair is not None
     assert all(len(side.runs) == 4 for side in pair)
@@ -184,7 +184,7 @@ def test_two_motors_of_a_wpilog_are_found_by_their_sides(tmp_path):
 def test_motors_of_other_names_are_no_sides(tmp_path, names):
     path = saved(tmp_path, *map(Motor, names))
 
-    assert sides_of(sim.read(path), lambda side: sim.read(path, motor=side)) is None
+    assert split_sides(sim.read(path), lambda side: sim.read(path, motor=side)) is None
 
 
 def test_a_direction_that_differs_is_said_with_numbers(fit, tmp_path):

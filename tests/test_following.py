@@ -8,13 +8,13 @@ import pytest
 from sim.core.errors import BadRequest
 from sim.feedback import Plant
 from sim.feedback.following import follow_profile
-from sim.feedback.profile import STEP, Leg, brisk_profile, join_legs, there_and_back
-from sim.plot.consequence import Trace, consequence, profile_traces
+from sim.feedback.profile import STEP, Leg, join_legs, make_brisk_profile, make_return_profile
+from sim.plot.consequence import Trace, make_profile_traces, plot_consequence
 
 DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.2}
 LIFT = {"kS": 0.25, "kV": 4.5, "kA": 0.2, "kG": 2.0}
 ARM = {"kS": 0.25, "kV": 1.2, "kA": 0.08, "kG": 1.5, "offset_rad": 0.3}
-UP = there_and_back(0.5, rising=0.25, steady=0.75, still=1.0, start=0.5)
+UP = make_return_profile(0.5, rising=0.25, steady=0.75, still=1.0, start=0.5)
 PLANTS = {"simple": DRIVE, "elevator": LIFT, "arm": ARM}
 
 
@@ -30,30 +30,32 @@ def followed(kind, *, wanted=UP, **changes):
 @pytest.mark.parametrize("kind", PLANTS)
 def test_right_gains_follow(kind):
     one = followed(kind)
-    off = np.abs(np.subtract(one.position, one.wanted.position)).max()
+    off = np.abs(np.subtract(one.position, one.target.position)).max()
 
     assert off < 0.015 * 0.5  # of the way
-    assert one.words == "The thing does nearly what is asked of it here."
+    assert one.description == "The thing does nearly what is asked of it here."
 
 
 def test_a_profile_is_whole():
     assert UP.position[-1] == pytest.approx(0.5, abs=1e-9)
     assert max(UP.position) == pytest.approx(1.0)  # 0.5 m/s for 0.75 s and twice half of 0.25 s
     assert np.allclose(np.diff(UP.position), STEP * np.array(UP.velocity[:-1]), atol=1e-4)
-    assert (UP.velocity[UP.cruise], UP.velocity[UP.rest]) == (pytest.approx(0.5), 0.0)
+    assert (UP.velocity[UP.cruise_end], UP.velocity[UP.rest_end]) == (pytest.approx(0.5), 0.0)
     assert join_legs([Leg(0.5, 2.0), Leg(0.5)]).velocity[-1] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("factor", [0.5, 1.0, 1.7])
 def test_the_steady_speed_is_in_proportion_to_kv(factor):
-    one = followed("simple", wanted=brisk_profile(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"])
-    place = one.wanted.cruise
+    one = followed(
+        "simple", wanted=make_brisk_profile(Plant("simple", DRIVE)), kV=factor * DRIVE["kV"]
+    )
+    place = one.target.cruise_end
 
     free = follow_profile(
-        Plant("simple", DRIVE), Plant("simple", {**DRIVE, "kV": factor * DRIVE["kV"]}), one.wanted,
+        Plant("simple", DRIVE), Plant("simple", {**DRIVE, "kV": factor * DRIVE["kV"]}), one.target,
         name="thing", symbol="m",
     )  # fmt: skip
-    assert free.velocity[place] == pytest.approx(factor * one.wanted.velocity[place], rel=1e-3)
+    assert free.velocity[place] == pytest.approx(factor * one.target.velocity[place], rel=1e-3)
 
 
 def test_an_elevator_without_kg_falls_as_its_gains_say():
@@ -82,7 +84,7 @@ def test_an_elevator_without_kg_falls_as_its_gains_say():
     ],
 )
 def test_a_wrong_gain_is_told_by_what_it_does(kind, changes, words):
-    assert words in followed(kind, **changes).words
+    assert words in followed(kind, **changes).description
 
 
 @pytest.mark.parametrize("size", [1e300, -1e300])
@@ -91,15 +93,15 @@ def test_no_number_is_too_large(gain, size):
     one = followed("elevator", **{gain: size})
 
     assert np.isfinite(one.position).all()
-    assert "nan" not in one.words
+    assert "nan" not in one.description
 
 
 def test_the_picture_shows_both_and_says_it_in_words():
     one = followed("elevator", kG=0.0)
-    drawn = consequence(profile_traces(one), words=one.words)
+    drawn = plot_consequence(make_profile_traces(one), words=one.description)
     speed, height = drawn.figure.axes
 
-    assert one.words in drawn.alt
+    assert one.description in drawn.alt
     assert "sinks about 0.4 m" in drawn.svg  # its title, for who cannot see it
     assert (speed.get_ylabel(), height.get_ylabel()) == ("velocity [m/s]", "height [m]")
     wanted, done = height.get_lines()
@@ -112,13 +114,13 @@ def test_where_only_speed_matters_there_is_one_panel():
         Plant("simple", DRIVE), Plant("simple", DRIVE), UP, name="wheel", symbol="rot", place=""
     )
 
-    assert [one.ylabel for one in profile_traces(spun)] == ["velocity [rot/s]"]
+    assert [one.ylabel for one in make_profile_traces(spun)] == ["velocity [rot/s]"]
 
 
 def test_what_cannot_be_drawn_is_refused():
     short = Trace("thing", "way [m]", (0.0, 1.0), (0.0, 1.0), {"what it does": (0.0,)})
 
     with pytest.raises(BadRequest, match="not one value for each time. Give as many"):
-        consequence([short], words="")
+        plot_consequence([short], words="")
     with pytest.raises(BadRequest, match="no motion to draw"):
-        consequence([], words="")
+        plot_consequence([], words="")

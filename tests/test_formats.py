@@ -30,7 +30,7 @@ def test_a_format_keeps_the_contract(name: str) -> None:
 
     assert module.SUFFIXES
     assert all(one == one.lower() and one.startswith(".") for one in module.SUFFIXES)
-    assert isinstance(module.knows(b""), bool)
+    assert isinstance(module.recognizes(b""), bool)
     assert callable(module.read)
     assert module.__doc__
 
@@ -38,7 +38,7 @@ def test_a_format_keeps_the_contract(name: str) -> None:
 @pytest.mark.parametrize("name", MODULES)
 @pytest.mark.parametrize("head", [b"", b"\x00" * 64, b"\xff" * 64, b"{}", b"hello\n", b"<html>"])
 def test_no_format_claims_what_is_none(name: str, head: bytes) -> None:
-    assert not MODULES[name].knows(head)
+    assert not MODULES[name].recognizes(head)
 
 
 def test_a_suffix_leads_to_one_format() -> None:

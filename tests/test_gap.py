@@ -10,9 +10,9 @@ import pytest
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS
 from sim.estimation.measurements import SensorNoise
-from sim.gap import Residuals, gap_map
+from sim.gap import Residuals, map_gap
 
-NOISE = SensorNoise(position=1e-4, velocity=0.01, grain=(1e-9, 1e-9))
+NOISE = SensorNoise(position=1e-4, velocity=0.01, resolution=(1e-9, 1e-9))
 SIZES = np.array([NOISE.position, NOISE.velocity])
 PERIOD, KS, KV = 0.02, 0.2, 2.0
 FOUR = [f"{kind}-{way}" for kind in ("quasistatic", "dynamic") for way in DIRECTIONS]
@@ -74,7 +74,7 @@ def since_jump(at):
     ids=["run and time", "direction and speed", "direction and position", "after steps", "at rest"],
 )  # fmt: skip
 def test_a_disagreement_is_found_where_it_is(plant, what, where, sign):
-    found = gap_map(runs_of(*FOUR, *FOUR, plant=plant), noise=NOISE).places(10)
+    found = map_gap(runs_of(*FOUR, *FOUR, plant=plant), noise=NOISE).find_places(10)
 
     mine = [place for place in found if place.what == what]
     assert any(place.where.startswith(where) for place in mine), found
@@ -84,15 +84,15 @@ def test_a_disagreement_is_found_where_it_is(plant, what, where, sign):
 
 def test_noise_alone_is_nowhere_beyond_doubt():
     # 300 cells beyond 4 standard errors: about one log of fifty
-    alarms = [bool(gap_map(runs_of(seed=seed), noise=NOISE).places(1)) for seed in range(60)]
+    alarms = [bool(map_gap(runs_of(seed=seed), noise=NOISE).find_places(1)) for seed in range(60)]
 
     assert sum(alarms) <= 4
 
 
 def test_a_place_says_how_much_and_how_sure():
-    (place, *_) = gap_map(
+    (place, *_) = map_gap(
         runs_of("quasistatic-forward", plant=lambda at: -2.0 * (at.v > 0.0)), noise=NOISE
-    ).places(1)
+    ).find_places(1)
 
     # 380 samples move: 2 noises, known to one noise/√380
     assert place.error == pytest.approx(-2.0, abs=0.2)
@@ -101,7 +101,7 @@ def test_a_place_says_how_much_and_how_sure():
 
 
 def test_slower_is_slower_in_both_directions():
-    found = gap_map(runs_of(plant=lambda at: -3.0 * np.sign(at.v)), noise=NOISE)
+    found = map_gap(runs_of(plant=lambda at: -3.0 * np.sign(at.v)), noise=NOISE)
 
     means = found.by_speed.mean[VELOCITY]
     assert np.nanmax(means) < -2.0
@@ -115,23 +115,23 @@ def test_sorted_by_noisy_measurements_rest_would_show_what_is_not_there():
     )  # fmt: skip
     moving = runs_of("quasistatic-forward", seed=4)[0]
     slow = replace(moving, predicted=moving.predicted * 0.02)  # as slow as the noise is large
-    mistaken = [replace(r, predicted=r.predicted + r.missed) for r in (still, slow)]
+    mistaken = [replace(r, predicted=r.predicted + r.error) for r in (still, slow)]
 
-    honest = gap_map([still, slow], noise=NOISE)
-    fooled = gap_map(mistaken, noise=NOISE)
+    honest = map_gap([still, slow], noise=NOISE)
+    fooled = map_gap(mistaken, noise=NOISE)
 
-    assert honest.places(5) == ()
-    assert max(place.sure for place in fooled.places(5)) > 10.0
+    assert honest.find_places(5) == ()
+    assert max(place.sure for place in fooled.find_places(5)) > 10.0
 
 
 @pytest.mark.parametrize("unit", [0.0254, 100.0], ids=["inches", "a hundredth"])
 def test_the_places_do_not_depend_on_the_unit(unit):
     runs = runs_of(plant=lambda at: 3.0 * (at.v > 0.5))
-    scaled = [replace(r, predicted=r.predicted / unit, missed=r.missed / unit) for r in runs]
+    scaled = [replace(r, predicted=r.predicted / unit, error=r.error / unit) for r in runs]
     small = replace(NOISE, position=NOISE.position / unit, velocity=NOISE.velocity / unit)
 
     mine, other = (
-        gap_map(*one, noise=n).places(5) for one, n in (([runs], NOISE), ([scaled], small))
+        map_gap(*one, noise=n).find_places(5) for one, n in (([runs], NOISE), ([scaled], small))
     )
 
     assert [place.where for place in mine] == [place.where for place in other]
@@ -145,10 +145,10 @@ def test_what_wanders_is_less_sure_than_what_stands_alone():
     wander = np.zeros(400)
     for i in range(1, 400):
         wander[i] = 0.97 * wander[i - 1] + noise[i]
-    wandering = replace(run, missed=NOISE.velocity * np.column_stack([np.zeros(400), wander]))
+    wandering = replace(run, error=NOISE.velocity * np.column_stack([np.zeros(400), wander]))
 
-    sure = np.abs(gap_map([wandering], noise=NOISE).by_run.sure[VELOCITY])
-    naive = np.abs(gap_map([wandering], noise=NOISE).by_run.mean[VELOCITY]) * np.sqrt(400 / 12)
+    sure = np.abs(map_gap([wandering], noise=NOISE).by_run.significance[VELOCITY])
+    naive = np.abs(map_gap([wandering], noise=NOISE).by_run.mean[VELOCITY]) * np.sqrt(400 / 12)
 
     assert sure.max() < 0.4 * naive.max()
 
@@ -175,7 +175,7 @@ def test_only_jumps_are_jumps(volts, speed, jumps):
     motion = np.column_stack([SINCE, np.full(100, speed)])
     run = Residuals("dynamic-forward", SINCE, volts, motion, np.zeros((100, 2)))
 
-    since, _ = run.steps(largest=4.0, still=0.02)
+    since, _ = run.find_steps(largest=4.0, still=0.02)
 
     assert np.flatnonzero(since == 0.0).tolist() == jumps
 
@@ -207,7 +207,7 @@ def twice(plant, other):
     ids=["the same twice", "elsewhere", "the other way", "weaker", "only noise"],
 )
 def test_what_comes_again_is_told_from_what_does_not(plant, other, verdict):
-    (found,) = gap_map(twice(plant, other), noise=NOISE).repeats
+    (found,) = map_gap(twice(plant, other), noise=NOISE).repeats
 
     assert (found.verdict, found.runs) == (verdict, (0, 1))
 
@@ -216,7 +216,7 @@ def test_another_step_is_no_repetition():
     one, other = runs_of("dynamic-forward", "dynamic-forward")
     other = replace(other, voltage=1.5 * other.voltage)
 
-    assert gap_map([one, other], noise=NOISE).repeats == ()
+    assert map_gap([one, other], noise=NOISE).repeats == ()
 
 
 # -- edges ---------------------------------------------------------------------------------------
@@ -229,27 +229,27 @@ def test_a_run_of_half_a_second_has_its_row_in_the_map():
         for one in runs_of()
     ]
 
-    found = gap_map(short, noise=NOISE).by_run
+    found = map_gap(short, noise=NOISE).by_run
 
     assert found.edges.shape == (4, 7)  # columns and one
     assert np.isfinite(found.mean).all()
-    assert gap_map(runs_of(), noise=NOISE).by_run.edges.shape == (4, 13)
+    assert map_gap(runs_of(), noise=NOISE).by_run.edges.shape == (4, 13)
 
 
 def test_what_is_not_compared_says_nothing():
     runs = runs_of(plant=lambda at: 50.0 * (at.t > 4.0))
     for run in runs:
-        run.missed[run.time > 4.0] = np.nan
+        run.error[run.time > 4.0] = np.nan
 
-    assert gap_map(runs, noise=NOISE).places(5) == ()
+    assert map_gap(runs, noise=NOISE).find_places(5) == ()
 
 
 def test_nothing_to_compare_is_refused():
     (run,) = runs_of("dynamic-forward")
-    run.missed[:] = np.nan
+    run.error[:] = np.nan
 
     with pytest.raises(BadRequest, match="Give a run in which the mechanism moves."):
-        gap_map([run], noise=NOISE)
+        map_gap([run], noise=NOISE)
 
 
 @pytest.mark.filterwarnings("error")
@@ -258,10 +258,10 @@ def test_a_few_samples_are_no_trouble(samples):
     (run,) = runs_of("dynamic-forward")
     few = Residuals(
         run.test, run.time[:samples], run.voltage[:samples], run.predicted[:samples],
-        run.missed[:samples],
+        run.error[:samples],
     )  # fmt: skip
 
-    assert gap_map([few], noise=NOISE).places(5) == ()
+    assert map_gap([few], noise=NOISE).find_places(5) == ()
 
 
 def test_eight_long_runs_take_no_time():
@@ -277,7 +277,7 @@ def test_eight_long_runs_take_no_time():
     took = []
     for _ in range(8):
         begun = time.process_time()
-        gap_map(runs, noise=NOISE)
+        map_gap(runs, noise=NOISE)
         took.append(time.process_time() - begun)
 
     assert min(took) < 0.04  # 7 ms on the machine that wrote this; a slow one gets its share

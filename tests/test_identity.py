@@ -13,7 +13,7 @@ from grader.cli import run
 from grader.course import load_progress
 from grader.exercise import exercises
 from grader.notebook import submit
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
@@ -141,8 +141,8 @@ def test_a_served_home_is_its_students_whatever_its_folder_is_called(course, tmp
         issue(course, name)
     (course / ".course").mkdir(exist_ok=True)
     (course / ".course" / "progress.toml").write_text(f'student = "{name}"\n', encoding="utf-8")
-    there = hand_in(course, tmp_path / "in", folder_name(name))
+    there = hand_in(course, tmp_path / "in", make_folder_name(name))
     (one,) = check_identities(there, secret=SECRET if issued else None)
 
     assert (one.problem, one.student, one.numbers_of) == ("", name, name)
-    assert Identities({name: {}}).find(SubmissionName(folder_name(name))) == name
+    assert Identities({name: {}}).find(SubmissionName(make_folder_name(name))) == name

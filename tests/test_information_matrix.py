@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sim.core.errors import BadRequest
-from sim.fit.information_matrix import information_matrix
+from sim.fit.information_matrix import compute_information
 from sim.fit.sysid_rows import Rows
 
 
@@ -39,14 +39,14 @@ def test_errors_are_those_of_repeated_fits():
     columns = np.column_stack([np.sign(v), v, a])
     volts = columns @ [0.2, 2.5, 0.2] + 0.05 * rng.standard_normal((4000, v.size))
     found = np.linalg.lstsq(columns, volts.T, rcond=None)[0]
-    said = information_matrix(BOTH, type="simple", noise=0.05).errors
+    said = compute_information(BOTH, type="simple", noise=0.05).errors
     assert said == pytest.approx(
         dict(zip(("kS", "kV", "kA"), found.std(axis=1), strict=True)), rel=0.04
     )
 
 
 def test_an_elevator_that_only_goes_up_tells_friction_from_weight_never():
-    errors = information_matrix(UP, type="elevator", noise=0.05).errors
+    errors = compute_information(UP, type="elevator", noise=0.05).errors
     assert math.isinf(errors["kS"])
     assert math.isinf(errors["kG"])
     assert math.isfinite(errors["kV"])
@@ -54,7 +54,7 @@ def test_an_elevator_that_only_goes_up_tells_friction_from_weight_never():
 
 
 def test_what_up_only_tells_of_friction_and_weight_is_their_sum():
-    about = information_matrix(UP, type="elevator", noise=0.05).about("kS", "kG")
+    about = compute_information(UP, type="elevator", noise=0.05).information_on_pair("kS", "kG")
     values, vectors = np.linalg.eigh(about)
     assert values[0] == pytest.approx(0.0, abs=1e-9 * values[1])
     assert abs(vectors[0, 1]) == pytest.approx(abs(vectors[1, 1]))
@@ -63,24 +63,26 @@ def test_what_up_only_tells_of_friction_and_weight_is_their_sum():
 
 def test_an_arm_that_only_goes_up_tells_them_by_its_cosine():
     up = {"quasistatic-forward": rows([0.5, 1.0, 1.5, 0.7], [0.4, 0.1, 0.4, 0.8], [-0.5, 0, 1, 1])}
-    assert all(map(math.isfinite, information_matrix(up, type="arm", noise=0.05).errors.values()))
+    assert all(map(math.isfinite, compute_information(up, type="arm", noise=0.05).errors.values()))
 
 
 @pytest.mark.parametrize("pair", [("kS", "kA"), ("kA", "kS"), ("kV", "kG")])
 def test_two_gains_are_told_as_well_as_each_of_them(pair):
-    told = information_matrix(BOTH, type="elevator", noise=0.05)
-    two = np.sqrt(np.diag(np.linalg.inv(told.about(*pair))))
+    told = compute_information(BOTH, type="elevator", noise=0.05)
+    two = np.sqrt(np.diag(np.linalg.inv(told.information_on_pair(*pair))))
     assert two == pytest.approx([told.errors[name] for name in pair], rel=1e-6)
 
 
 @pytest.mark.parametrize(
     ("ask", "advice"),
     [
-        (lambda: information_matrix({}, type="simple", noise=0.1), "at least one test that moves"),
-        (lambda: information_matrix(UP, type="crane", noise=0.1), "Choose one of: simple"),
-        (lambda: information_matrix(UP, type="simple", noise=0.0), "Give one above 0"),
+        (lambda: compute_information({}, type="simple", noise=0.1), "at least one test that moves"),
+        (lambda: compute_information(UP, type="crane", noise=0.1), "Choose one of: simple"),
+        (lambda: compute_information(UP, type="simple", noise=0.0), "Give one above 0"),
         (
-            lambda: information_matrix(UP, type="simple", noise=0.1).about("kS", "kG"),
+            lambda: compute_information(UP, type="simple", noise=0.1).information_on_pair(
+                "kS", "kG"
+            ),
             "Choose from: kS, kV, kA",
         ),
     ],

@@ -71,7 +71,7 @@ def test_many_faults_fit_on_a_screen(tmp_path):
          ("noisy-standstill", "quasistatic-forward"), ("missing-test", "dynamic-forward")]
     ):  # fmt: skip
         log = contaminate(log, name, test=test, rng=np.random.default_rng(seed)).log
-    log = log.and_also(log).and_also(log)
+    log = log.join(log).join(log)
 
     code, lines = printed(log, tmp_path)
 
@@ -104,7 +104,7 @@ def test_frames_of_20_ms_are_how_a_robot_records_and_slower_ones_are_a_fault(tmp
 
     found, lines = inspect(usual), printed(usual, tmp_path)[1]
 
-    assert found.clean
+    assert found.is_clean
     assert {damage.fault for damage in found.damages} == {"stale-samples"}
     assert found.to_json()["faults"] == []
     assert sum(doubt.code == "stale-samples" for doubt in found.doubts) == 1
@@ -117,7 +117,7 @@ def test_a_velocity_that_is_measured_every_40_ms_is_how_its_controller_works():
         latest = np.arange(len(run)) // 8 * 8
         return replace(held(run, 4), velocity=run.velocity[latest])
 
-    assert inspect(each(bench(period=0.005), slow)).clean
+    assert inspect(each(bench(period=0.005), slow)).is_clean
 
 
 # Brownouts
@@ -155,7 +155,7 @@ def test_a_bus_that_stays_up_is_no_brownout():
 
 def test_a_run_that_stands_before_its_step_keeps_its_name():
     log = bench()
-    run = log.of("dynamic-forward")[0]
+    run = log.runs_of_test("dynamic-forward")[0]
     rest = np.arange(250) * 0.02  # five seconds, and a voltage left over from the run before
     zeros = np.zeros(rest.size)
     waits = replace(
@@ -168,14 +168,14 @@ def test_a_run_that_stands_before_its_step_keeps_its_name():
         bus_voltage=None,
     )
 
-    assert LogFeatures(Log((waits,))).seems == ("dynamic-forward",)
+    assert LogFeatures(Log((waits,))).recognized_tests == ("dynamic-forward",)
 
 
 def test_a_team_whose_forward_is_our_reverse_has_mislabelled_nothing():
     turned = {"forward": "reverse", "reverse": "forward"}
     log = each(bench(), lambda run: replace(run, test=f"{run.kind}-{turned[run.direction]}"))
 
-    assert inspect(log).clean
+    assert inspect(log).is_clean
 
 
 # Advice from this log
@@ -218,4 +218,4 @@ def test_a_drivetrain_that_cannot_be_is_in_another_unit(scale, words):
 
     assert (fault.fault, fault.where.run) == ("unit-error", None)
     assert words in fault.evidence
-    assert inspect(replace(log, mechanism="shooter")).clean
+    assert inspect(replace(log, mechanism="shooter")).is_clean

@@ -1,7 +1,8 @@
 """An instructor's day, typed from the guide: release, start, answer, hand in, grade, export.
 
 On the real course, in a folder with a space and an umlaut in its name, with relative paths. Each
-student answers everything in the authored way and hands it in as another school does.
+student answers everything in the authored way and hands it in as another school does. The day is
+gone through with the code of this folder, and once more with what pip makes of the wheel.
 """
 
 import contextlib
@@ -25,7 +26,7 @@ from authored import authored_answer, mistakes_of
 
 from grader.exercise import exercises
 from grader.serve.student_folders import can_separate, prepare_separation
-from grader.variant import class_secret, folder_name
+from grader.variant import class_secret, make_folder_name
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -45,7 +46,6 @@ LEFT_OUT = (
 WHOLE = 218  # points of the twelve exercises and of practice
 PROGRAMS = {"grade": "grader.cli", "sysid": "sim.cli"}
 ALONE = ("Anna Bauer", "Diaz Cara", "week-3-ginah-2010")  # exercises in folders, whole courses
-FORMS = ("exercise2", "exercise4", "exercise5", "exercise9", "practice")  # one of each kind
 LESSONS_SHOWN = 1  # of the ten that `grade edition` runs: the others take minutes
 
 
@@ -104,10 +104,12 @@ def commands(heading: str) -> list[list[str]]:
     return [shlex.split(line) for block in blocks for line in block.splitlines()]
 
 
-def start(words: list[str], *, cwd: Path, **how: object) -> "subprocess.Popen[str]":
-    """Start one of our commands as a terminal would."""
+def start(
+    words: list[str], *, cwd: Path, installed: Path = ROOT, **how: object
+) -> "subprocess.Popen[str]":
+    """Start one of our commands as a terminal would; ``installed`` is where its code lies."""
     code = f"from {PROGRAMS[words[0]]} import main; main()"
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "200", "PYTHONUTF8": "1"}
+    environment = {**os.environ, "PYTHONPATH": str(installed), "COLUMNS": "200", "PYTHONUTF8": "1"}
     for name in ("SYSID_SECRET", "PYTHONUNBUFFERED"):
         environment.pop(name, None)
     return subprocess.Popen(
@@ -116,24 +118,63 @@ def start(words: list[str], *, cwd: Path, **how: object) -> "subprocess.Popen[st
     )  # fmt: skip
 
 
-def say(words: list[str], *, cwd: Path, code: int = 0) -> str:
+def say(words: list[str], *, cwd: Path, code: int = 0, installed: Path = ROOT) -> str:
     """Run one of our commands; what it says."""
-    running = start(words, cwd=cwd)
+    running = start(words, cwd=cwd, installed=installed)
     said, _ = running.communicate(timeout=600)
     assert running.returncode == code, f"{shlex.join(words)}:\n{said}"
     return said
 
 
-@pytest.fixture(scope="module")
-def course(tmp_path_factory):
-    """The instructor's copy of the course, as it is fetched."""
-    place = tmp_path_factory.mktemp("day") / "Robotik für alle" / "the course"
+def fetched(place: Path) -> Path:
+    """The instructor's copy of the course, as it is fetched, and a roster beside it."""
     shutil.copytree(ROOT, place, ignore=shutil.ignore_patterns(*LEFT_OUT))
     rows = [("student", "ID", "github_username")]
     rows += [(one.name, one.canvas_id, one.github) for one in STUDENTS]
     with (place.parent / "roster.csv").open("w", encoding="utf-8", newline="") as stream:
         csv.writer(stream).writerows(rows)
     return place
+
+
+def answered(student: Student, packages: Path, place: Path, *, installed: Path = ROOT) -> Path:
+    """A student's own course folder: unzipped, started without a name, answered."""
+    for name in ("course.zip", f"students/{make_folder_name(student.name)}.zip"):
+        with zipfile.ZipFile(packages / name) as archive:
+            archive.extractall(place)
+    mine = place / "course"
+    said = say(["grade", "start", "--no-lab"], cwd=mine, installed=installed)
+    assert student.name in said
+    for one in exercises(mine):
+        data = one.folder / "data"
+        folders = [path.name for path in data.iterdir()] if data.is_dir() else []
+        assert folders in ([], [make_folder_name(student.name)]), "somebody else's numbers"
+        texts = authored_answer(one, data / make_folder_name(student.name))
+        for name, text in texts.items():
+            (one.folder / name).write_text(text, encoding="utf-8")
+    return mine
+
+
+@pytest.fixture(scope="module")
+def course(tmp_path_factory):
+    """Where the instructor works."""
+    return fetched(tmp_path_factory.mktemp("day") / "Robotik für alle" / "the course")
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """What pip makes of the wheel: the packages, and no course around them."""
+    place = tmp_path_factory.mktemp("wheel")
+    source = shutil.copytree(ROOT, place / "source", ignore=shutil.ignore_patterns(*LEFT_OUT))
+    built = subprocess.run(
+        [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "-w", place, source],
+        capture_output=True, encoding="utf-8", check=False,
+    )  # fmt: skip
+    if built.returncode:
+        pytest.skip(f"pip cannot build a wheel here: {built.stderr.strip()[-200:]}")
+    (archive,) = place.glob("*.whl")
+    with zipfile.ZipFile(archive) as opened:
+        opened.extractall(place / "site-packages")
+    return place / "site-packages"
 
 
 @pytest.fixture(scope="module")
@@ -146,26 +187,9 @@ def packages(course):
 
 @pytest.fixture(scope="module")
 def at_home(course, packages):
-    """Each student's own course folder: unzipped, started without a name, answered."""
-
-    def answered(student: Student) -> Path:
-        place = course.parent / "homes of students" / student.github
-        for name in ("course.zip", f"students/{folder_name(student.name)}.zip"):
-            with zipfile.ZipFile(packages / name) as archive:
-                archive.extractall(place)
-        mine = place / "course"
-        said = say(["grade", "start", "--no-lab"], cwd=mine)
-        assert student.name in said
-        for one in exercises(mine):
-            data = one.folder / "data"
-            folders = [path.name for path in data.iterdir()] if data.is_dir() else []
-            assert folders in ([], [folder_name(student.name)]), "somebody else's numbers"
-            texts = authored_answer(one, data / folder_name(student.name))
-            for name, text in texts.items():
-                (one.folder / name).write_text(text, encoding="utf-8")
-        return mine
-
-    return {one.name: answered(one) for one in STUDENTS}
+    """Each student's own course folder."""
+    homes = course.parent / "homes of students"
+    return {one.name: answered(one, packages, homes / one.github) for one in STUDENTS}
 
 
 @pytest.fixture(scope="module")
@@ -204,8 +228,6 @@ def test_each_exercise_alone_earns_every_point_too(course, handed_in):
     for name in ALONE:
         shutil.copytree(handed_in / name, alone / name)
     for number, one in enumerate(exercises(course)):
-        if one.name not in FORMS:
-            continue
         out = handed_in.with_name(f"alone-{number}")
         words = ["grade", "class", f"../{alone.name}", "--roster", "../roster.csv", "--secret",
                  "../class.secret", "--exercise", one.name, "-o", f"../{out.name}"]  # fmt: skip
@@ -301,6 +323,56 @@ def test_the_exports_of_the_guide_are_written(course, packages):
 
     assert zipfile.is_zipfile(course.parent / "autograder.zip")
     assert "grade class" in (course.parent / "grade.yml").read_text(encoding="utf-8")
+
+
+def test_the_day_is_the_same_from_a_wheel(wheel, tmp_path):
+    course = fetched(tmp_path / "Überblick für alle" / "the course")
+    there = course.parent / "handed-in"
+    there.mkdir()
+    pupils = [one for one in STUDENTS if one.name in {"Anna Bauer", "Jane Doe"}]
+    lines = {words[1]: words for words in commands("A class") if words[1] != "export"}
+    say(lines["release"], cwd=course, installed=wheel)
+    for one in pupils:
+        home = tmp_path / "homes" / one.github
+        mine = answered(one, course.parent / "packages", home, installed=wheel)
+        one.hand_in(mine, there)
+    said = say(lines["class"], cwd=course, installed=wheel)
+    for words in commands("A class"):
+        if words[1] == "export":
+            say(words, cwd=course, installed=wheel)
+    totals = {
+        name: found[-1] for name, found in points_of(there.with_name("handed-in-graded")).items()
+    }
+
+    assert {one.name: totals[one.name] for one in pupils} == dict.fromkeys(
+        (one.name for one in pupils), WHOLE
+    ), said
+    assert zipfile.is_zipfile(course.parent / "autograder.zip")
+
+
+def test_every_command_in_the_guides_sentences_does_what_it_says(at_home, tmp_path):
+    """Those of the blocks, and the autograder's line, are run by the tests around this one."""
+    guide = re.sub(r"```.*?```", "", (ROOT / "INSTRUCTORS.md").read_text("utf-8"), flags=re.DOTALL)
+    spans = set(re.findall(r"`((?:grade|sysid) [^`]+)`", re.sub(r"\s+", " ", guide)))
+    home = shutil.copytree(at_home["Finn Gray"], tmp_path / "course für mich")
+    shutil.copy(home / "exercises" / "exercise9" / "answers.toml", home / "mine.toml")
+    shutil.copy(home / "exercises" / "exercise9" / "fit.py", home / "fit.py")
+    (log,) = (home / "exercises" / "exercise9" / "data").glob("*/log.wpilog")
+    expected = {  # span -> what is typed, the exit code, what is said
+        "grade EXERCISE --hint": ("grade exercise9 --hint", 0, "Hint 1"),
+        "grade doctor": ("grade doctor", 0, "isolated"),
+        "grade exercise9 mine.toml --student practice": ("", 1, "kV"),
+        "sysid contaminate FILE --fault encoder-slip -o BAD": (
+            f"sysid contaminate '{log}' --fault encoder-slip -o bad.wpilog", 0, "bad.wpilog"),
+        "sysid effects": ("", 0, "drag"),
+        "sysid faults": ("", 0, "encoder-slip"),
+    }  # fmt: skip
+    elsewhere = {"grade serve", "grade watch"}
+    assert spans - elsewhere == {*expected} | {one for one in spans if "SUBMISSION" in one}
+    for span, (typed, code, words) in expected.items():
+        said = say(shlex.split(typed or span), cwd=home, code=code)
+
+        assert words in said, span
 
 
 def test_the_autograder_line_gives_gradescopes_result(course, handed_in, tmp_path):

@@ -174,7 +174,7 @@ def test_advantagekit_with_one_file_for_each_test(tmp_path, name):
         )  # fmt: skip
         one = sim.read(path)
         assert [found.test for found in one.runs] == [run.test]
-        read = one if read is None else read.and_also(one)
+        read = one if read is None else read.join(one)
 
     found, truth = fit(read), fit(log)
     for gain, value in truth.gains.items():
@@ -306,7 +306,10 @@ def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
     path = write(tmp_path / "a.wpilog", log, PHOENIX, factors=rotations(log), state="My-State",
                  more=(("Phoenix6/TalonFX-21/DeviceTemp", lambda run: run.time),))  # fmt: skip
 
-    assert command_line.run(sysid, name="sysid", arguments=["entries", str(path), "--json"]) == 0
+    assert (
+        command_line.run_command(sysid, name="sysid", arguments=["entries", str(path), "--json"])
+        == 0
+    )
 
     rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)}
     signals = {name: row["signal"] for name, row in rows.items()}
@@ -315,7 +318,7 @@ def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
         "My-State": "state", "Phoenix6/TalonFX-21/DeviceTemp": "",
     }  # fmt: skip
     assert rows[PHOENIX[2][0]]["unit"] == "rotations per second"
-    assert command_line.run(sysid, name="sysid", arguments=["entries", str(path)]) == 0
+    assert command_line.run_command(sysid, name="sysid", arguments=["entries", str(path)]) == 0
     assert capsys.readouterr().out.startswith("5 entries:\nstate ")
 
 
@@ -323,6 +326,9 @@ def test_a_log_without_entries_says_so(tmp_path, capsys):
     sim.write(recorded(), tmp_path / "a.csv")
 
     assert (
-        command_line.run(sysid, name="sysid", arguments=["entries", str(tmp_path / "a.csv")]) == 2
+        command_line.run_command(
+            sysid, name="sysid", arguments=["entries", str(tmp_path / "a.csv")]
+        )
+        == 2
     )
     assert "its columns are signals" in capsys.readouterr().err

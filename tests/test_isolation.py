@@ -1,5 +1,6 @@
 """A learner's code is run apart: it reaches nothing, stops nothing, and returns only numbers."""
 
+import ctypes
 import os
 import platform
 import socket
@@ -526,6 +527,32 @@ def test_the_filter_refuses_owners_of_files_on_each_processor(machine):
     assert verdict(table, 9999) == seccomp.ALLOW
     assert verdict(table, table.own[0], 1) == seccomp.REFUSE
     assert verdict(table, table.own[0], os.getpid()) == seccomp.ALLOW
+
+
+@pytest.mark.parametrize("machine", seccomp.TABLES)
+def test_the_filter_lets_nobody_slow_another_process_down(machine):
+    table = seccomp.TABLES[machine]
+
+    assert len(table.own) == 7
+    for number in table.own:
+        assert verdict(table, number, 1) == seccomp.REFUSE
+        assert verdict(table, number, 0) == seccomp.ALLOW
+
+
+@isolated
+@pytest.mark.usefixtures("each_kernel")
+def test_memory_that_other_programs_share_is_neither_read_nor_removed(apart_run):
+    system = ctypes.CDLL(None, use_errno=True)
+    shared = system.shmget(0, 4096, 0o1600)
+    assert shared >= 0
+    try:
+        for call in (f"shmat({shared}, None, 0)", f"shmctl({shared}, 0, None)"):
+            code = f"import ctypes\nassert ctypes.CDLL(None).{call} != -1"
+            (answer,) = apart_run(attempt(code)).answers
+            assert "AssertionError" in answer.reason, call
+        assert system.shmctl(shared, 2, ctypes.create_string_buffer(256)) == 0  # still there
+    finally:
+        system.shmctl(shared, 0, None)
 
 
 def test_threads_still_work(apart_run):

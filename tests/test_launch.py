@@ -110,4 +110,4 @@ def test_no_launch_of_the_bench_is_an_event(seed):
     log = simulate(MECHANISMS["drivetrain"].draw(rng), Routine(), rng=rng, period=period)
 
     assert [find_launch_event(run) for run in log.runs if run.kind == "dynamic"] == [None, None]
-    assert inspect(log).clean
+    assert inspect(log).is_clean

@@ -125,8 +125,10 @@ def test_every_picture_has_words_and_draws_only_on_white(text, run):
 def test_every_widget_has_plain_code_after_it(text, run):
     cells = run(text).cells
     for cell, words, code in zip(cells, cells[1:], cells[2:], strict=False):
-        if cell.cell_type == "code" and re.search(r"^live\(", cell.source, re.MULTILINE):
-            called = re.search(r"^live\(\s*(\w+)", cell.source, re.MULTILINE)[1]
+        if cell.cell_type == "code" and re.search(
+            r"^show_interactive\(", cell.source, re.MULTILINE
+        ):
+            called = re.search(r"^show_interactive\(\s*(\w+)", cell.source, re.MULTILINE)[1]
             assert words.source.startswith("No "), words.source
             assert called in code.source
 

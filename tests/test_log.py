@@ -8,8 +8,8 @@ import pytest
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample
 from sim.core.log import Log, Run
-from sim.core.units import UNITS, unit
-from sim.io.format import sound_run
+from sim.core.units import UNITS, find_unit
+from sim.io.format import make_run
 
 
 def run(**changes):
@@ -67,8 +67,8 @@ def test_a_test_nobody_knows_is_refused_with_those_that_exist():
 def test_a_log_finds_its_runs_by_test():
     log = Log((run(), run(test="dynamic-reverse"), run()), units="Rotations")
 
-    assert len(log.of("dynamic-forward")) == 2
-    assert log.of("coast-forward") == ()
+    assert len(log.runs_of_test("dynamic-forward")) == 2
+    assert log.runs_of_test("coast-forward") == ()
     assert log.units == "rotations"
 
 
@@ -76,15 +76,15 @@ def test_two_logs_join_unless_one_is_an_angle():
     meters = Log((run(),), source="a.csv")
     turned = Log((run(),), units="degrees", source="b.csv")
 
-    assert len(meters.and_also(Log((run(),), units="feet")).runs) == 2
+    assert len(meters.join(Log((run(),), units="feet")).runs) == 2
     with pytest.raises(BadRequest, match=r"a\.csv is in meters, b\.csv in degrees. Fit one mech"):
-        meters.and_also(turned)
+        meters.join(turned)
 
 
 def test_doubts_travel_with_the_log():
     doubt = Doubt("odd", "This is odd.")
 
-    assert Log((run(),)).with_doubts(doubt).doubts == (doubt,)
+    assert Log((run(),)).add_doubts(doubt).doubts == (doubt,)
 
 
 @pytest.mark.parametrize("type_", ["crane", "Simple"])
@@ -101,7 +101,7 @@ def test_raw_columns_become_si_and_repeated_times_are_said():
         "velocity": np.array([0.0, 1.0, 9.0, 2.0]),
     }
 
-    made, doubts = sound_run("coast-forward", signals, si=2.0, where="x.csv")
+    made, doubts = make_run("coast-forward", signals, si=2.0, where="x.csv")
 
     assert made.velocity.tolist() == [0.0, 2.0, 4.0]
     assert made.position.tolist() == [0.0, 1.0, 2.0]
@@ -113,7 +113,7 @@ def test_raw_columns_are_refused_with_file_run_and_time():
     signals = dict.fromkeys(("time", "voltage", "position"), np.arange(3.0))
 
     with pytest.raises(BadSample) as refused:
-        sound_run(
+        make_run(
             "coast-forward",
             signals | {"velocity": np.array([0, 1, math.nan])},
             si=1.0,
@@ -132,9 +132,9 @@ def test_raw_columns_are_refused_with_file_run_and_time():
 )
 def test_units_are_worth_what_they_are(name, si):
     assert UNITS[name].si == pytest.approx(si, rel=1e-15)
-    assert unit(f" {name.upper()} ") is UNITS[name]
+    assert find_unit(f" {name.upper()} ") is UNITS[name]
 
 
 def test_an_unknown_unit_lists_the_known():
     with pytest.raises(BadRequest, match="Choose one of: meters, feet, inches, radians"):
-        unit("furlongs")
+        find_unit("furlongs")

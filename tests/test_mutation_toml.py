@@ -17,8 +17,6 @@ from mutation.toml_answers import EXERCISES, mutants  # noqa: E402 - the same
 from mutation.toml_operators import changes_of  # noqa: E402 - the same
 
 LEGAL = tomllib.loads((HERE / "mutation" / "legal_toml.toml").read_text("utf-8"))["legal"]
-SLOW = {"exercise7", "exercise8", "exercise9", "exercise12", "practice"}
-EVERY = 40  # of the slow exercises' mutants one in so many is graded in the gate
 
 
 def covers(row, mutant):
@@ -48,17 +46,14 @@ def test_there_are_several_hundred_mutants_of_every_kind():
 def test_every_mutant_loses_points_with_advice_or_is_listed(name, tmp_path):
     made = changes_of(answer(name)["answers.toml"])
     some = [Mutant(name, "answers.toml", *change) for change in made]
-    if name in SLOW:
-        some = some[::EVERY]
 
     assert list(survivors(some, tmp_path)) == []
 
 
 def test_every_listed_right_answer_is_one_and_has_its_reason(tmp_path):
     """A listed kind of mutant that always loses points is stale."""
-    made = [one for one in mutants() if one.exercise not in SLOW]
+    made = list(mutants())
     for row in LEGAL:
         assert len(row["reason"]) > 20
-        if row["exercise"] not in SLOW:
-            mine = (one for one in made if covers(row, one))
-            assert any(not judge(one, tmp_path).killed for one in mine), row
+        mine = (one for one in made if covers(row, one))
+        assert any(not judge(one, tmp_path).killed for one in mine), row

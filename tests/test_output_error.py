@@ -15,7 +15,7 @@ from sim.bench.simulate import move_gains_only, simulate
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.fit import fit
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model, Part
 
 GENTLE = Routine(ramp=0.5, step=3.5)
@@ -56,18 +56,23 @@ def test_gains_are_within_a_few_of_their_errors_which_are_small(kind, period):
     assert [doubt.code for doubt in found.doubts if doubt.grave] == []
 
 
-def test_stated_intervals_hold_the_truth_about_as_often_as_they_say():
-    # 48 logs with two to four gains each; 95 % of them would be inside, and chance alone leaves the
-    # share of 150 between 0.88 and 1 in all but one of a thousand classes
-    inside = []
+def test_stated_intervals_hold_the_truth_and_are_no_wider_than_a_robot_asks():
+    # 48 logs of ideal mechanisms. The intervals allow for small effects and for variation between
+    # runs, of which these have none, so nearly all hold the truth; and still they are narrow.
+    inside, wide = [], {"kS": [], "kV": [], "kA": [], "kG": []}
     for seed in range(8):
         for kind in MECHANISMS:
             mechanism = drawn(kind, 100 + seed)
             found = fit(simulate(mechanism, GENTLE, rng=rng(seed)), type=mechanism.type)
             for gain, truth in mechanism.gains.items():
                 inside.append(abs(found.gains[gain] - truth) < 1.96 * found.errors[gain])
+                wide[gain].append(found.errors[gain] / truth)
 
-    assert 0.86 <= np.mean(inside) < 1.0
+    assert np.mean(inside) >= 0.95
+    middle = {gain: float(np.median(shares)) for gain, shares in wide.items()}
+    # a floor or a cable of 20 mV cannot be told from weight: kG is known to that
+    most = {"kS": 0.001, "kV": 0.0002, "kA": 0.001, "kG": 0.02}
+    assert all(middle[gain] < most[gain] for gain in most), middle
 
 
 @pytest.mark.parametrize("seed", [4, 6, 8])
@@ -78,7 +83,7 @@ def test_a_model_that_holds_is_followed_though_the_way_there_is_less_likely(seed
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(seed), period=0.005))
 
-    assert found.errors["kA"] < 4e-5 * mechanism.gains["kA"]
+    assert abs(found.gains["kA"] / mechanism.gains["kA"] - 1.0) < 1.8e-4
     for gain, truth in mechanism.gains.items():
         assert abs(found.gains[gain] - truth) < 4.5 * found.errors[gain], gain
 
@@ -130,7 +135,7 @@ def test_repeated_runs_are_all_used_and_make_the_errors_smaller():
 
 @pytest.mark.parametrize("kind", ["drivetrain", "elevator", "arm", "turret"])
 def test_a_late_and_averaged_velocity_is_allowed_for_and_told(kind):
-    mechanism = MECHANISMS[kind].hiding("velocity-filter").hiding("delay", 0.7)
+    mechanism = MECHANISMS[kind].hide("velocity-filter").hide("delay", 0.7)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(2)), type=mechanism.type)
 
@@ -220,9 +225,9 @@ def held_back(run, mechanism, *, volts):
     leaves = run.voltage[int(np.argmax(np.abs(run.velocity) > 0.05))]
     off = int(np.argmax(run.voltage > leaves + volts))
     creeps = np.linspace(run.position[0], run.position[0] + 0.03, off)
-    track = move(
+    track = simulate_run(
         Model(mechanism.type, mechanism.gains), time=run.time[off:], voltage=run.voltage[off:],
-        state=State.at(float(creeps[-1])),
+        state=State.cold_at(float(creeps[-1])),
     )  # fmt: skip
     end = int(np.argmax(track.position > run.position[-1])) or track.position.size
     velocity = np.concatenate((np.gradient(creeps, run.time[:off]), track.velocity[:end]))
@@ -248,47 +253,65 @@ def test_when_it_came_off_a_stop_that_yields_says_nothing_about_friction():
     assert "model-strays" not in [doubt.code for doubt in found.doubts]
 
 
-@pytest.mark.parametrize("effect", ["drag", "stribeck", "cogging", "current-limit"])
-def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect):
-    mechanism = MECHANISMS["drivetrain"].hiding(effect, 2.0)
+@pytest.mark.parametrize(
+    ("effect", "code"),
+    [
+        ("drag", "model-strays"),
+        ("spring", "model-strays"),
+        ("asymmetric-back-emf", "model-strays"),
+        ("stribeck", "strong-effect"),
+        ("cogging", "small-misfit"),
+        ("current-limit", "small-misfit"),
+    ],
+)
+def test_a_model_that_lacks_something_is_doubted_and_reconcile_named(effect, code):
+    mechanism = MECHANISMS["drivetrain"].hide(effect, 2.0)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
 
-    said = [doubt.message for doubt in found.doubts if doubt.code == "model-strays"]
+    said = [doubt.message for doubt in found.doubts if doubt.code == code]
     assert said
     assert "sysid reconcile" in said[0]
 
 
-@pytest.mark.parametrize(
-    ("effect", "within"), [("asymmetric-back-emf:2", 0.1), ("asymmetric-friction:2", 0.03)]
-)
-def test_gains_of_a_model_that_strays_are_those_that_simulate_best(effect, within):
+def test_gains_of_a_model_that_strays_are_those_that_simulate_best():
     # the likeliest innovations are those of twice to twentyfold the inertia
-    name, _, size = effect.partition(":")
-    mechanism = MECHANISMS["drivetrain"].hiding(name, float(size))
+    mechanism = MECHANISMS["drivetrain"].hide("asymmetric-back-emf", 2.0)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
 
-    assert found.gains["kV"] == pytest.approx(mechanism.gains["kV"], rel=within)
-    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=within)
+    assert found.gains["kV"] == pytest.approx(mechanism.gains["kV"], rel=0.1)
+    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.1)
     assert found.errors["kA"] > 0.01 * mechanism.gains["kA"]  # what is missing errs for a while
 
 
-def test_what_is_missing_but_drowned_by_noise_is_in_the_errors():
-    # a fifth of the Stribeck friction that the test above has, and the same each time: charged to
-    # noise, it leaves kS and kV 15 errors off
-    mechanism = MECHANISMS["drivetrain"].hiding("stribeck", 0.3)
+@pytest.mark.parametrize(
+    ("effect", "size"),
+    [
+        ("asymmetric-friction", 2.0),
+        ("drag", 1.0),
+        ("drag", 0.1),
+        ("stribeck", 1.0),
+        ("stribeck", 0.3),
+    ],
+)
+def test_small_effects_are_fitted_beside_the_gains_and_do_not_shift_them(effect, size):
+    # charged to the gains, a Stribeck friction of 75 mV leaves kS and kV 15 errors off, and a drag
+    # of half a volt makes kV a tenth larger
+    mechanism = MECHANISMS["drivetrain"].hide(effect, size)
 
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
 
-    assert "small-misfit" in [doubt.code for doubt in found.doubts]
+    assert effect in [part.effect for part in found.parts]
     for gain, truth in mechanism.gains.items():
-        assert abs(found.gains[gain] - truth) < 4.0 * found.errors[gain] < 0.05, gain
+        assert abs(found.gains[gain] - truth) < 4.0 * found.errors[gain], gain
+    assert found.gains["kV"] == pytest.approx(mechanism.gains["kV"], rel=0.005)
+    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.005)
 
 
-@pytest.mark.parametrize(("effect", "grave"), [("constant-load", True), ("current-limit", False)])
+@pytest.mark.parametrize(("effect", "grave"), [("constant-load", True), ("spring", False)])
 def test_a_model_that_strays_far_cannot_be_right(effect, grave):
-    found = fit(simulate(MECHANISMS["drivetrain"].hiding(effect, 2.0), GENTLE, rng=rng(1)))
+    found = fit(simulate(MECHANISMS["drivetrain"].hide(effect, 2.0), GENTLE, rng=rng(1)))
 
     assert [doubt.grave for doubt in found.doubts if doubt.code == "model-strays"] == [grave]
 
@@ -308,12 +331,12 @@ def test_gravity_that_the_type_leaves_out_is_suggested(kind, seed):
 
 @pytest.mark.parametrize("effect", ["drag", "stribeck", "cogging", "spring", "asymmetric-back-emf"])
 def test_gravity_is_not_suggested_where_something_else_is_missing(effect):
-    log = simulate(MECHANISMS["turret"].hiding(effect, 2.0), GENTLE, rng=rng(1))
+    log = simulate(MECHANISMS["turret"].hide(effect, 2.0), GENTLE, rng=rng(1))
 
-    said = [doubt.message for doubt in fit(log).doubts if doubt.code == "model-strays"]
+    said = [doubt.message for doubt in fit(log).doubts if "sysid reconcile" in doubt.message]
 
-    assert len(said) == 1
-    assert "--type" not in said[0]
+    assert said
+    assert not [one for one in said if "--type" in one]
 
 
 def test_a_velocity_that_has_nothing_to_do_with_the_voltage_is_refused():

@@ -12,7 +12,7 @@ from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.fit.physics import Parts, compare_directions, compare_sides, physical_doubts
-from sim.physics.motors import MOTORS, motor
+from sim.physics.motors import MOTORS, find_motor
 
 GENTLE = Routine(ramp=0.5, step=3.5)
 TURN = 2.0 * math.pi
@@ -130,8 +130,8 @@ def test_a_wrong_unit_in_the_log_is_named(kind, factor, named):
         ("drivetrain", {"ratio": 6.12}, "kv-drag", "10% above"),
         ("drivetrain", {"ratio": 6.12}, "ka-below-theory", "the ratio and the radius"),
         ("drivetrain", {"radius": 0.0475}, "kv-below-theory", "50.8 mm"),  # worn by 3 mm
-        ("turret", {"motor": motor("krakenX60")}, "kv-below-theory", "krakenX44"),
-        ("arm", {"motor": motor("minion")}, "kv-above-theory", "neo"),
+        ("turret", {"motor": find_motor("krakenX60")}, "kv-below-theory", "krakenX44"),
+        ("arm", {"motor": find_motor("minion")}, "kv-above-theory", "neo"),
         ("elevator", {"load": 10.0}, "ka-above-theory", "20 kg or 1 motor would fit"),
         ("elevator", {"load": 40.0}, "ka-below-theory", "20 kg"),
         ("shooter", {"load": 0.003}, "ka-above-theory", "kV fits"),
@@ -152,7 +152,7 @@ def test_the_number_of_motors_does_not_change_kv():
 
 
 def test_a_model_that_does_not_hold_comes_before_the_parts():
-    mechanism = MECHANISMS["arm"].hiding("asymmetric-back-emf")  # kV reads 12 % low
+    mechanism = MECHANISMS["arm"].hide("asymmetric-back-emf")  # kV reads 12 % low
 
     said = physical_doubts(fit(recorded(mechanism)), parts=true_parts(mechanism))
 
@@ -161,9 +161,9 @@ def test_a_model_that_does_not_hold_comes_before_the_parts():
 
 @pytest.mark.parametrize("name", MOTORS)
 def test_an_ideal_motor_with_a_little_drag_is_within_theory(name):
-    parts = Parts(motor(name), 1, 10.0)
+    parts = Parts(find_motor(name), 1, 10.0)
     for drag in (0.0, 0.08):
-        kv = motor(name).back_emf * 10.0 * (1.0 + drag)
+        kv = find_motor(name).back_emf * 10.0 * (1.0 + drag)
         assert physical_doubts(found_in("turret", kV=kv), parts=parts) == ()
 
 
@@ -255,7 +255,7 @@ def test_a_timescale_shorter_than_the_sampling_is_told(method, period, doubted):
     ("effect", "gain"), [("asymmetric-friction", "kS"), ("asymmetric-back-emf", "kV")]
 )
 def test_directions_that_differ_are_told_by_the_gain(kind, effect, gain):
-    mechanism = MECHANISMS[kind].hiding(effect)
+    mechanism = MECHANISMS[kind].hide(effect)
 
     (doubt,) = compare_directions(recorded(mechanism), mechanism.type)
 
@@ -265,7 +265,7 @@ def test_directions_that_differ_are_told_by_the_gain(kind, effect, gain):
 
 
 def test_nothing_is_said_of_directions_that_cannot_be_fitted_alone():
-    lopsided = MECHANISMS["elevator"].hiding("asymmetric-friction")
+    lopsided = MECHANISMS["elevator"].hide("asymmetric-friction")
     log = recorded(MECHANISMS["drivetrain"])
     half = replace(log, runs=tuple(run for run in log.runs if run.direction == "forward"))
 
@@ -311,14 +311,16 @@ def test_units_shown_are_the_owners_and_the_unit_of_the_fit_does_not_matter():
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda: Parts(motor("neo"), 0, 5.0), "Give a number above zero"),
-        (lambda: Parts(motor("neo"), 1, math.nan), "Give a number above zero"),
+        (lambda: Parts(find_motor("neo"), 0, 5.0), "Give a number above zero"),
+        (lambda: Parts(find_motor("neo"), 1, math.nan), "Give a number above zero"),
         (
-            lambda: physical_doubts(found_in("turret"), parts=Parts(motor("neo"), 1, 5.0, 0.05)),
+            lambda: physical_doubts(
+                found_in("turret"), parts=Parts(find_motor("neo"), 1, 5.0, 0.05)
+            ),
             "Leave the radius out",
         ),
         (
-            lambda: physical_doubts(found_in("drivetrain"), parts=Parts(motor("neo"), 1, 5.0)),
+            lambda: physical_doubts(found_in("drivetrain"), parts=Parts(find_motor("neo"), 1, 5.0)),
             "Give the radius of the wheel",
         ),
         (lambda: physical_doubts(found_in("turret"), period=0.0), "Give the time between"),

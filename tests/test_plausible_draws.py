@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from grader.exercise import Exercise
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[1]
 FEW = 20  # students in the gate
@@ -124,7 +124,7 @@ def test_the_authored_way_earns_full_marks_for_every_student(name, tmp_path):
     solve = runpy.run_path(str(ROOT / "solutions" / name / "solve.py"))["solve"]
     for student in students(name):
         exercise.prepare(student, say=lambda _: None)
-        answers = solve(own, copy / "data" / folder_name(student))
+        answers = solve(own, copy / "data" / make_folder_name(student))
         for file, text in answers.items():
             (copy / file).write_text(text, encoding="utf-8")
         for file in exercise.files:
@@ -134,4 +134,4 @@ def test_the_authored_way_earns_full_marks_for_every_student(name, tmp_path):
             lost = [(one.id, one.seen, one.hint) for one in grade.checks if one.status != "passed"]
 
             assert lost == [], student
-        shutil.rmtree(copy / "data" / folder_name(student))
+        shutil.rmtree(copy / "data" / make_folder_name(student))

@@ -17,18 +17,18 @@ from matplotlib.image import imread
 import sim
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
-from sim.inspect.fault import Stretch
+from sim.inspect.fault import LogInterval
 from sim.plot import (
     Line,
-    acceleration_velocity,
-    choices,
-    curves,
-    live,
-    misses,
-    time_series,
-    timesteps,
-    velocity_time,
-    voltage_velocity,
+    plot_acceleration_velocity,
+    plot_choices,
+    plot_curves,
+    plot_misses,
+    plot_time_series,
+    plot_timesteps,
+    plot_velocity_time,
+    plot_voltage_velocity,
+    show_interactive,
 )
 from sim.plot.picture import COLORS, LINES, MARKERS
 
@@ -41,27 +41,35 @@ def _log(name):
 
 DRIVE, SHOOTER = _log("drivetrain"), _log("shooter")
 PICTURES = {
-    "time series": lambda: time_series(DRIVE),
-    "time series beside another": lambda: time_series(DRIVE, beside=DRIVE, dynamic_seconds=1.0),
-    "time series in rotations": lambda: time_series(SHOOTER),
-    "one test only": lambda: time_series(replace(DRIVE, runs=DRIVE.runs[:1])),
-    "voltage over velocity": lambda: voltage_velocity(DRIVE),
-    "with lines": lambda: voltage_velocity(DRIVE, lines={"a": Line(0.2, 2.5), "b": Line(0.1, 2.4)}),
-    "time series with damage": lambda: time_series(
-        DRIVE, damages=[Stretch(0, DRIVE.runs[0].test, 2.0, 2.5)]
+    "time series": lambda: plot_time_series(DRIVE),
+    "time series beside another": lambda: plot_time_series(
+        DRIVE, beside=DRIVE, dynamic_seconds=1.0
     ),
-    "timesteps": lambda: timesteps(DRIVE),
-    "velocity over time": lambda: velocity_time(SHOOTER, median=3, beside=SHOOTER),
-    "acceleration over velocity": lambda: acceleration_velocity(DRIVE),
-    "acceleration with a fit": lambda: acceleration_velocity(
+    "time series in rotations": lambda: plot_time_series(SHOOTER),
+    "one test only": lambda: plot_time_series(replace(DRIVE, runs=DRIVE.runs[:1])),
+    "voltage over velocity": lambda: plot_voltage_velocity(DRIVE),
+    "with lines": lambda: plot_voltage_velocity(
+        DRIVE, lines={"a": Line(0.2, 2.5), "b": Line(0.1, 2.4)}
+    ),
+    "time series with damage": lambda: plot_time_series(
+        DRIVE, damages=[LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5)]
+    ),
+    "timesteps": lambda: plot_timesteps(DRIVE),
+    "velocity over time": lambda: plot_velocity_time(SHOOTER, median=3, beside=SHOOTER),
+    "acceleration over velocity": lambda: plot_acceleration_velocity(DRIVE),
+    "acceleration with a fit": lambda: plot_acceleration_velocity(
         SHOOTER, gains=sim.MECHANISMS["shooter"].gains
     ),
-    "choices": lambda: choices({"a": 1.0, "b": 3.0}, truth=2.0, name="kA", unit="V·s²/m"),
-    "choices with spreads": lambda: choices({"a": 1.0}, truth=2.0, name="kA", spreads={"a": 0.1}),
-    "curves": lambda: curves(
+    "choices": lambda: plot_choices({"a": 1.0, "b": 3.0}, truth=2.0, name="kA", unit="V·s²/m"),
+    "choices with spreads": lambda: plot_choices(
+        {"a": 1.0}, truth=2.0, name="kA", spreads={"a": 0.1}
+    ),
+    "curves": lambda: plot_curves(
         range(20), {"up": range(20)}, xlabel="x", ylabel="y", levels={"l": 3}, marked=(3.0, 3.0)
     ),
-    "misses": lambda: misses([1, 2], [2, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]"),
+    "misses": lambda: plot_misses(
+        [1, 2], [2, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]"
+    ),
 }
 each_picture = pytest.mark.parametrize("name", PICTURES)
 
@@ -114,8 +122,8 @@ def test_color_never_speaks_alone():
 
 
 def test_the_table_of_a_log_says_what_the_log_says():
-    table = time_series(DRIVE).table
-    run = DRIVE.of("dynamic-reverse")[0]
+    table = plot_time_series(DRIVE).table
+    run = DRIVE.runs_of_test("dynamic-reverse")[0]
     (row,) = (row for row in table.rows if row[0] == "dynamic-reverse")
     assert row[1] == len(run) == 381
     assert row[3:5] == (-3.5, -3.5)
@@ -123,34 +131,34 @@ def test_the_table_of_a_log_says_what_the_log_says():
 
 
 def test_velocities_are_in_the_unit_of_the_log():
-    table = time_series(SHOOTER).table
+    table = plot_time_series(SHOOTER).table
     fastest = table.rows[0][-1]
     assert table.header[-1] == "fastest [rot/s]"
     assert fastest == pytest.approx(
-        SHOOTER.of("quasistatic-forward")[0].velocity.max() / (2 * np.pi)
+        SHOOTER.runs_of_test("quasistatic-forward")[0].velocity.max() / (2 * np.pi)
     )
 
 
 def test_a_line_is_told_in_words_and_numbers():
-    picture = voltage_velocity(DRIVE, lines={"truth": Line(0.15, 2.524)})
+    picture = plot_voltage_velocity(DRIVE, lines={"truth": Line(0.15, 2.524)})
     assert "meets standstill at 0.150 V and rises by 2.524 V per m/s" in picture.alt
     assert picture.table.rows == (("truth", 0.15, 2.524),)
 
 
 def test_choices_say_by_how_much_each_is_off():
-    picture = choices({"low": 1.5, "near": 2.002, "high": 3.0}, truth=2.0, name="kA")
+    picture = plot_choices({"low": 1.5, "near": 2.002, "high": 3.0}, truth=2.0, name="kA")
     assert [row[2] for row in picture.table.rows] == ["−25 %", "+0.1 %", "+50 %"]
 
 
 def test_a_small_error_looks_small():
-    axes = choices({"near": 2.002}, truth=2.0, name="kA").figure.axes[0]
+    axes = plot_choices({"near": 2.002}, truth=2.0, name="kA").figure.axes[0]
     least, most = axes.get_xlim()
     assert least < 1.6
     assert most > 2.4
 
 
 def test_misses_are_squared_and_summed():
-    picture = misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]")
+    picture = plot_misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]")
     assert [row[3] for row in picture.table.rows] == [1.0, 1.0]  # 3 - 2 and 5 - 4
     assert "the sum of their squares is 2.00 V²" in picture.alt
 
@@ -164,7 +172,7 @@ def test_misses_are_squared_and_summed():
     ],
 )
 def test_misses_have_the_unit_of_what_is_missed(label, headed, squared):
-    picture = misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel=label)
+    picture = plot_misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel=label)
     assert picture.table.header[-1] == headed
     assert picture.alt.endswith(squared)
 
@@ -176,11 +184,14 @@ def test_the_table_of_a_curve_is_short():
 @pytest.mark.parametrize(
     ("draw", "advice"),
     [
-        (lambda: choices({}, truth=1.0, name="kA"), "Give at least one value"),
-        (lambda: curves([1, 2], {}, xlabel="", ylabel=""), "Give one or more"),
-        (lambda: curves([1, 2], {"a": [1]}, xlabel="", ylabel=""), "of equal length"),
-        (lambda: time_series(replace(DRIVE, runs=())), "Give a log of a SysIdRoutine"),
-        (lambda: voltage_velocity(replace(DRIVE, runs=DRIVE.runs[2:])), "with a slow ramp in it"),
+        (lambda: plot_choices({}, truth=1.0, name="kA"), "Give at least one value"),
+        (lambda: plot_curves([1, 2], {}, xlabel="", ylabel=""), "Give one or more"),
+        (lambda: plot_curves([1, 2], {"a": [1]}, xlabel="", ylabel=""), "of equal length"),
+        (lambda: plot_time_series(replace(DRIVE, runs=())), "Give a log of a SysIdRoutine"),
+        (
+            lambda: plot_voltage_velocity(replace(DRIVE, runs=DRIVE.runs[2:])),
+            "with a slow ramp in it",
+        ),
     ],
     ids=["no choices", "no curves", "a short curve", "an empty log", "no ramp"],
 )
@@ -216,30 +227,30 @@ def test_a_picture_that_cannot_be_saved_leaves_nothing_behind(name, advice, tmp_
 
 def test_turning_a_knob_draws_the_picture_that_plain_code_draws():
     def draw(slope):
-        return misses([1, 2], [2, 5], intercept=0, slope=slope, xlabel="x", ylabel="y")
+        return plot_misses([1, 2], [2, 5], intercept=0, slope=slope, xlabel="x", ylabel="y")
 
     knob = ipywidgets.FloatSlider(value=1.0, min=0.0, max=4.0)
-    panel = live(draw, slope=knob)
+    panel = show_interactive(draw, slope=knob)
     assert panel.children[-1].value == draw(1.0).html
     knob.value = 2.5
     assert panel.children[-1].value == draw(2.5).html
 
 
 def test_several_pictures_stand_below_each_other():
-    panel = live(lambda: [PICTURES["choices"](), PICTURES["misses"]()])
+    panel = show_interactive(lambda: [PICTURES["choices"](), PICTURES["misses"]()])
     assert panel.children[-1].value.count("<img ") == 2
 
 
 def test_a_knob_that_asks_for_what_cannot_be_drawn_says_so():
     def draw(ramp):
-        return time_series(
+        return plot_time_series(
             simulate(
                 sim.MECHANISMS["drivetrain"], sim.Routine(ramp=ramp), rng=np.random.default_rng(1)
             )
         )
 
     knob = ipywidgets.FloatText(value=1.0)
-    panel = live(draw, ramp=knob)
+    panel = show_interactive(draw, ramp=knob)
     knob.value = -1.0
     assert "Choose a number above 0" in panel.children[-1].value
 
@@ -257,7 +268,7 @@ def test_matplotlib_is_used_here_and_nowhere_else(root):
 def test_drawing_needs_no_backend_and_keeps_no_figure(root):
     code = (
         "import sys, sim.plot\n"
-        "sim.plot.choices({'a': 1.0}, truth=1.0, name='kA').svg\n"
+        "sim.plot.plot_choices({'a': 1.0}, truth=1.0, name='kA').svg\n"
         "assert 'matplotlib.pyplot' not in sys.modules\n"
     )
     subprocess.run(

@@ -13,10 +13,10 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.physics.model import Model
-from sim.physics.replay import replay
-from sim.plot import gap_bars, plot_voltage_residual, residual_views
+from sim.physics.replay import replay_log
+from sim.plot import make_residual_views, plot_gap_bars, plot_voltage_residual
 from sim.plot.picture import PAPER
-from sim.plot.voltage_residual import missing_volts
+from sim.plot.voltage_residual import compute_missing_volts
 
 DRIVETRAIN = MECHANISMS["drivetrain"]
 TRUTH = Model("simple", DRIVETRAIN.gains)
@@ -32,11 +32,11 @@ HIDES = {  # what is hidden -> the side from which it is seen best
 
 
 def simulated(log):
-    return [track.seen for track in replay(TRUTH, log)]
+    return [track.seen for track in replay_log(TRUTH, log)]
 
 
 def hiding(effect, *, noise=True):
-    robot = DRIVETRAIN.hiding(effect) if effect else DRIVETRAIN
+    robot = DRIVETRAIN.hide(effect) if effect else DRIVETRAIN
     if not noise:
         robot = replace(robot, sensor=replace(robot.sensor, velocity_noise=0.0))
     return simulate(robot, ROUTINE, rng=np.random.default_rng(1), electrical=True)
@@ -45,7 +45,7 @@ def hiding(effect, *, noise=True):
 @pytest.mark.parametrize("effect", HIDES)
 def test_each_effect_is_seen_best_from_its_own_side(effect):
     log = hiding(effect)
-    found = residual_views(log, simulated(log), TRUTH.gains)
+    found = make_residual_views(log, simulated(log), TRUTH.gains)
     assert max(found, key=lambda name: found[name].explains) == HIDES[effect]
 
 
@@ -55,7 +55,7 @@ def test_a_battery_that_gives_way_is_seen_best_over_its_voltage():
     asked = replace(
         log, runs=tuple(replace(r, voltage=12.0 * r.voltage / r.bus_voltage) for r in log.runs)
     )
-    found = residual_views(asked, simulated(asked), TRUTH.gains)
+    found = make_residual_views(asked, simulated(asked), TRUTH.gains)
     assert max(found, key=lambda name: found[name].explains) == "battery voltage"
     lowest = found["battery voltage"].mean
     assert lowest[np.isfinite(lowest)][0] < -0.2  # [V] the robot got less than the log says
@@ -63,22 +63,22 @@ def test_a_battery_that_gives_way_is_seen_best_over_its_voltage():
 
 def test_nothing_is_seen_where_nothing_is_missing():
     log = hiding("")
-    found = residual_views(log, simulated(log), TRUTH.gains)
+    found = make_residual_views(log, simulated(log), TRUTH.gains)
     assert all(view.explains < 0.1 for view in found.values())
 
 
 def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
     log = hiding("asymmetric-friction", noise=False)
-    (lean,) = DRIVETRAIN.hiding("asymmetric-friction").hidden[0].parameters.values()
-    ramp = log.of("quasistatic-forward")[0]
-    lacks = missing_volts(log, simulated(log), TRUTH.gains)[log.runs.index(ramp)]
+    (lean,) = DRIVETRAIN.hide("asymmetric-friction").hidden[0].parameters.values()
+    ramp = log.runs_of_test("quasistatic-forward")[0]
+    lacks = compute_missing_volts(log, simulated(log), TRUTH.gains)[log.runs.index(ramp)]
     fast = np.flatnonzero(ramp.velocity > 0.3)[:-1]
     assert np.median(lacks[fast]) == pytest.approx(-lean, rel=0.05)
 
 
 def test_without_a_record_of_the_battery_there_are_three_sides():
     log = simulate(DRIVETRAIN, ROUTINE, rng=np.random.default_rng(1))
-    assert "battery voltage" not in residual_views(log, simulated(log), TRUTH.gains)
+    assert "battery voltage" not in make_residual_views(log, simulated(log), TRUTH.gains)
     picture = plot_voltage_residual(log, simulated(log), TRUTH.gains)
     assert len(picture.table.rows) == 3
     assert picture.alt.startswith("Three views")
@@ -87,17 +87,19 @@ def test_without_a_record_of_the_battery_there_are_three_sides():
 def test_a_simulation_of_another_log_is_refused():
     log = hiding("")
     with pytest.raises(BadRequest, match="not of this log"):
-        residual_views(log, simulated(log)[:-1], TRUTH.gains)
+        make_residual_views(log, simulated(log)[:-1], TRUTH.gains)
 
 
 def test_a_gap_bar_says_its_numbers():
-    picture = gap_bars({"base": {"log": 3.0, "held out": 12.0}, "+ x": {"log": 1, "held out": 2}})
+    picture = plot_gap_bars(
+        {"base": {"log": 3.0, "held out": 12.0}, "+ x": {"log": 1, "held out": 2}}
+    )
     assert "base: log 3.00, held out 12.0" in picture.alt
     assert picture.table.rows[0] == ("base", 3.0, 12.0)
 
 
 def test_a_number_at_the_noise_is_not_struck_through_by_its_line():
-    axes = gap_bars({"base": {"log": 0.96}}).figure.axes[0]
+    axes = plot_gap_bars({"base": {"log": 0.96}}).figure.axes[0]
     (number,) = axes.texts
     (line,) = (one for one in axes.lines if one.get_label() == "the noise")
     assert number.get_zorder() > line.get_zorder()
@@ -107,14 +109,14 @@ def test_a_number_at_the_noise_is_not_struck_through_by_its_line():
 @pytest.mark.parametrize("gaps", [{}, {"a": {}}, {"a": {"log": 1.0}, "b": {"other": 1.0}}])
 def test_gaps_of_different_logs_are_refused(gaps):
     with pytest.raises(BadRequest, match="a gap for each log"):
-        gap_bars(gaps)
+        plot_gap_bars(gaps)
 
 
 def test_each_picture_has_words_and_a_table():
     log = hiding("drag")
     for picture in (
         plot_voltage_residual(log, simulated(log), TRUTH.gains),
-        gap_bars({"a": {"log": 2.0}}),
+        plot_gap_bars({"a": {"log": 2.0}}),
     ):
         (image,) = Tags(picture.html).all("img")
         assert image["alt"] == picture.alt

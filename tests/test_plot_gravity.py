@@ -9,9 +9,9 @@ from html_tags import Tags
 import sim
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
-from sim.fit.information_matrix import information_matrix
+from sim.fit.information_matrix import compute_information
 from sim.fit.sysid_rows import prepare_rows
-from sim.plot import ellipses, hold_angles, hold_window, information_map
+from sim.plot import plot_ellipses, plot_hold_angles, plot_hold_window, plot_information_map
 
 VOLTS, SPEEDS = [1.0, 1.5, 2.0, 2.5, 3.0], [-0.17, -0.06, 0.0, 0.05, 0.17]
 NAMES, TRUTH, REACH = ("kS [V]", "kG [V]"), (0.25, 2.01), (0.3, 0.3)
@@ -30,21 +30,21 @@ def some(way):
 
 
 def about(part):
-    return information_matrix(part, type="elevator", noise=0.05).about("kS", "kG")
+    return compute_information(part, type="elevator", noise=0.05).information_on_pair("kS", "kG")
 
 
 PICTURES = {
-    "window": lambda: hold_window(
+    "window": lambda: plot_hold_window(
         VOLTS, SPEEDS, window=(1.76, 2.26), marks={"recipe": 1.77}, here=(2.5, 0.05)
     ),
-    "window without marks": lambda: hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={}),
-    "angles": lambda: hold_angles(HOLDS, kg=1.51, ks=0.25, here=60.0),
-    "angles of an encoder askew": lambda: hold_angles(HOLDS, kg=1.51, ks=0.25, offset=35.0),
-    "ellipses": lambda: ellipses(
+    "window without marks": lambda: plot_hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={}),
+    "angles": lambda: plot_hold_angles(HOLDS, kg=1.51, ks=0.25, here=60.0),
+    "angles of an encoder askew": lambda: plot_hold_angles(HOLDS, kg=1.51, ks=0.25, offset=35.0),
+    "ellipses": lambda: plot_ellipses(
         {"up": about(some("forward")), "both": about(rows())},
         names=NAMES, truth=TRUTH, reach=REACH,
     ),
-    "map": lambda: information_map(
+    "map": lambda: plot_information_map(
         rows(), about(rows()), names=NAMES, truth=TRUTH, reach=REACH
     ),
 }  # fmt: skip
@@ -67,12 +67,12 @@ def test_a_picture_is_drawn_says_what_it_shows_and_is_the_same_again(name):
      (1.5, "below it"), (2.4, "above it")],
 )  # fmt: skip
 def test_a_mark_is_told_where_in_the_window_it_lies(volts, said):
-    table = hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={"mark": volts}).table
+    table = plot_hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={"mark": volts}).table
     assert table.rows == (("mark", volts, said),)
 
 
 def test_the_table_of_a_band_has_its_middles_and_half_its_widths():
-    table = hold_angles(HOLDS, kg=1.51, ks=0.25).table
+    table = plot_hold_angles(HOLDS, kg=1.51, ks=0.25).table
     assert [row[3] for row in table.rows] == pytest.approx([1.31, 1.51, 0.75])
     assert [row[4] for row in table.rows] == pytest.approx([0.25, 0.25, 0.25])
 
@@ -84,7 +84,7 @@ def test_the_table_of_a_band_has_its_middles_and_half_its_widths():
      (-25.0, "reading [deg]", "at 25.0 degrees: level, if the offset is −25.0°.")],
 )  # fmt: skip
 def test_an_offset_is_told_as_the_guess_it_is(offset, angle, level):
-    picture = hold_angles(HOLDS, kg=1.51, ks=0.25, offset=offset)
+    picture = plot_hold_angles(HOLDS, kg=1.51, ks=0.25, offset=offset)
     assert picture.table.header[0] == angle
     assert level in picture.alt
 
@@ -96,7 +96,7 @@ def test_up_only_is_a_strip_on_which_one_gain_falls_as_the_other_rises():
 
 
 def test_the_errors_of_a_whole_log_are_those_of_the_rows():
-    errors = information_matrix(rows(), type="elevator", noise=0.05).errors
+    errors = compute_information(rows(), type="elevator", noise=0.05).errors
     said = [float(cell) for cell in PICTURES["map"]().table.rows[0][1:]]
     assert said == pytest.approx([errors["kS"], errors["kG"]], rel=0.01)
 
@@ -104,9 +104,12 @@ def test_the_errors_of_a_whole_log_are_those_of_the_rows():
 @pytest.mark.parametrize(
     ("draw", "advice"),
     [
-        (lambda: hold_window([1.0], [], window=(1.0, 2.0), marks={}), "as many of both"),
-        (lambda: hold_window([1.0], [0.0], window=(2.0, 1.0), marks={}), "the lower one first"),
-        (lambda: ellipses({}, names=NAMES, truth=TRUTH, reach=REACH), "at least one set"),
+        (lambda: plot_hold_window([1.0], [], window=(1.0, 2.0), marks={}), "as many of both"),
+        (
+            lambda: plot_hold_window([1.0], [0.0], window=(2.0, 1.0), marks={}),
+            "the lower one first",
+        ),
+        (lambda: plot_ellipses({}, names=NAMES, truth=TRUTH, reach=REACH), "at least one set"),
     ],
     ids=["a missing speed", "edges swapped", "no rows"],
 )

@@ -11,8 +11,14 @@ from matplotlib.patches import Rectangle
 
 from sim.core.errors import BadRequest
 from sim.core.log import KINDS, Log, Run
-from sim.inspect.fault import Damage, Stretch
-from sim.plot import Line, time_series, timesteps, velocity_time, voltage_velocity
+from sim.inspect.fault import Damage, LogInterval
+from sim.plot import (
+    Line,
+    plot_time_series,
+    plot_timesteps,
+    plot_velocity_time,
+    plot_voltage_velocity,
+)
 from sim.plot.picture import COLORS
 
 
@@ -29,13 +35,13 @@ def _boxes(picture):
 def _damage(fault, run, start, end):
     """A fault so many seconds after its run began."""
     first = FOUR.runs[run].time[0]
-    where = Stretch(run, FOUR.runs[run].test, first + start, first + end)
+    where = LogInterval(run, FOUR.runs[run].test, first + start, first + end)
     return Damage(fault, where, 0.9, "seen", "Run it again.")
 
 
 @pytest.mark.parametrize(("run", "panels"), [(0, (0, 2)), (1, (0, 2)), (2, (1, 3)), (3, (1, 3))])
 def test_damage_is_framed_around_its_own_curve(run, panels):
-    picture = time_series(FOUR, damages=[_damage("hard-stop", run, 4.0, 5.0)])
+    picture = plot_time_series(FOUR, damages=[_damage("hard-stop", run, 4.0, 5.0)])
     boxes = _boxes(picture)
     assert tuple(box[0] for box in boxes) == panels  # voltage above, velocity below
     for (_, left, right, bottom, top, color), name in zip(
@@ -49,7 +55,7 @@ def test_damage_is_framed_around_its_own_curve(run, panels):
 
 
 def test_damage_is_named_with_its_run_and_its_time():
-    picture = time_series(
+    picture = plot_time_series(
         FOUR, damages=[_damage("encoder-slip", 0, 2.0, 2.3), _damage("brownout", 3, 0.1, 0.4)]
     )
     assert "marked A: encoder-slip, quasistatic-forward, 2.00 to 2.30 s after it" in picture.alt
@@ -62,7 +68,7 @@ def test_damage_is_named_with_its_run_and_its_time():
 
 
 def test_each_fault_has_a_hatch_and_a_letter_of_its_own():
-    picture = time_series(
+    picture = plot_time_series(
         FOUR, damages=[_damage(f, 0, 2.0 + i, 2.5 + i) for i, f in enumerate("pqr")]
     )
     hatches = [handle.get_hatch() for handle in picture.figure.legends[0].get_patches()]
@@ -73,13 +79,15 @@ def test_each_fault_has_a_hatch_and_a_letter_of_its_own():
 
 def test_letters_that_would_cover_each_other_stand_together():
     twice = [_damage("brownout", 2, 2.0, 2.5), _damage("voltage-dropout", 2, 2.1, 2.3)]
-    picture = time_series(FOUR, damages=twice)
+    picture = plot_time_series(FOUR, damages=twice)
     assert [text.get_text() for text in picture.figure.axes[1].texts] == ["A B"]
 
 
 def test_damage_of_one_sample_can_still_be_seen():
-    (_, left, right, *_), _ = _boxes(time_series(FOUR, damages=[_damage("spike", 0, 3.0, 3.0)]))
-    low, high = time_series(FOUR).figure.axes[0].get_xlim()
+    (_, left, right, *_), _ = _boxes(
+        plot_time_series(FOUR, damages=[_damage("spike", 0, 3.0, 3.0)])
+    )
+    low, high = plot_time_series(FOUR).figure.axes[0].get_xlim()
     assert right - left > 0.01 * (high - low)
     assert (left + right) / 2 == pytest.approx(3.0)
 
@@ -87,22 +95,25 @@ def test_damage_of_one_sample_can_still_be_seen():
 @pytest.mark.parametrize(
     ("where", "words"),
     [
-        (Stretch(None, "", 0.0, 0.0), "damage, the whole log."),
-        (Stretch(None, "dynamic-reverse", 0.0, 0.0), "dynamic-reverse, which is not in the log."),
-        (Stretch(1, "quasistatic-reverse", 0.0, 99.0), "all of quasistatic-reverse."),
-        (Stretch(4, "coast-forward", 35.0, 36.0), "run 4, which is not drawn, 1.00 to 2.00 s"),
+        (LogInterval(None, "", 0.0, 0.0), "damage, the whole log."),
+        (
+            LogInterval(None, "dynamic-reverse", 0.0, 0.0),
+            "dynamic-reverse, which is not in the log.",
+        ),
+        (LogInterval(1, "quasistatic-reverse", 0.0, 99.0), "all of quasistatic-reverse."),
+        (LogInterval(4, "coast-forward", 35.0, 36.0), "run 4, which is not drawn, 1.00 to 2.00 s"),
     ],
     ids=["the log", "no run", "a whole run", "a test of another kind"],
 )
 def test_damage_that_no_box_can_show_is_told(where, words):
     log = replace(FOUR, runs=(*FOUR.runs, run_of("coast-forward")))
-    picture = time_series(log, damages=[where])
+    picture = plot_time_series(log, damages=[where])
     assert words in picture.alt
     assert len(_boxes(picture)) == (2 if where.run == 1 else 0)
 
 
 def test_much_damage_is_summed_up():
-    picture = time_series(
+    picture = plot_time_series(
         FOUR, damages=[_damage("overrun", 0, 0.2 * i, 0.2 * i) for i in range(40)]
     )
     assert "and 34 stretches more" in picture.alt
@@ -112,9 +123,9 @@ def test_much_damage_is_summed_up():
 @pytest.mark.parametrize(
     ("where", "said"),
     [
-        (Stretch(4, "coast-forward", 0.0, 1.0), "run 4 of a log whose runs are 0 to 3"),
+        (LogInterval(4, "coast-forward", 0.0, 1.0), "run 4 of a log whose runs are 0 to 3"),
         (
-            Stretch(0, "quasistatic-forward", 11.5, 11.8),
+            LogInterval(0, "quasistatic-forward", 11.5, 11.8),
             "11.50 to 11.80 s, but quasistatic-forward",
         ),
     ],
@@ -122,11 +133,14 @@ def test_much_damage_is_summed_up():
 )
 def test_damage_of_another_log_is_refused(where, said):
     with pytest.raises(BadRequest, match=f"{said}.*Give damages that were found in this very log"):
-        time_series(FOUR, damages=[where])
+        plot_time_series(FOUR, damages=[where])
 
 
 def test_damage_does_not_change_what_the_picture_shows():
-    plain, marked = time_series(FOUR), time_series(FOUR, damages=[_damage("x", 0, 9.0, 9.9)])
+    plain, marked = (
+        plot_time_series(FOUR),
+        plot_time_series(FOUR, damages=[_damage("x", 0, 9.0, 9.9)]),
+    )
     for one, other in zip(plain.figure.axes, marked.figure.axes, strict=True):
         assert one.get_xlim() == other.get_xlim()
     assert plain.table == marked.table
@@ -138,7 +152,7 @@ ELEVATOR = replace(
 
 
 def test_gravity_shows_on_both_sides_of_standstill():
-    close = voltage_velocity(ELEVATOR).figure.axes[1]
+    close = plot_voltage_velocity(ELEVATOR).figure.axes[1]
     left, right = close.get_xlim()
     assert left == -right
     low, high = close.get_ylim()
@@ -148,23 +162,24 @@ def test_gravity_shows_on_both_sides_of_standstill():
 def test_the_words_tell_where_motion_begins_on_the_way_the_test_is_called():
     # 5 % of the top speed, (5.00 + 0.80 - 0.2)/2 = 2.79 m/s, is 0.14 m/s: 0.2 + 0.8 + 2·0.14 V
     assert (
-        "they move forward, faster than 0.14 m/s, from 1.28 V on" in voltage_velocity(ELEVATOR).alt
+        "they move forward, faster than 0.14 m/s, from 1.28 V on"
+        in plot_voltage_velocity(ELEVATOR).alt
     )
     flipped = replace(FOUR.runs[0], velocity=-FOUR.runs[0].velocity)
-    assert "faster than 0.12 m/s, nowhere" in voltage_velocity(Log((flipped,))).alt
+    assert "faster than 0.12 m/s, nowhere" in plot_voltage_velocity(Log((flipped,))).alt
 
 
 def test_the_words_measure_how_straight_the_samples_lie():
-    straight = voltage_velocity(FOUR)
+    straight = plot_voltage_velocity(FOUR)
     assert "in motion they stray 0.000 V from a straight line" in straight.alt
     bent = replace(FOUR.runs[0], velocity=np.sqrt(FOUR.runs[0].velocity))
-    assert voltage_velocity(Log((bent,))).table.rows[0][-1] > 0.1
+    assert plot_voltage_velocity(Log((bent,))).table.rows[0][-1] > 0.1
 
 
 def test_tests_that_are_no_ramps_are_left_out_and_repeated_ones_counted():
     extra = [run_of(f"{kind}-forward") for kind in KINDS[2:]]
     log = replace(FOUR, runs=(*FOUR.runs, *extra, run_of("quasistatic-forward", start=80.0)))
-    picture = voltage_velocity(log)
+    picture = plot_voltage_velocity(log)
     assert "The 1000 samples of the 2 forward tests" in picture.alt
     (legend,) = (axes.get_legend() for axes in picture.figure.axes[:1])
     assert [text.get_text() for text in legend.get_texts()] == ["forward", "reverse"]
@@ -173,18 +188,20 @@ def test_tests_that_are_no_ramps_are_left_out_and_repeated_ones_counted():
 @pytest.mark.parametrize("zoom", [0.0, -1.0, float("nan")])
 def test_a_zoom_that_shows_nothing_is_refused(zoom):
     with pytest.raises(BadRequest, match="Choose one above 0"):
-        voltage_velocity(FOUR, zoom=zoom)
+        plot_voltage_velocity(FOUR, zoom=zoom)
 
 
 @pytest.mark.parametrize(
-    "draw", [time_series, voltage_velocity, timesteps], ids=lambda d: d.__name__
+    "draw", [plot_time_series, plot_voltage_velocity, plot_timesteps], ids=lambda d: d.__name__
 )
 def test_an_empty_run_is_refused_with_advice(draw):
     with pytest.raises(BadRequest, match=r"Give a log"):
         draw(Log((Run("quasistatic-forward", *np.zeros((4, 0))),)))
 
 
-@pytest.mark.parametrize("draw", [time_series, voltage_velocity], ids=lambda d: d.__name__)
+@pytest.mark.parametrize(
+    "draw", [plot_time_series, plot_voltage_velocity], ids=lambda d: d.__name__
+)
 def test_one_sample_is_drawn(draw):
     one = Run("quasistatic-forward", [1.0], [0.5], [0.0], [0.0])
     picture = draw(Log((one,)))
@@ -194,7 +211,7 @@ def test_one_sample_is_drawn(draw):
 
 def test_a_log_that_never_moves_is_drawn():
     still = replace(FOUR.runs[0], velocity=np.zeros(500))
-    picture = voltage_velocity(Log((still,)))
+    picture = plot_voltage_velocity(Log((still,)))
     assert picture.svg
     assert "reach 0.00 m/s" in picture.alt
 
@@ -211,7 +228,9 @@ def huge():
 
 
 @pytest.mark.parametrize(
-    "draw", [time_series, voltage_velocity, timesteps, velocity_time], ids=lambda d: d.__name__
+    "draw",
+    [plot_time_series, plot_voltage_velocity, plot_timesteps, plot_velocity_time],
+    ids=lambda d: d.__name__,
 )
 def test_a_huge_log_makes_a_small_picture_that_counts_every_sample(draw, huge):
     picture = draw(huge)
@@ -220,18 +239,18 @@ def test_a_huge_log_makes_a_small_picture_that_counts_every_sample(draw, huge):
 
 
 def test_thinning_keeps_the_one_sample_that_matters(huge):
-    for axes in time_series(huge).figure.axes[2:]:
+    for axes in plot_time_series(huge).figure.axes[2:]:
         assert max(line.get_ydata().max() for line in axes.lines) > 30.0
-    whole = voltage_velocity(huge).figure.axes[0]
+    whole = plot_voltage_velocity(huge).figure.axes[0]
     assert max(line.get_xdata().max() for line in whole.lines) > 30.0
 
 
 def test_drawing_changes_nothing_in_matplotlib_and_nothing_in_the_log():
     before, time = dict(rcParams), FOUR.runs[0].time.copy()
     for picture in (
-        time_series(FOUR, damages=[_damage("x", 0, 1.0, 2.0)]),
-        timesteps(FOUR),
-        voltage_velocity(FOUR, lines={"a": Line(0.2, 2.0)}),
+        plot_time_series(FOUR, damages=[_damage("x", 0, 1.0, 2.0)]),
+        plot_timesteps(FOUR),
+        plot_voltage_velocity(FOUR, lines={"a": Line(0.2, 2.0)}),
     ):
         assert picture.svg
     assert dict(rcParams) == before

@@ -5,19 +5,25 @@ import pytest
 from html_tags import Tags
 
 from sim.core.errors import BadRequest
-from sim.plot import budget, gauge, measure_tracking_error, relative_change, tracking_error
-from sim.plot.gauge import band_of
+from sim.plot import (
+    measure_tracking_error,
+    plot_budget,
+    plot_gauge,
+    plot_relative_change,
+    plot_tracking_error,
+)
+from sim.plot.gauge import find_band
 
 TIME = np.linspace(0.0, 2.0, 41)
 BANDS = {"fine": 0.5, "watch": 5.0, "stop": 6.0}
 TERMS = {"kS": np.full(41, 0.2), "kV·v": 2.0 * TIME, "kA·a": np.linspace(1.0, -1.0, 41)}
 APPLIED = sum(TERMS.values())
 PICTURES = {
-    "chase": lambda: tracking_error(TIME, TIME, {"a": TIME + 0.1, "b": TIME}, title="A race"),
-    "budget": lambda: budget(TIME, TERMS, applied=APPLIED),
-    "budget at a moment": lambda: budget(TIME, TERMS, applied=APPLIED, moment=1.5),
-    "change": lambda: relative_change({"kS": 0.829, "kV": 1.206, "kA": 1.001}),
-    "gauge": lambda: gauge({"left": 0.2, "right": 0.9}, BANDS, label="kS [V]", good="fine"),
+    "chase": lambda: plot_tracking_error(TIME, TIME, {"a": TIME + 0.1, "b": TIME}, title="A race"),
+    "budget": lambda: plot_budget(TIME, TERMS, applied=APPLIED),
+    "budget at a moment": lambda: plot_budget(TIME, TERMS, applied=APPLIED, moment=1.5),
+    "change": lambda: plot_relative_change({"kS": 0.829, "kV": 1.206, "kA": 1.001}),
+    "gauge": lambda: plot_gauge({"left": 0.2, "right": 0.9}, BANDS, label="kS [V]", good="fine"),
 }
 
 
@@ -63,14 +69,16 @@ def test_terms_that_take_volts_stand_on_each_other_and_those_that_give_hang_belo
     [(0.0, "fine"), (0.5, "fine"), (0.51, "watch"), (5.1, "stop"), (99.0, "stop")],
 )
 def test_a_number_lies_in_its_band(value, band):
-    assert band_of(value, BANDS) == band
-    assert gauge({"x": value}, BANDS, label="kS [V]", good="fine").table.rows == (
+    assert find_band(value, BANDS) == band
+    assert plot_gauge({"x": value}, BANDS, label="kS [V]", good="fine").table.rows == (
         ("x", value, band),
     )
 
 
 def test_two_marks_of_the_same_number_are_both_seen():
-    (axes,) = gauge({"left": 0.2, "right": 0.2}, BANDS, label="kS [V]", good="fine").figure.axes
+    (axes,) = plot_gauge(
+        {"left": 0.2, "right": 0.2}, BANDS, label="kS [V]", good="fine"
+    ).figure.axes
     heights = [float(line.get_ydata()[0]) for line in axes.lines]
     assert heights == [0.22, -0.22]
 
@@ -81,7 +89,7 @@ def test_two_marks_of_the_same_number_are_both_seen():
     [(0.0, (0.0, 6.0)), (6.0, (0.0, 6.0)), (-4.0, (-4.5, 6.0)), (14.0, (0.0, 14.7))],
 )
 def test_a_mark_outside_the_bands_does_not_stand_on_the_edge(value, ends):
-    (axes,) = gauge({"x": value}, BANDS, label="kS [V]", good="fine").figure.axes
+    (axes,) = plot_gauge({"x": value}, BANDS, label="kS [V]", good="fine").figure.axes
     assert axes.get_xlim() == pytest.approx(ends)
 
 
@@ -93,15 +101,15 @@ def test_a_change_says_what_grew_and_what_shrank():
 @pytest.mark.parametrize(
     ("draw", "advice"),
     [
-        (lambda: tracking_error(TIME, TIME, {}), "Give one or more"),
-        (lambda: tracking_error(TIME, TIME, {"a": TIME[1:]}), "of equal length"),
-        (lambda: budget(TIME, {}, applied=APPLIED), "Give one or more"),
-        (lambda: budget(TIME, TERMS, applied=APPLIED[1:]), "of equal length"),
-        (lambda: relative_change({}), "Divide what is now"),
-        (lambda: relative_change({"x": -1.0}), "Divide what is now"),
-        (lambda: gauge({}, BANDS, label="", good="fine"), "a larger end"),
-        (lambda: gauge({"x": 1.0}, BANDS, label="", good="best"), "a larger end"),
-        (lambda: gauge({"x": 1.0}, {"a": 2.0, "b": 1.0}, label="", good="a"), "a larger end"),
+        (lambda: plot_tracking_error(TIME, TIME, {}), "Give one or more"),
+        (lambda: plot_tracking_error(TIME, TIME, {"a": TIME[1:]}), "of equal length"),
+        (lambda: plot_budget(TIME, {}, applied=APPLIED), "Give one or more"),
+        (lambda: plot_budget(TIME, TERMS, applied=APPLIED[1:]), "of equal length"),
+        (lambda: plot_relative_change({}), "Divide what is now"),
+        (lambda: plot_relative_change({"x": -1.0}), "Divide what is now"),
+        (lambda: plot_gauge({}, BANDS, label="", good="fine"), "a larger end"),
+        (lambda: plot_gauge({"x": 1.0}, BANDS, label="", good="best"), "a larger end"),
+        (lambda: plot_gauge({"x": 1.0}, {"a": 2.0, "b": 1.0}, label="", good="a"), "a larger end"),
     ],
     ids=[
         "nobody",

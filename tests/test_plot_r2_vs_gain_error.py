@@ -3,7 +3,7 @@
 import pytest
 
 from sim.core.errors import BadRequest
-from sim.plot import r2_vs_gain_error
+from sim.plot import plot_r2_vs_gain_error
 
 SCORES = {"clean": 0.99, "a lurch": 0.92, "spikes": 0.81}
 OFF = {
@@ -13,7 +13,7 @@ OFF = {
 
 
 def drawn(**changes):
-    return r2_vs_gain_error(SCORES, **({"good": 0.9, "score": "sim R²", "off": OFF} | changes))
+    return plot_r2_vs_gain_error(SCORES, **({"good": 0.9, "score": "sim R²", "off": OFF} | changes))
 
 
 def test_a_badge_says_by_sign_and_number_whether_it_passes():
@@ -25,9 +25,9 @@ def test_a_badge_says_by_sign_and_number_whether_it_passes():
 def test_rows_keep_the_order_they_are_given_in():
     turned = dict(reversed(SCORES.items()))
 
-    assert [row[0] for row in r2_vs_gain_error(turned, good=0.9, score="R²").table.rows] == list(
-        turned
-    )
+    assert [
+        row[0] for row in plot_r2_vs_gain_error(turned, good=0.9, score="R²").table.rows
+    ] == list(turned)
 
 
 def test_hidden_errors_are_neither_drawn_nor_told():
@@ -47,7 +47,7 @@ def test_words_and_table_tell_the_errors():
 
 
 def test_a_score_at_the_threshold_does_not_pass():
-    assert r2_vs_gain_error({"edge": 0.9}, good=0.9, score="R²").table.rows[0][2] == "no"
+    assert plot_r2_vs_gain_error({"edge": 0.9}, good=0.9, score="R²").table.rows[0][2] == "no"
 
 
 @pytest.mark.parametrize(
@@ -55,4 +55,4 @@ def test_a_score_at_the_threshold_does_not_pass():
 )
 def test_what_cannot_be_drawn_is_refused(scores, off):
     with pytest.raises(BadRequest, match="Give one or more"):
-        r2_vs_gain_error(scores, good=0.9, score="R²", off=off)
+        plot_r2_vs_gain_error(scores, good=0.9, score="R²", off=off)

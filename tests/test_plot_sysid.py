@@ -10,7 +10,7 @@ import sim
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import FOUR_TESTS, Log
 from sim.fit.sysid_rows import prepare_rows
-from sim.plot import acceleration_velocity, velocity_time
+from sim.plot import plot_acceleration_velocity, plot_velocity_time
 
 PERIOD, STEP = 0.02, 0.0005  # [s] between samples, and between two steps of the motion
 SIMPLE = {"kS": 0.2, "kV": 2.0, "kA": 0.3}
@@ -53,7 +53,7 @@ each_type = pytest.mark.parametrize("kind", CASES)
 def test_with_the_true_gains_the_samples_lie_on_the_line(kind):
     gains, log = CASES[kind]
     scale = 180.0 / np.pi if kind == "arm" else 1.0
-    for row in acceleration_velocity(log, gains=gains).table.rows:
+    for row in plot_acceleration_velocity(log, gains=gains).table.rows:
         # a central difference over 40 ms at a time constant of 150 ms, and half the true slope at
         # the first sample, are off by a tenth of the largest acceleration (3.0 V / 0.3) at most
         assert row[5] < 0.1 * 10.0 * scale
@@ -64,8 +64,8 @@ def test_with_the_true_gains_the_samples_lie_on_the_line(kind):
 )
 def test_a_wrong_gain_takes_them_off_the_line(kind, wrong):
     gains, log = CASES[kind]
-    right = acceleration_velocity(log, gains=gains).table.rows
-    other = acceleration_velocity(log, gains=gains | {wrong: gains[wrong] + 0.3}).table.rows
+    right = plot_acceleration_velocity(log, gains=gains).table.rows
+    other = plot_acceleration_velocity(log, gains=gains | {wrong: gains[wrong] + 0.3}).table.rows
     assert sum(row[5] for row in other) > 1.3 * sum(row[5] for row in right)
 
 
@@ -74,13 +74,13 @@ def test_the_quantity_is_that_of_sysids_source():
     rows = prepare_rows(log).rows["quasistatic-reverse"]
     # As in AnalyzerPlot.cpp: from the acceleration V/kA is taken off, sgn(v)·kS/kA is added.
     expected = rows.acceleration - rows.voltage / 0.3 + np.copysign(0.2 / 0.3, rows.velocity)
-    drawn = acceleration_velocity(log, gains=SIMPLE).figure.axes[0].lines[1]
+    drawn = plot_acceleration_velocity(log, gains=SIMPLE).figure.axes[0].lines[1]
     assert np.isin(np.round(drawn.get_ydata(), 9), np.round(expected, 9)).all()
     assert drawn.get_ydata().size > 100
 
 
 def test_the_fit_is_a_line_through_the_origin_with_the_slope_of_the_gains():
-    picture = acceleration_velocity(CASES["simple"][1], gains=SIMPLE)
+    picture = plot_acceleration_velocity(CASES["simple"][1], gains=SIMPLE)
     line = picture.figure.axes[0].lines[-1]
     x, y = line.get_xdata(), line.get_ydata()
     assert y == pytest.approx(-2.0 / 0.3 * x)
@@ -89,7 +89,7 @@ def test_the_fit_is_a_line_through_the_origin_with_the_slope_of_the_gains():
 
 def test_without_gains_it_is_the_acceleration_itself():
     log = CASES["simple"][1]
-    picture = acceleration_velocity(log)
+    picture = plot_acceleration_velocity(log)
     step = next(row for row in picture.table.rows if row[0] == "dynamic-forward")
     # under 3 V: (3.0 - 0.2)/0.3 at standstill, falling by kV/kA per second
     assert step[4] == pytest.approx(2.8 / 0.3, rel=0.05)
@@ -99,8 +99,8 @@ def test_without_gains_it_is_the_acceleration_itself():
 
 def test_an_arm_in_degrees_shows_the_same_as_in_radians():
     _, log = CASES["arm"]
-    degrees = acceleration_velocity(log, gains=ARM).table.rows
-    radians = acceleration_velocity(replace(log, units="radians"), gains=ARM).table.rows
+    degrees = plot_acceleration_velocity(log, gains=ARM).table.rows
+    radians = plot_acceleration_velocity(replace(log, units="radians"), gains=ARM).table.rows
     for one, other in zip(degrees, radians, strict=True):
         assert np.radians(one[5]) == pytest.approx(other[5])
 
@@ -117,10 +117,12 @@ def test_an_arm_in_degrees_shows_the_same_as_in_radians():
 )
 def test_gains_that_make_no_line_are_refused(gains, said):
     with pytest.raises(BadRequest, match=f"{said}.*Give "):
-        acceleration_velocity(CASES["simple"][1], gains=gains)
+        plot_acceleration_velocity(CASES["simple"][1], gains=gains)
 
 
-@pytest.mark.parametrize("draw", [acceleration_velocity, velocity_time], ids=lambda d: d.__name__)
+@pytest.mark.parametrize(
+    "draw", [plot_acceleration_velocity, plot_velocity_time], ids=lambda d: d.__name__
+)
 @pytest.mark.parametrize(
     "log",
     [Log(()), replace(FOUR, runs=FOUR.runs[:3]), log_of(*FOUR_TESTS, seconds=0.02)],
@@ -133,14 +135,14 @@ def test_what_sysid_cannot_use_is_refused(draw, log):
 
 def test_what_the_fit_uses_is_counted_and_drawn_where_it_is():
     log = CASES["simple"][1]
-    picture, rows = velocity_time(log), prepare_rows(log).rows
+    picture, rows = plot_velocity_time(log), prepare_rows(log).rows
     for axes, test in zip(
         picture.figure.axes,
         ("quasistatic-forward", "dynamic-forward", "quasistatic-reverse", "dynamic-reverse"),
         strict=True,
     ):
         used = next(line for line in axes.lines if line.get_label() == "used by the fit")
-        start = log.of(test)[0].time[0]
+        start = log.runs_of_test(test)[0].time[0]
         assert used.get_xdata() == pytest.approx(rows[test].time - start)
         assert axes.get_title() == f"{test}: {len(rows[test])} of 150 used"
         assert f"Of {test} {len(rows[test])} of 150 samples are used" in picture.alt
@@ -151,7 +153,7 @@ def test_the_median_filter_shows_in_the_line_and_in_the_words():
     spiked = log.runs[0].velocity.copy()
     spiked[100] += 5.0
     log = replace(log, runs=(replace(log.runs[0], velocity=spiked), *log.runs[1:]))
-    raw, filtered = velocity_time(log), velocity_time(log, median=3)
+    raw, filtered = plot_velocity_time(log), plot_velocity_time(log, median=3)
     assert raw.table.rows[0][5] > 5.0 > filtered.table.rows[0][5]
     assert "smoothed by a median over 3 samples" in filtered.alt
     assert "smoothed" not in raw.alt
@@ -160,12 +162,12 @@ def test_the_median_filter_shows_in_the_line_and_in_the_words():
 def test_a_model_beside_is_drawn_and_its_miss_told():
     log = CASES["simple"][1]
     slower = tuple(replace(run, velocity=run.velocity - 0.25) for run in log.runs)
-    picture = velocity_time(log, beside=replace(log, runs=slower), name="model")
+    picture = plot_velocity_time(log, beside=replace(log, runs=slower), name="model")
     assert [row[6] for row in picture.table.rows] == pytest.approx([0.25] * 4)
     assert "the model is off by 0.250 m/s" in picture.alt
     assert all("model" in axes.get_legend_handles_labels()[1] for axes in picture.figure.axes)
 
 
 def test_the_dynamic_tests_can_be_shown_in_part():
-    picture = velocity_time(CASES["simple"][1], dynamic_seconds=0.5)
+    picture = plot_velocity_time(CASES["simple"][1], dynamic_seconds=0.5)
     assert [axes.get_xlim()[1] == 0.5 for axes in picture.figure.axes] == [False, True] * 2

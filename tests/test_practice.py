@@ -9,7 +9,7 @@ import pytest
 
 from grader.exercise import Exercise, find_exercise
 from grader.mistake import put, scaled
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
@@ -155,6 +155,13 @@ def test_what_is_missing_is_told_and_no_crash(tmp_path, solved, changed, check, 
     assert says in f"{results[check].seen} {first.seen}"
 
 
+def test_an_r2_of_one_is_no_measurement(tmp_path, solved):
+    found = graded(tmp_path, solved, simulated_velocity_r2="1")["r2"]
+
+    assert (found.points, found.misconception) == (0, "M-R2")
+    assert "Write down the digits" in found.hint
+
+
 def test_files_may_have_names_of_their_own(tmp_path, solved):
     texts = {**solved, "Arm.java": solved["ExampleSubsystem.java"]}
     texts["ExampleSubsystem.java"] = "public class Empty {}\n"
@@ -190,7 +197,7 @@ def test_the_learner_gets_a_log_and_its_parts(tmp_path):
     Exercise("practice", copy).prepare("zoë", say=said.append)
 
     assert len(said) == 1
-    assert {one.name for one in (copy / "data" / folder_name("zoë")).iterdir()} == {
+    assert {one.name for one in (copy / "data" / make_folder_name("zoë")).iterdir()} == {
         "given.toml",
         "log.wpilog",
     }

@@ -11,7 +11,7 @@ from small_course import answer, lay_out
 from grader.classroom.feedback_text import feedback
 from grader.cli import run
 from grader.notebook import submit
-from sim.support.printable import DIRECTIONS, printable
+from sim.support.printable import DIRECTIONS, make_printable
 
 COMMANDS = re.compile(
     "[" + "".join(map(re.escape, sorted(DIRECTIONS))) + "\x00-\x08\x0b-\x1f\x7f-\x9f]"
@@ -29,7 +29,7 @@ def course(tmp_path, monkeypatch):
 
 @given(st.text())
 def test_nothing_in_it_commands_and_the_rest_stays(text):
-    shown = printable(text)
+    shown = make_printable(text)
 
     assert not COMMANDS.search(shown)
     assert len(shown) == len(text)

@@ -66,7 +66,7 @@ def test_the_wrist_is_held_for_five_seconds(shared):
 
 @pytest.mark.parametrize("name", COMPLETE)
 def test_what_sysid_answers_well_is_clean(name):
-    assert inspect(read(ANSWERS / f"{name}.csv")).clean
+    assert inspect(read(ANSWERS / f"{name}.csv")).is_clean
 
 
 def cases(shared):

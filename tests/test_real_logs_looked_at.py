@@ -165,4 +165,4 @@ def test_a_log_in_which_nothing_moves_says_so(logs):
     found = inspect(read(logs / name))
 
     assert [doubt.code for doubt in found.doubts if doubt.grave] == ["no-motion"]
-    assert not found.clean
+    assert not found.is_clean

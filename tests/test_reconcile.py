@@ -7,11 +7,11 @@ import pytest
 from reconcile_made import bench, logs, session, solved, told
 
 from sim.cli.reconcile import inspect_damage
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.inspect.contaminate import contaminate
 from sim.physics.effects import EFFECTS
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.story_text import headline, list_remarks
+from sim.reconcile.story_text import list_remarks, write_headline
 from sim.reconcile.thresholds import NOT_WIDER
 
 HIDDEN = {
@@ -55,7 +55,7 @@ def test_its_numbers_are_those_that_were_hidden(name):
     mechanism, effect, simple = HIDDEN[name]
     story = case(name)
     (part,) = bench(mechanism, effect, simple=simple).hidden
-    si = unit(story.shown.units).si
+    si = find_unit(story.shown.units).si
 
     for one in EFFECTS[effect].parameters:
         found = story.findings[0].parameters[one.name]
@@ -70,8 +70,8 @@ def test_the_gap_shrinks_to_the_noise_on_runs_that_were_never_fitted(name):
 
     assert story.gap_before > 3.0 * story.noise_floor
     assert story.gap_after < FLOOR * story.noise_floor
-    assert "with" in headline(story)
-    assert "the gap shrinks from" in headline(story)
+    assert "with" in write_headline(story)
+    assert "the gap shrinks from" in write_headline(story)
 
 
 @pytest.mark.parametrize("name", HIDDEN)
@@ -134,7 +134,7 @@ def test_a_gap_that_does_not_shrink_on_the_held_out_log_is_said():
 
     assert named(story) == ["constant-load"]
     assert story.gap_after > story.gap_before
-    assert "with it the gap does not shrink" in headline(story)
+    assert "with it the gap does not shrink" in write_headline(story)
     assert any("do not trust the finding" in one for one in list_remarks(story))
     assert any("make sure that it is of the same mechanism" in one for one in story.notes)
 
@@ -209,7 +209,7 @@ def test_voltages_of_other_moments_are_explained_by_nothing():
 
     assert story.verdict == "unexplained"
     assert named(story) == []
-    assert headline(story).startswith("Something is missing that no effect")
+    assert write_headline(story).startswith("Something is missing that no effect")
 
 
 @pytest.mark.parametrize(

@@ -71,13 +71,13 @@ def begun_at(places, *, step, seed):
 
 @pytest.fixture(scope="module")
 def problem():
-    return PredictionErrorProblem.of(run_records(session(0, step=4.0, seed=1)))
+    return PredictionErrorProblem.from_records(run_records(session(0, step=4.0, seed=1)))
 
 
 def at(problem, structure=PLAYS, nuisance=None):
-    begun = nuisance or RunNuisance.seen(len(problem.records))
+    begun = nuisance or RunNuisance.at_first_samples(len(problem.records))
     values = {name: VALUES[name] for name in structure.names}
-    return problem.at(structure, values, begun, problem.noise.velocity**2)
+    return problem.evaluate(structure, values, begun, problem.noise.velocity**2)
 
 
 def test_each_run_is_begun_where_it_went_on_from(problem):
@@ -92,8 +92,10 @@ def test_each_run_is_begun_where_it_went_on_from(problem):
 
 
 def test_a_second_look_is_nearer():
-    off = PredictionErrorProblem.of(run_records(session(1, step=3.0, seed=2)))  # -1, 0, 1 and -0.5
-    began = RunNuisance.seen(4).meshing(np.array([-0.8, 0.2, 0.8, -0.7]))
+    off = PredictionErrorProblem.from_records(
+        run_records(session(1, step=3.0, seed=2))
+    )  # -1, 0, 1 and -0.5
+    began = RunNuisance.at_first_samples(4).with_backlash_phase(np.array([-0.8, 0.2, 0.8, -0.7]))
 
     seen = estimate_backlash_phase(off, at(off, nuisance=began))
 
@@ -103,18 +105,22 @@ def test_a_second_look_is_nearer():
 
 
 def test_a_start_that_was_told_amiss_is_gone_untold_too():
-    problem = PredictionErrorProblem.of(run_records(begun_at([0.0] * len(BEGAN), step=6.0, seed=3)))
+    problem = PredictionErrorProblem.from_records(
+        run_records(begun_at([0.0] * len(BEGAN), step=6.0, seed=3))
+    )
     stiff = at(problem, ModelStructure("simple"))
     base = minimize_fully(problem, stiff)
-    told = RunNuisance.seen(len(BEGAN)).meshing(np.array([1.0, -1.0, 1.0, -1.0]))
+    told = RunNuisance.at_first_samples(len(BEGAN)).with_backlash_phase(
+        np.array([1.0, -1.0, 1.0, -1.0])
+    )
     values = {**base.values, "backlash.slack": SLACK, "backlash.share": SHARE}
-    start = problem.at(PLAYS, values, told, base.process_noise)
+    start = problem.evaluate(PLAYS, values, told, base.process_noise)
     assert levenberg_marquardt(problem, start, steps=FURTHER).cost > base.cost  # it leads nowhere
 
     found = descend_candidate(problem, base, start)
 
     assert found.cost < base.cost - 5000.0
-    assert not found.nuisance.is_meshed
+    assert not found.nuisance.has_backlash_phase
 
 
 def test_what_is_told_has_its_price(problem):
@@ -160,5 +166,7 @@ def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
 
     turned = session(0, step=4.0, seed=1)
     back = replace(turned.runs[0], velocity=turned.runs[0].velocity * np.sign(np.arange(600) - 300))
-    there = PredictionErrorProblem.of(run_records(replace(turned, runs=(back, *turned.runs[1:]))))
+    there = PredictionErrorProblem.from_records(
+        run_records(replace(turned, runs=(back, *turned.runs[1:])))
+    )
     assert list_remarks(there, [one], [named("backlash")], ResidualSummary()) == ()

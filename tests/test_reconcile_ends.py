@@ -13,6 +13,7 @@ from sim.reconcile.backward_elimination import simplify_effects
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import make_folds, open_loop_errors, rms_gap, validation_gap
 from sim.reconcile.local_minimum import minimize, minimize_fully
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
@@ -26,13 +27,15 @@ def session(*parts, step, frictions=(1.0, 1.0, 1.0, 1.0)):
 def at(problem, values, *effects, process_noise=1.0):
     structure = ModelStructure("simple", effects)
     size = process_noise * problem.noise.velocity**2
-    return problem.at(structure, values, RunNuisance.seen(len(problem.records)), size)
+    return problem.evaluate(
+        structure, values, RunNuisance.at_first_samples(len(problem.records)), size
+    )
 
 
 def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
     wave = {"cosine": 0.19, "sine": 0.0, "turns": 3.0}  # ten of them to an error of 0.2 rad
     log = session(Part("cogging", wave), step=4.0, frictions=(1.05, 0.95, 0.96, 1.04))
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     values = {**GAINS, **{f"cogging.{name}": value for name, value in wave.items()}}
     truth, without = at(problem, values, "cogging"), at(problem, GAINS)
 
@@ -49,7 +52,7 @@ def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
 
 @pytest.mark.parametrize("off", [4.0, 0.3])
 def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
-    problem = PredictionErrorProblem.of(run_records(session(step=4.0)))
+    problem = PredictionErrorProblem.from_records(run_records(session(step=4.0)))
     far = {"kS": 0.0, "kV": off * GAINS["kV"], "kA": 20.0 * GAINS["kA"]}
     begun = at(problem, far, process_noise=4.0**6)
 
@@ -61,13 +64,13 @@ def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
 
 
 def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
-    problem = PredictionErrorProblem.of(run_records(session(step=4.0)))
+    problem = PredictionErrorProblem.from_records(run_records(session(step=4.0)))
     begun = at(problem, {"kS": 0.3, "kV": 0.8, "kA": 0.1})
     costs = [begun.cost]
 
     def halfway(problem, point):
         values = {name: 0.5 * (point.values[name] + GAINS[name]) for name in GAINS}
-        found = problem.at(point.structure, values, point.nuisance, point.process_noise)
+        found = problem.evaluate(point.structure, values, point.nuisance, point.process_noise)
         costs.append(found.cost)
         return found
 
@@ -79,29 +82,29 @@ def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
 
 def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     log = session(Part("constant-load", {"load": 0.3}), step=4.0)
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     parts = make_folds([one.session for one in problem.records])
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     spring = {**GAINS, "spring.rate": 1e-4, "spring.preload": 0.3}
     taken = score_estimate(problem, minimize(problem, at(problem, spring, "spring")), "spring")
-    gaps = [validation_gap(problem, one.point, parts) for one in (base, taken)]
+    gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
-    told = simplify_effects(problem, done, log, parts)
+    told = simplify_effects(SelectionData(problem, parts), done, log)
 
     assert [one.candidate.effect for one in told] == ["", "constant-load"]
-    assert told[-1].candidate.point.structure.effects == ("constant-load",)
-    assert told[-1].candidate.point.values["constant-load.load"] == pytest.approx(0.3, abs=0.02)
+    assert told[-1].candidate.estimate.structure.effects == ("constant-load",)
+    assert told[-1].candidate.estimate.values["constant-load.load"] == pytest.approx(0.3, abs=0.02)
 
 
 def test_an_effect_that_needs_its_parameters_keeps_them():
     log = session(Part("spring", {"rate": 0.1, "preload": 0.0}), step=4.0)
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     parts = make_folds([one.session for one in problem.records])
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}
     taken = score_estimate(problem, minimize(problem, at(problem, values, "spring")), "spring")
-    gaps = [validation_gap(problem, one.point, parts) for one in (base, taken)]
+    gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
-    assert simplify_effects(problem, done, log, parts) == done
+    assert simplify_effects(SelectionData(problem, parts), done, log) == done

@@ -4,7 +4,7 @@ import pytest
 from story_made import STORIES
 from test_report_in_browser import FAINTEST, LEAST_CONTRAST, browser
 
-from sim.reconcile.story_text import headline
+from sim.reconcile.story_text import write_headline
 from sim.report.story import write_story
 
 __all__ = ["browser"]  # the fixture is that of the other page
@@ -28,7 +28,7 @@ def test_a_story_is_alone_and_legible_on_every_screen(browser, tmp_path, name):
 
             assert page.evaluate(FAINTEST) >= LEAST_CONTRAST, (theme, screen)
             assert page.evaluate("document.documentElement.scrollWidth") <= size["width"]
-            assert page.get_by_text(headline(STORIES[name])).is_visible()
+            assert page.get_by_text(write_headline(STORIES[name])).is_visible()
             assert page.locator("#overlays img").last.is_visible()  # open without a click
             for picture in page.locator("img").all():
                 width = picture.evaluate("image => image.decode().then(() => image.naturalWidth)")

@@ -9,7 +9,7 @@ from reconcile_made import bench, recorded, session, told
 from sim.core.log import Log, Run
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import joint_jacobian
+from sim.estimation.optimize import make_joint_jacobian
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import join_records, run_records, session_length
 from sim.physics.effects import EFFECTS
@@ -24,6 +24,7 @@ from sim.reconcile.local_minimum import minimize, predicted_improvement
 from sim.reconcile.onset_scan import flip_duration, refine_onset, scan_onsets
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 
 PERIOD, LATER = 0.02, 1e6  # [s]
@@ -98,7 +99,7 @@ def test_a_drop_between_two_samples_is_where_the_search_begins(third):
     log = sessions["log"]
     evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
 
-    first, second, *_ = EFFECTS["inertia-change"].starts(evidence)
+    first, second, *_ = EFFECTS["inertia-change"].start_values(evidence)
 
     assert first["onset"] == second["onset"] == pytest.approx(third + 0.513, abs=PERIOD)
     assert first["extra"] == pytest.approx(extra, rel=0.35)
@@ -110,7 +111,7 @@ def test_a_run_without_a_drop_gives_no_such_start():
     log = session(bench("drivetrain"), "log")
     evidence = compute_voltage_residual(log, dict(bench("drivetrain").gains), type="simple")
 
-    first = next(iter(EFFECTS["inertia-change"].starts(evidence)))
+    first = next(iter(EFFECTS["inertia-change"].start_values(evidence)))
 
     assert first["shared"] == 0.0
 
@@ -127,7 +128,7 @@ def log_with(parts):
     rng = np.random.default_rng(1)
     runs, clock = [], 0.0
     for test in TESTS:
-        begun = {"state": replace(State.at(0.0), clock=clock), "began": clock}
+        begun = {"state": replace(State.cold_at(0.0), clock=clock), "began": clock}
         model = Model("simple", GAINS, parts)
         runs.append(recorded(test, model, step=5.0, noise=NOISE, rng=rng, **begun))
         clock = float(runs[-1].time[-1]) + 2.0
@@ -155,13 +156,13 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
     until = dynamic + lasts if lasts < LATER else LATER
     values = {"extra": 0.02, "onset": dynamic + after, "until": until, "shared": shared}
     log = log_with((Part("inertia-change", values),))
-    problem = PredictionErrorProblem.of(run_records(log))
-    begun = RunNuisance.seen(len(problem.records))
+    problem = PredictionErrorProblem.from_records(run_records(log))
+    begun = RunNuisance.at_first_samples(len(problem.records))
     point = minimize(
-        problem, problem.at(ModelStructure("simple"), GAINS, begun, problem.noise.velocity**2)
+        problem, problem.evaluate(ModelStructure("simple"), GAINS, begun, problem.noise.velocity**2)
     )
 
-    kept = joint_jacobian(problem, point)
+    kept = make_joint_jacobian(problem, point)
     tried = list(scan_onsets(problem, point, EFFECTS["inertia-change"], kept=kept))
 
     likeliest = max(
@@ -176,13 +177,15 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
 
 
 def test_what_would_leave_the_whole_log_is_no_moment():
-    problem = PredictionErrorProblem.of(run_records(log_with(())))
-    point = problem.at(
-        ModelStructure("simple"), GAINS, RunNuisance.seen(4), problem.noise.velocity**2
+    problem = PredictionErrorProblem.from_records(run_records(log_with(())))
+    point = problem.evaluate(
+        ModelStructure("simple"), GAINS, RunNuisance.at_first_samples(4), problem.noise.velocity**2
     )
 
     tried = list(
-        scan_onsets(problem, point, EFFECTS["inertia-change"], kept=joint_jacobian(problem, point))
+        scan_onsets(
+            problem, point, EFFECTS["inertia-change"], kept=make_joint_jacobian(problem, point)
+        )
     )
 
     assert tried
@@ -197,10 +200,15 @@ def test_what_would_leave_the_whole_log_is_no_moment():
 )
 def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, score, admitted):
     log = log_with(())
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     base = score_estimate(
         problem,
-        problem.at(ModelStructure("simple"), GAINS, RunNuisance.seen(4), problem.noise.velocity**2),
+        problem.evaluate(
+            ModelStructure("simple"),
+            GAINS,
+            RunNuisance.at_first_samples(4),
+            problem.noise.velocity**2,
+        ),
     )
     other = replace(base, effect=effect, score=base.score - score)
     gap = Gap(1.0, 1.0)
@@ -208,18 +216,25 @@ def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, s
     monkeypatch.setattr(model_selection, "validation_gap", lambda *_: Gap(0.9, 0.9))
 
     (one,) = model_selection.weigh_candidates(
-        problem, SelectionRound(base, gap, gap), log, make_folds([0, 0, 0, 0])
+        SelectionData(problem, make_folds([0, 0, 0, 0])),
+        SelectionRound(base, gap, gap),
+        log,
     )
 
-    assert one.tried.admitted is admitted
+    assert one.report.admitted is admitted
 
 
 def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypatch):
     log = log_with(())
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     base = score_estimate(
         problem,
-        problem.at(ModelStructure("simple"), GAINS, RunNuisance.seen(4), problem.noise.velocity**2),
+        problem.evaluate(
+            ModelStructure("simple"),
+            GAINS,
+            RunNuisance.at_first_samples(4),
+            problem.noise.velocity**2,
+        ),
     )
     gap = Gap(1.0, 1.0)
     names = ("inertia-change", "drag")
@@ -228,23 +243,27 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
     monkeypatch.setattr(model_selection, "validation_gap", lambda *_: gap)
 
     inertia, drag = model_selection.weigh_candidates(
-        problem, SelectionRound(base, gap, gap), log, make_folds([0, 0, 0, 0])
+        SelectionData(problem, make_folds([0, 0, 0, 0])),
+        SelectionRound(base, gap, gap),
+        log,
     )
 
-    assert inertia.tried.admitted
-    assert drag.tried.why == model_selection.HARDLY
+    assert inertia.report.admitted
+    assert drag.report.why == model_selection.HARDLY
 
 
 @pytest.fixture(scope="module")
 def joined(dynamic):
     """A log in which inertia joins for good, and the point of it that has it over with its run."""
     part = Part("inertia-change", {"extra": 0.02, "onset": dynamic, "until": LATER, "shared": 0.0})
-    problem = PredictionErrorProblem.of(run_records(log_with((part,))))
+    problem = PredictionErrorProblem.from_records(run_records(log_with((part,))))
     ends = dynamic + float(np.ptp(problem.records[2].measurements.time)) + 1e-6
     over = {**part.parameters, "onset": dynamic + 1e-3, "until": ends}
     values = {**GAINS, **{f"inertia-change.{name}": value for name, value in over.items()}}
     structure = ModelStructure("simple") + "inertia-change"
-    return problem, problem.at(structure, values, RunNuisance.seen(4), problem.noise.velocity**2)
+    return problem, problem.evaluate(
+        structure, values, RunNuisance.at_first_samples(4), problem.noise.velocity**2
+    )
 
 
 def test_what_was_over_with_its_run_is_tried_for_good(joined):
@@ -257,7 +276,9 @@ def test_what_was_over_with_its_run_is_tried_for_good(joined):
     assert best.values["inertia-change.until"] == LATER
     assert best.values["inertia-change.extra"] == pytest.approx(0.02, rel=0.05)
     assert best.cost < minimize(problem, point).cost - 100.0
-    plain = problem.at(ModelStructure("simple"), GAINS, RunNuisance.seen(4), point.process_noise)
+    plain = problem.evaluate(
+        ModelStructure("simple"), GAINS, RunNuisance.at_first_samples(4), point.process_noise
+    )
     assert not list(flip_duration(problem, plain))
 
 
@@ -266,13 +287,17 @@ def test_what_was_over_with_its_run_is_tried_for_good(joined):
 def test_a_moment_is_found_between_two_samples(dynamic, shared, off):
     onset = dynamic + 0.0934
     given = {"extra": 0.03, "onset": onset, "until": LATER, "shared": shared}
-    problem = PredictionErrorProblem.of(run_records(log_with((Part("inertia-change", given),))))
+    problem = PredictionErrorProblem.from_records(
+        run_records(log_with((Part("inertia-change", given),)))
+    )
     begun = {
         **GAINS,
         **{f"inertia-change.{n}": v for n, v in {**given, "onset": onset + off}.items()},
     }
     structure = ModelStructure("simple") + "inertia-change"
-    point = problem.at(structure, begun, RunNuisance.seen(4), problem.noise.velocity**2)
+    point = problem.evaluate(
+        structure, begun, RunNuisance.at_first_samples(4), problem.noise.velocity**2
+    )
 
     found = refine_onset(problem, point)
 
@@ -282,12 +307,14 @@ def test_a_moment_is_found_between_two_samples(dynamic, shared, off):
 
 
 def test_a_moment_stays_on_the_clock():
-    problem = PredictionErrorProblem.of(run_records(log_with(())))
+    problem = PredictionErrorProblem.from_records(run_records(log_with(())))
     given = {"extra": 0.01, "onset": 0.0, "until": LATER, "shared": 0.0}
     values = {**GAINS, **{f"inertia-change.{n}": v for n, v in given.items()}}
     structure = ModelStructure("simple") + "inertia-change"
 
-    found = refine_onset(problem, problem.at(structure, values, RunNuisance.seen(4), 1e-4))
+    found = refine_onset(
+        problem, problem.evaluate(structure, values, RunNuisance.at_first_samples(4), 1e-4)
+    )
 
     assert found.values["inertia-change.onset"] >= 0.0
 

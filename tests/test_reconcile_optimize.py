@@ -10,7 +10,7 @@ from reconcile_made import NOWHERE, SESSIONS, bench, session, told
 
 from sim.estimation.likelihood import LARGEST, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import joint_jacobian
+from sim.estimation.optimize import make_joint_jacobian
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import ExcludedInterval, run_records
 from sim.physics.effects import EFFECTS
@@ -22,8 +22,9 @@ from sim.reconcile.cross_validation import Gap, open_loop_errors, rms_gap
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.local_minimum import predicted_improvement
 from sim.reconcile.model_selection import WIDENS, rejection_reason
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import WeighedCandidate
-from sim.reconcile.story import Tried
+from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import MAJOR
 
 BAND = 0.25  # [V] of an elevator whose ramps begin at 1.5 V upward, and at once downward
@@ -48,16 +49,16 @@ def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
 def test_a_start_that_is_far_too_large_is_halved():
     built = bench("drivetrain", "compliance", size=SUBTLE)
     truth = built.hidden[0].parameters["softness"]
-    problem = PredictionErrorProblem.of(run_records(session(built, "log")))
+    problem = PredictionErrorProblem.from_records(run_records(session(built, "log")))
     base = ModelStructure("simple")
     values = {name: built.gains[name] for name in base.names}
-    point = problem.at(
-        base, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
+    point = problem.evaluate(
+        base, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
     )
     far = {"compliance.softness": FAR * truth, "compliance.share": 0.25}
 
     begun = predicted_improvement(
-        problem, point, base + "compliance", [far], kept=joint_jacobian(problem, point)
+        problem, point, base + "compliance", [far], kept=make_joint_jacobian(problem, point)
     )
 
     gained, at_once = begun[0]
@@ -70,11 +71,11 @@ def test_a_start_that_is_far_too_large_is_halved():
 
 @pytest.mark.parametrize("far", [1e200, math.inf, -math.inf, math.nan])
 def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
-    problem = PredictionErrorProblem.of(run_records(session(bench("drivetrain"), "log")))
+    problem = PredictionErrorProblem.from_records(run_records(session(bench("drivetrain"), "log")))
     table = np.zeros_like(problem.measured)
     table[3] = far
 
-    white = problem.white(NOWHERE, table)
+    white = problem.whiten(NOWHERE, table)
 
     assert np.isfinite(np.sum(np.square(white)))
     assert np.max(np.abs(white)) >= LARGEST
@@ -84,11 +85,11 @@ def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
 def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
     built = bench("drivetrain", "asymmetric-back-emf")
     truth = built.hidden[0].parameters["lean"]
-    problem = PredictionErrorProblem.of(run_records(session(built, "log")))
+    problem = PredictionErrorProblem.from_records(run_records(session(built, "log")))
     base, name = ModelStructure("simple"), "asymmetric-back-emf"
     values = {name: built.gains[name] for name in base.names}
-    point = problem.at(
-        base, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
+    point = problem.evaluate(
+        base, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
     )
 
     begun = predicted_improvement(
@@ -96,7 +97,7 @@ def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
         point,
         base + name,
         [{f"{name}.lean": part * truth}],
-        kept=joint_jacobian(problem, point),
+        kept=make_joint_jacobian(problem, point),
     )
 
     _, best = max(begun, key=lambda one: one[0])
@@ -105,16 +106,16 @@ def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
 
 def test_what_cannot_be_negative_is_not_turned():
     built = bench("drivetrain", "drag")
-    problem = PredictionErrorProblem.of(run_records(session(built, "log")))
+    problem = PredictionErrorProblem.from_records(run_records(session(built, "log")))
     base = ModelStructure("simple")
     values = {name: built.gains[name] for name in base.names}
-    point = problem.at(
-        base, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
+    point = problem.evaluate(
+        base, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
     )
     more = [{"drag.drag": size * built.hidden[0].parameters["drag"]} for size in (0.05, 4.0)]
 
     begun = predicted_improvement(
-        problem, point, base + "drag", more, kept=joint_jacobian(problem, point)
+        problem, point, base + "drag", more, kept=make_joint_jacobian(problem, point)
     )
 
     assert all(one.values["drag.drag"] >= 0.0 for _, one in begun)
@@ -124,13 +125,17 @@ def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
     built = bench("drivetrain")
     log = session(built, "log")
     runs = [
-        one.without(ExcludedInterval(number, 0.0, math.inf)) if "dynamic" in one.test else one
+        one.exclude_interval(ExcludedInterval(number, 0.0, math.inf))
+        if "dynamic" in one.test
+        else one
         for number, one in enumerate(run_records(log))
     ]
-    problem = PredictionErrorProblem.of(runs)
+    problem = PredictionErrorProblem.from_records(runs)
     base = ModelStructure("simple")
     values = {name: built.gains[name] for name in base.names}
-    point = problem.at(base, values, RunNuisance.seen(len(runs)), problem.noise.velocity**2)
+    point = problem.evaluate(
+        base, values, RunNuisance.at_first_samples(len(runs)), problem.noise.velocity**2
+    )
     evidence = compute_voltage_residual(log, dict(base.model(values).gains), type="simple")
 
     found = rank_candidates(problem, point, evidence, only=["backlash"])
@@ -150,12 +155,12 @@ def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
 )
 def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, asked):
     log = session(bench("drivetrain"), "log")
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     moves = np.sqrt(np.nanmean(problem.measured[problem.moving, 1] ** 2))
     sizes = [Gap(share * float(moves), 1.0) for share in gaps]
     values = {"kS": 0.1, "kV": 2.0, "kA": 2.0 * inertia, "drag.drag": 0.1}
-    begun = RunNuisance.seen(len(problem.records))
-    base = problem.at(ModelStructure("simple"), values, begun, problem.noise.velocity**2)
+    begun = RunNuisance.at_first_samples(len(problem.records))
+    base = problem.evaluate(ModelStructure("simple"), values, begun, problem.noise.velocity**2)
     calls = []
 
     def weighed(_, now, *__):
@@ -165,7 +170,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
         other = replace(now.candidate, effect="drag", score=now.candidate.score - 500.0)
         return [
             WeighedCandidate(
-                other, sizes[len(calls)], Tried("drag", 500.0, 0.9, admitted=True, why="")
+                other, sizes[len(calls)], TriedCandidate("drag", 500.0, 0.9, admitted=True, why="")
             )
         ]
 
@@ -173,7 +178,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     monkeypatch.setattr(room, "weigh_candidates", weighed)
     monkeypatch.setattr(room, "validation_gap", lambda *_: sizes[0])
     monkeypatch.setattr(room, "minimize_fully", lambda _, point: point)
-    monkeypatch.setattr(room, "_seeds", lambda _: {})
+    monkeypatch.setattr(room, "_collect_seeds", lambda _: {})
     for name in (
         "replace_effects",
         "simplify_effects",
@@ -183,7 +188,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     ):
         monkeypatch.setattr(room, name, lambda _, done, *__: done)
 
-    done = select_effects(problem, base, log, [], lambda *_: None)
+    done = select_effects(SelectionData(problem, []), base, log)
 
     assert len(calls) == asked
     assert len(done) == 1 + min(asked, len(sizes) - 1)
@@ -196,14 +201,16 @@ def test_a_model_that_runs_away_on_the_validation_widens_the_gap(gap, before):
 
 
 def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
-    problem = PredictionErrorProblem.of(run_records(session(bench("drivetrain"), "log")))
+    problem = PredictionErrorProblem.from_records(run_records(session(bench("drivetrain"), "log")))
     out = np.tile(problem.measured, 4)
     out[-1] = np.nan
-    monkeypatch.setattr(PredictionErrorProblem, "track", lambda *_, **__: Track.of(out))
+    monkeypatch.setattr(PredictionErrorProblem, "simulate", lambda *_, **__: Track.from_array(out))
     point = replace(NOWHERE, values={"kS": 0.1, "kV": 1.0, "kA": 0.1})
 
     assert (
-        rms_gap(open_loop_errors(problem, point, RunNuisance.seen(4), eased=True)).velocity
+        rms_gap(
+            open_loop_errors(problem, point, RunNuisance.at_first_samples(4), eased=True)
+        ).velocity
         == math.inf
     )
 
@@ -228,7 +235,8 @@ def test_what_does_not_come_back_is_not_begun_as_a_wave(wide):
     way = float(np.ptp(evidence.position))
 
     waves = [
-        start["turns"] * way / (2.0 * math.pi) for start in EFFECTS["cogging"].starts(evidence)
+        start["turns"] * way / (2.0 * math.pi)
+        for start in EFFECTS["cogging"].start_values(evidence)
     ]
 
     assert waves
@@ -251,21 +259,21 @@ def test_a_ripple_that_any_robot_has_is_no_finding_however_much_of_the_gap_it_ta
 @pytest.mark.parametrize("effect", ["heating", "drag"])
 def test_a_start_moves_its_own_run_and_heats_as_the_runs_before_it_did(effect):
     built = bench("drivetrain", effect)
-    problem = PredictionErrorProblem.of(run_records(session(built, "log")))
+    problem = PredictionErrorProblem.from_records(run_records(session(built, "log")))
     base = ModelStructure("simple") + effect
     values = {name: built.gains[name] for name in base.names if name in built.gains}
     values |= {f"{effect}.{name}": one for name, one in built.hidden[0].parameters.items()}
-    nuisance, count = RunNuisance.seen(len(problem.records)), len(problem.records)
-    point = problem.at(base, values, nuisance, problem.noise.velocity**2)
+    nuisance, count = RunNuisance.at_first_samples(len(problem.records)), len(problem.records)
+    point = problem.evaluate(base, values, nuisance, problem.noise.velocity**2)
 
     starts = problem.jacobian(point)[:, -2 * count : -count]
 
     for number in range(count):
         by = np.zeros(count)
         by[number] = problem.noise.position
-        moved = problem.at(base, values, nuisance.moved(by), point.process_noise)
+        moved = problem.evaluate(base, values, nuisance.shift_positions(by), point.process_noise)
         change = (
-            problem.white(point, moved.innovations - point.innovations) / problem.noise.position
+            problem.whiten(point, moved.innovations - point.innovations) / problem.noise.position
         )
         size = np.abs(change).max()
         assert starts[:, number] == pytest.approx(change, abs=0.02 * size)

@@ -25,8 +25,9 @@ from sim.reconcile.forward_selection import (
     choose_path,
 )
 from sim.reconcile.model_selection import HARDLY, WIDENS, choose_simplest
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
-from sim.reconcile.story import Tried
+from sim.reconcile.story import TriedCandidate
 
 
 def weighed(effect, score, *, gap=0.95, why="", **values):
@@ -34,7 +35,7 @@ def weighed(effect, score, *, gap=0.95, why="", **values):
     structure = ModelStructure("simple") + effect
     named = {f"{effect}.{name}": value for name, value in values.items()}
     point = replace(NOWHERE, structure=structure, values=named)
-    tried = Tried(effect, score, gap, admitted=not why, why=why)
+    tried = TriedCandidate(effect, score, gap, admitted=not why, why=why)
     return WeighedCandidate(Candidate(effect, point, 0.0), Gap(gap, gap), tried)
 
 
@@ -45,7 +46,7 @@ def model(effect, score, *, gap, others=()):
         WeighedCandidate(
             Candidate(name, NOWHERE, 0.0),
             Gap(gap, gap),
-            Tried(name, more, 0.9, admitted=good, why=""),
+            TriedCandidate(name, more, 0.9, admitted=good, why=""),
         )
         for name, more, good in others
     )
@@ -54,7 +55,7 @@ def model(effect, score, *, gap, others=()):
 
 QUICK = recorded(
     "dynamic-forward", Model("simple", {"kS": 0.2, "kV": 0.05, "kA": 0.005}),
-    step=6.0, state=State.at(0.0), noise=(1.0, 1.0), rng=np.random.default_rng(5),
+    step=6.0, state=State.cold_at(0.0), noise=(1.0, 1.0), rng=np.random.default_rng(5),
 )  # fmt: skip
 ONE_NOISE = PredictionErrorProblem(
     run_records(Log((QUICK,), units="meters", type="simple")), SensorNoise(1.0, 1.0, (0.0, 0.0))
@@ -109,9 +110,9 @@ def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
     done = gone(end=end)
     score, gap = other
     path = [done[0], model("delay", score, gap=gap)]
-    monkeypatch.setattr(sys.modules[choose_path.__module__], "_gone", lambda *_: path)
+    monkeypatch.setattr(sys.modules[choose_path.__module__], "_continue_search", lambda *_: path)
 
-    found = choose_path(ONE_NOISE, done, None, (), lambda *_: None)
+    found = choose_path(SelectionData(ONE_NOISE, ()), done, None)
 
     assert (found is path) is taken
 
@@ -136,7 +137,7 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
     effect, score, why = other
     small = {f"{effect}.{name}": 0.001 for name in EFFECTS[effect].names}
     point = replace(NOWHERE, values=small)
-    tried = Tried(effect, score, 1.2, admitted=False, why=why)
+    tried = TriedCandidate(effect, score, 1.2, admitted=False, why=why)
     another = WeighedCandidate(Candidate(effect, point, 0.0), Gap(5.0, 5.0), tried)
     done = [replace(model("", 1000.0, gap=4.0), candidates=(another,))]
     asked = []
@@ -147,9 +148,9 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
         return [*done, *new]
 
     room = sys.modules[choose_path.__module__]
-    monkeypatch.setattr(room, "_gone", gone_on)
+    monkeypatch.setattr(room, "_continue_search", gone_on)
 
-    found = add_pair(ONE_NOISE, done, None, (), lambda *_: None)
+    found = add_pair(SelectionData(ONE_NOISE, ()), done, None)
 
     assert (found is not done) is taken
     assert set(asked) <= {"compliance"}
@@ -160,16 +161,16 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
 )
 def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, taken):
     small = {f"compliance.{name}": 0.001 for name in EFFECTS["compliance"].names}
-    tried = Tried("compliance", 900.0, 1.2, admitted=False, why=WIDENS)
+    tried = TriedCandidate("compliance", 900.0, 1.2, admitted=False, why=WIDENS)
     suspect = Candidate("compliance", replace(NOWHERE, values=small), 0.0)
     blocked = WeighedCandidate(suspect, Gap(5.0, 5.0), tried)
     base = model("", 1000.0, gap=4.0)
     done = [base, replace(model("cogging", 900.0, gap=3.8), candidates=(blocked,))]
     path = [base, *(model(name, 100.0, gap=1.2) for name in pair)]
     room = sys.modules[choose_path.__module__]
-    monkeypatch.setattr(room, "_gone", lambda *_: path)
+    monkeypatch.setattr(room, "_continue_search", lambda *_: path)
 
-    found = add_pair(ONE_NOISE, done, None, (), lambda *_: None)
+    found = add_pair(SelectionData(ONE_NOISE, ()), done, None)
 
     assert found == (path if taken else done)
 
@@ -236,7 +237,7 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
 ):
     one_gap = Gap(1.0, 1.0)
     alike = (("battery-sag", 425.0), (other, 366.0))
-    tried = tuple(Tried(name, score, 0.9, admitted=True, why="") for name, score in alike)
+    tried = tuple(TriedCandidate(name, score, 0.9, admitted=True, why="") for name, score in alike)
     base = replace(model("", 1000.0, gap=2.0), tried=tried)
     point = replace(
         NOWHERE,
@@ -247,13 +248,13 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     last = SelectionRound(Candidate("stribeck", point, 500.0), one_gap, one_gap)
     done = [base, model("battery-sag", 600.0, gap=1.1), last]
     path = sys.modules["sim.reconcile.backward_elimination"]
-    monkeypatch.setattr(path, "compute_voltage_residual", lambda *_, **__: None)
+    monkeypatch.setattr(path, "voltage_residual_at", lambda *_: None)
     monkeypatch.setattr(path, "refit_without", lambda *_: Candidate("", point, 900.0))
     monkeypatch.setattr(
         path, "rank_candidates", lambda *_, **__: [Candidate(other, point, 500.0 - gains)]
     )
     monkeypatch.setattr(path, "validation_gap", lambda *_: one_gap)
 
-    found = replace_effects(ONE_NOISE, done, None, ())
+    found = replace_effects(SelectionData(ONE_NOISE, ()), done, None)
 
     assert [one.candidate.effect for one in found] == ["", taken, "stribeck"]

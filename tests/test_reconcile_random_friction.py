@@ -8,11 +8,11 @@ from reconcile_made import rubbing
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import append_prior_rows, joint_jacobian
+from sim.estimation.optimize import append_prior_rows, make_joint_jacobian
 from sim.estimation.random_friction import friction_sd, laplace_correction
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
-from sim.physics.engine import NO_TRUST, RunBatch, follow
+from sim.physics.engine import NO_CORRECTION, RunBatch, filter_runs
 from sim.physics.model import Model, Part
 from sim.reconcile.cross_validation import open_loop_errors, parabola_minima, rms_gap
 from sim.reconcile.findings import standard_errors
@@ -25,13 +25,13 @@ SHARES = (1.06, 0.95, 0.98, 1.04)  # [1] of the friction that each run has
 
 def session(shares, *parts, step=4.0, seed=0):
     log = rubbing(GAINS, shares, *parts, noise=NOISE, step=step, seed=seed)
-    return PredictionErrorProblem.of(run_records(log))
+    return PredictionErrorProblem.from_records(run_records(log))
 
 
 def begun(problem, *effects, **values):
     structure = ModelStructure("simple", effects)
-    nuisance = RunNuisance.seen(len(problem.records))
-    return problem.at(structure, {**GAINS, **values}, nuisance, problem.noise.velocity**2)
+    nuisance = RunNuisance.at_first_samples(len(problem.records))
+    return problem.evaluate(structure, {**GAINS, **values}, nuisance, problem.noise.velocity**2)
 
 
 def followed(model, time, volts, *, rubs):
@@ -42,7 +42,14 @@ def followed(model, time, volts, *, rubs):
         voltage=np.tile(volts, count), measured=nothing, position=still, velocity=still,
         low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
     )  # fmt: skip
-    return follow(model, course, trust=NO_TRUST, beside=still, meshed=still, rubs=np.array(rubs))
+    return filter_runs(
+        model,
+        course,
+        kalman_gain=NO_CORRECTION,
+        position_offset=still,
+        backlash_phase=still,
+        friction_offset=np.array(rubs),
+    )
 
 
 @pytest.mark.parametrize("rubs", [0.1, -0.1, -0.6])
@@ -84,7 +91,7 @@ def test_its_slope_is_of_the_size_by_which_friction_varies():
     problem = session(SHARES)
     found = minimize(problem, begun(problem))
     nudged = [
-        problem.at(found.structure, {**found.values, "kS": share * found.values["kS"]},
+        problem.evaluate(found.structure, {**found.values, "kS": share * found.values["kS"]},
                    found.nuisance, found.process_noise)
         for share in (0.999, 0.9995, 1.0005, 1.001)
     ]  # fmt: skip
@@ -117,16 +124,18 @@ def test_a_standard_error_knows_of_frictions_that_differ():
 def test_what_a_point_adjusts_to_is_what_the_priors_allow():
     problem = session(SHARES)
     point = begun(problem)
-    kept = joint_jacobian(problem, point)
-    white = problem.white(point, point.innovations)
+    kept = make_joint_jacobian(problem, point)
+    white = problem.whiten(point, point.innovations)
 
     table, rest = append_prior_rows(problem, point)
     by, *_ = np.linalg.lstsq(table, rest, rcond=None)
     left = rest - table @ by
     prior = rest[white.size :]
 
-    assert kept.square(white) + float(prior @ prior) == pytest.approx(float(left @ left), rel=1e-6)
-    along, size = kept.along(white, white)
+    assert kept.residual_square(white) + float(prior @ prior) == pytest.approx(
+        float(left @ left), rel=1e-6
+    )
+    along, size = kept.residual_products(white, white)
     assert 0.0 < size <= float(white @ white)
     assert along == pytest.approx(size - kept.basis.T @ white @ kept.prior, rel=1e-6)
 

@@ -11,7 +11,7 @@ import math
 import pytest
 
 from sim.cli import sysid
-from sim.support.command_line import run
+from sim.support.command_line import run_command
 
 pytestmark = pytest.mark.shared
 LOGS = {
@@ -33,7 +33,7 @@ def found(shared):
             file, type_ = LOGS[name]
             path = shared / "data" / "real" / file
             capsys.readouterr()
-            code = run(
+            code = run_command(
                 sysid, name="sysid",
                 arguments=["reconcile", str(path), "--type", type_, "--json"],
             )  # fmt: skip
@@ -100,5 +100,5 @@ def test_of_the_elevator_no_physics_is_named(found, capsys):
 def test_a_log_without_a_voltage_is_refused(shared, capsys):
     path = shared / "data" / "real" / "sciborgs-2024-pivot-no-voltage.wpilog"
 
-    assert run(sysid, name="sysid", arguments=["reconcile", str(path)]) == 2
+    assert run_command(sysid, name="sysid", arguments=["reconcile", str(path)]) == 2
     assert "no voltage entry" in capsys.readouterr().err

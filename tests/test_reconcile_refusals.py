@@ -13,7 +13,7 @@ from sim.core.log import Log
 from sim.reconcile import reconcile
 from sim.reconcile.dropout_intervals import dropout_intervals
 from sim.reconcile.input_checks import check_logs, count_repeated_runs
-from sim.support.command_line import run
+from sim.support.command_line import run_command
 
 DRIVE = logs("drivetrain")
 LOG = replace(DRIVE["log"], source="drive.csv")
@@ -238,7 +238,7 @@ def files(tmp_path_factory):
 def test_the_command_says_it_in_one_line_and_exits_with_2(files, capsys, arguments, said):
     named = [str(files / one) if one.endswith(".csv") else one for one in arguments]
 
-    code = run(sysid, name="sysid", arguments=["reconcile", *named, "--json"])
+    code = run_command(sysid, name="sysid", arguments=["reconcile", *named, "--json"])
 
     shown = capsys.readouterr()
     assert (code, shown.out) == (2, "")

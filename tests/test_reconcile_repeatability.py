@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
@@ -19,7 +19,7 @@ from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_re
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import ALIKE
-from sim.reconcile.verdict import verdict_of
+from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -34,7 +34,7 @@ def session(*parts, seed, tests=TESTS):
     for test in (*tests, *tests):
         friction = GAINS["kS"] * (1.0 + 0.05 * rng.standard_normal())
         model = Model("simple", {**GAINS, "kS": friction}, parts)
-        begun = {"state": State.at(0.0), "began": clock}
+        begun = {"state": State.cold_at(0.0), "began": clock}
         run = recorded(test, model, step=4.0, noise=NOISE, rng=rng, **begun)
         runs.append(replace(run, voltage=run.voltage + SHAKES * rng.standard_normal(len(run))))
         clock = float(run.time[-1]) + 2.0
@@ -117,8 +117,8 @@ def test_it_is_told_where_and_by_how_much(alike, units, said):
     gap = Gap(problem.noise.velocity, problem.noise.position)
     done = [SelectionRound(score_estimate(problem, point), gap, gap)]
 
-    verdict, remainder, remains = verdict_of(
-        [], done, problem, left=ResidualSummary(repeated=alike), per=unit(units)
+    verdict, remainder, remains = reach_verdict(
+        [], done, problem, left=ResidualSummary(repeated=alike), per=find_unit(units)
     )
 
     assert (verdict, remainder) == ("unexplained", True)

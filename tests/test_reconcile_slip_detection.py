@@ -9,15 +9,15 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import run_records
 from sim.inspect.fault import rescale_motion
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
-from sim.reconcile.slip_detection import SLOW, detect_slips
+from sim.reconcile.slip_detection import SHARP_SLOW, detect_slips
 
 PERIOD = 0.02  # [s]
 NOISE = (1e-4, 0.01)  # [m] and [m/s]
 STEP, RAMP = 6.0, 1.0  # [V] and [V/s]
 BASE = ModelStructure("simple")
-LIGHT = 1.05 * SLOW * PERIOD  # [s] the shortest time scale that is asked
+LIGHT = 1.05 * SHARP_SLOW * PERIOD  # [s] the shortest time scale that is asked
 HEAVY = 0.3  # [s]
 
 
@@ -34,7 +34,9 @@ def recorded(test, scale, rng, *, lost=(), lasts=1.0):
     real = volts.copy()
     for start, end, share in lost:
         real[(time >= start) & (time < end)] *= 1.0 - share
-    track = move(Model("simple", gains(scale)), time=time, voltage=real, state=State.at(0.0))
+    track = simulate_run(
+        Model("simple", gains(scale)), time=time, voltage=real, state=State.cold_at(0.0)
+    )
     seen = (
         one + size * rng.standard_normal(time.size)
         for one, size in zip((track.position, track.velocity), NOISE, strict=True)
@@ -56,11 +58,13 @@ def slips(scale, *, test="quasistatic-forward", lost=(), reads=(), lasts=1.0):
             run = rescale_motion(run, paces)
             runs.append(Run(name, clock + run.time, run.voltage, run.position, run.velocity))
             clock = float(runs[-1].time[-1]) + 2.0
-    problem = PredictionErrorProblem.of(
+    problem = PredictionErrorProblem.from_records(
         run_records(Log(tuple(runs), units="meters", type="simple"))
     )
-    nuisance = RunNuisance.seen(len(problem.records))
-    return list(detect_slips(problem, problem.at(BASE, gains(scale), nuisance, NOISE[1] ** 2)))
+    nuisance = RunNuisance.at_first_samples(len(problem.records))
+    return list(
+        detect_slips(problem, problem.evaluate(BASE, gains(scale), nuisance, NOISE[1] ** 2))
+    )
 
 
 @pytest.mark.parametrize("scale", [LIGHT, HEAVY])

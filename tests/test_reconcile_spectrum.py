@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from reconcile_made import based, recorded
 
 from sim.core.log import Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
@@ -19,11 +19,16 @@ from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.local_minimum import minimize_fully
-from sim.reconcile.residual_tests.spectrum import FASTEST, TURNS, SpectralPeak, find_spectral_peak
+from sim.reconcile.residual_tests.spectrum import (
+    FASTEST_PEAK,
+    FEWEST_TURNS,
+    SpectralPeak,
+    find_spectral_peak,
+)
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import RHYTHM
-from sim.reconcile.verdict import verdict_of
+from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -38,7 +43,7 @@ def session(*parts, seed, swings=0.0, size=SWING):
     runs, clock = [], 0.0
     for test in (*TESTS, *TESTS):
         model = Model("simple", GAINS, parts)
-        run = recorded(test, model, step=4.0, noise=NOISE, rng=rng, state=State.at(0.0))
+        run = recorded(test, model, step=4.0, noise=NOISE, rng=rng, state=State.cold_at(0.0))
         run = replace(run, time=clock + run.time)
         hidden = SHAKES * rng.standard_normal(len(run))
         hidden += size * np.sin(2.0 * np.pi * swings * run.time)
@@ -70,32 +75,32 @@ def test_a_swing_is_found_at_its_rate_though_it_passes_for_pushes_at_random(seed
     assert rhythm.size > RHYTHM
     assert rhythm.rate == pytest.approx(swings, abs=0.15)
     assert point.process_noise > problem.noise.velocity**2
-    assert ResidualSummary.by(problem, point).swings
+    assert ResidualSummary.summarize(problem, point).is_periodic
 
 
 def test_a_wave_along_the_way_is_told_as_a_habit_of_places():
     wave = Part("cogging", {"cosine": 0.25, "sine": 0.0, "turns": 3.0})
 
-    left = ResidualSummary.by(*found(session(wave, seed=2))[:2])
+    left = ResidualSummary.summarize(*found(session(wave, seed=2))[:2])
 
-    assert left.repeats
+    assert left.is_repeated
     assert "At the same places" in remains_of(left)[2]
 
 
 def test_runs_that_are_too_short_have_none():
     log = session(seed=4)
-    last = round(0.9 * TURNS / FASTEST / 0.02)
+    last = round(0.9 * FEWEST_TURNS / FASTEST_PEAK / 0.02)
     short = [
         Run(r.test, r.time[:last], r.voltage[:last], r.position[:last], r.velocity[:last])
         for r in log.runs
     ]
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     brief = PredictionErrorProblem(
         tuple(run_records(replace(log, runs=tuple(short)))), problem.noise
     )
-    seen = RunNuisance.seen(len(brief.records))
+    seen = RunNuisance.at_first_samples(len(brief.records))
 
-    point = brief.at(ModelStructure("simple"), GAINS, seen, problem.noise.velocity**2)
+    point = brief.evaluate(ModelStructure("simple"), GAINS, seen, problem.noise.velocity**2)
 
     assert find_spectral_peak(brief, point) == SpectralPeak()
 
@@ -105,7 +110,7 @@ def remains_of(left):
     problem, point = based(session(seed=6), GAINS)
     gap = Gap(problem.noise.velocity, problem.noise.position)
     done = [SelectionRound(score_estimate(problem, point), gap, gap)]
-    return verdict_of([], done, problem, left=left, per=unit("meters"))
+    return reach_verdict([], done, problem, left=left, per=find_unit("meters"))
 
 
 def test_it_is_told_how_often():

@@ -31,10 +31,10 @@ def built(effect="", **values):
 def looked(mechanism):
     """The lively runs of a log, the best model of one body, and what the log shows."""
     log = session(mechanism, "log")
-    problem = PredictionErrorProblem.of(run_records(log))
+    problem = PredictionErrorProblem.from_records(run_records(log))
     values = {name: mechanism.gains[name] for name in BASE.names}
-    begun = problem.at(
-        BASE, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
+    begun = problem.evaluate(
+        BASE, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
     )
     point = levenberg_marquardt(problem, begun, steps=STEPS)
     evidence = compute_voltage_residual(log, dict(BASE.model(point.values).gains), type="simple")
@@ -44,7 +44,7 @@ def looked(mechanism):
 def starts(effect, evidence):
     return [
         {f"{effect}.{name}": value for name, value in start.items()}
-        for start in EFFECTS[effect].starts(evidence)
+        for start in EFFECTS[effect].start_values(evidence)
     ]
 
 
@@ -64,11 +64,11 @@ def test_free_play_is_found_whatever_its_motor_weighs(share):
 def test_valleys_explain_the_lively_runs_and_are_not_one():
     lively, evidence = looked(built("compliance", softness=0.02, share=0.3))
 
-    found = lively.valleys(SOFT, starts("compliance", evidence), heavy=False)
+    found = lively.list_starts(SOFT, starts("compliance", evidence), heavy=False)
 
     assert 0 < len(found) <= VALLEYS
     for one in found:
-        there = lively.problem.at(
+        there = lively.problem.evaluate(
             SOFT, {**lively.point.values, **one}, lively.point.nuisance, lively.point.process_noise
         )
         assert levenberg_marquardt(lively.problem, there, steps=STEPS).cost < lively.point.cost
@@ -81,7 +81,7 @@ def test_the_start_nearest_to_what_is_there_need_not_promise_most():
     values = {**lively.point.values, "compliance.softness": 0.02}
     nuisance, q = lively.point.nuisance, lively.point.process_noise
     heavy, light = (
-        lively.problem.at(SOFT, {**values, "compliance.share": share}, nuisance, q)
+        lively.problem.evaluate(SOFT, {**values, "compliance.share": share}, nuisance, q)
         for share in (0.5, 0.15)
     )
 
@@ -95,4 +95,4 @@ def test_what_makes_the_lively_runs_less_likely_is_not_tried_on_all():
     lively, _ = looked(built())
     far = {"compliance.softness": 50.0, "compliance.share": 0.01}  # all of the load hangs loose
 
-    assert lively.valleys(SOFT, [far], heavy=False) == []
+    assert lively.list_starts(SOFT, [far], heavy=False) == []

@@ -9,7 +9,7 @@ from reconcile_made import recorded
 from story_made import DRAG, SLIP
 
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
@@ -25,11 +25,11 @@ from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
-from sim.reconcile.story import Tried
-from sim.reconcile.verdict import verdict_of
+from sim.reconcile.story import TriedCandidate
+from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
-METERS = unit("meters")
+METERS = find_unit("meters")
 LASTS = 1e6  # [s]
 
 
@@ -39,16 +39,20 @@ def problem():
     rng = np.random.default_rng(3)
     model = Model("simple", GAINS)
     runs = [
-        recorded(test, model, step=6.0, state=State.at(0.0), noise=(1e-5, 1e-3), rng=rng)
+        recorded(test, model, step=6.0, state=State.cold_at(0.0), noise=(1e-5, 1e-3), rng=rng)
         for test in ("dynamic-forward", "dynamic-reverse")
     ]
-    return PredictionErrorProblem.of(run_records(Log(tuple(runs), units="meters", type="simple")))
+    return PredictionErrorProblem.from_records(
+        run_records(Log(tuple(runs), units="meters", type="simple"))
+    )
 
 
 def rounds(problem, *gaps, values=GAINS, structure=None):
     """The base and what was added to it, with gaps in noises of the velocity."""
     structure = structure or ModelStructure("simple")
-    point = problem.at(structure, values, RunNuisance.seen(2), problem.noise.velocity**2)
+    point = problem.evaluate(
+        structure, values, RunNuisance.at_first_samples(2), problem.noise.velocity**2
+    )
     sizes = [Gap(gap * problem.noise.velocity, 1e-5) for gap in gaps]
     before = [sizes[0], *sizes[:-1]]
     return [
@@ -70,7 +74,9 @@ def rounds(problem, *gaps, values=GAINS, structure=None):
     ],
 )
 def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, verdict, remains):
-    said = verdict_of(findings, rounds(problem, *gaps), problem, left=ResidualSummary(), per=METERS)
+    said = reach_verdict(
+        findings, rounds(problem, *gaps), problem, left=ResidualSummary(), per=METERS
+    )
 
     assert said[:2] == (verdict, remains)
     assert bool(said[2]) is remains
@@ -82,14 +88,14 @@ def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, 
 def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, softness, verdict):
     done = rounds(problem, 2.0)
     values = {"compliance.softness": softness, "compliance.share": 0.2}
-    point = replace(done[0].candidate.point, values=values)
-    tried = Tried("compliance", score, 1.6, admitted=False, why=WIDENS)
+    point = replace(done[0].candidate.estimate, values=values)
+    tried = TriedCandidate("compliance", score, 1.6, admitted=False, why=WIDENS)
     other = WeighedCandidate(
-        replace(done[0].candidate, effect="compliance", point=point), done[0].gap, tried
+        replace(done[0].candidate, effect="compliance", estimate=point), done[0].gap, tried
     )
     done = [replace(done[0], candidates=(other,))]
 
-    said = verdict_of([], done, problem, left=ResidualSummary(), per=METERS)
+    said = reach_verdict([], done, problem, left=ResidualSummary(), per=METERS)
 
     assert said[0] == verdict
     assert ("compliance" in said[2]) is (verdict == "unexplained")
@@ -110,7 +116,7 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
 ):
     findings = [replace(DRAG, effect=name) for name in names]
 
-    verdict, remainder, remains = verdict_of(
+    verdict, remainder, remains = reach_verdict(
         findings, rounds(problem, 40.0, 1.1), problem, left=ResidualSummary(), per=METERS
     )
 
@@ -121,14 +127,20 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
 def added(problem, *steps, values):
     """The base and each effect with the gap it left, and the gap without it in the end [noises]."""
     structure = ModelStructure("simple", tuple(name for name, *_ in steps))
-    point = problem.at(structure, values, RunNuisance.seen(2), problem.noise.velocity**2)
+    point = problem.evaluate(
+        structure, values, RunNuisance.at_first_samples(2), problem.noise.velocity**2
+    )
     gaps = [Gap(size * problem.noise.velocity, 1e-5) for size in (2.0, *(one[1] for one in steps))]
     done = [SelectionRound(score_estimate(problem, point), gaps[0], gaps[0])]
     for (name, _, bare), gap, before in zip(steps, gaps[1:], gaps, strict=False):
         without = Gap(bare * problem.noise.velocity, 1e-5)
         done.append(
             SelectionRound(
-                score_estimate(problem, point, name), gap, before, lost=150.0, bare=without
+                score_estimate(problem, point, name),
+                gap,
+                before,
+                removal_cost=150.0,
+                gap_without=without,
             )
         )
     return done
@@ -210,8 +222,8 @@ def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, n
 def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, beside, named):
     values = {**GAINS, "drag.drag": 0.001, "spring.rate": 0.1, "spring.preload": 0.1}
     done = added(problem, ("spring", beside, 2.0), ("drag", 0.95 * beside, beside), values=values)
-    done[1:] = [replace(done[1], lost=70.0), replace(done[2], lost=score)]
-    done[1:] = [replace(one, bare=one.before) for one in done[1:]]
+    done[1:] = [replace(done[1], removal_cost=70.0), replace(done[2], removal_cost=score)]
+    done[1:] = [replace(one, gap_without=one.gap_before) for one in done[1:]]
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
     found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
@@ -254,8 +266,10 @@ def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score
     values = {**GAINS, "battery-sag.share": 0.64}
     base, one = added(problem, ("battery-sag", 1.9, 2.0), values=values)
     scores = {"battery-sag": score, **others}
-    tried = tuple(Tried(name, each, 1.0, admitted=False, why="") for name, each in scores.items())
-    done = [replace(base, tried=tried), replace(one, lost=score)]
+    tried = tuple(
+        TriedCandidate(name, each, 1.0, admitted=False, why="") for name, each in scores.items()
+    )
+    done = [replace(base, tried=tried), replace(one, removal_cost=score)]
     chapters = [SimpleNamespace(gap=each.gap.velocity) for each in done]
 
     found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)

@@ -7,7 +7,7 @@ import pytest
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import FOUR_TESTS
-from sim.fit.regression import regress
+from sim.fit.regression import regress_acceleration
 from sim.fit.sysid_rows import Rows
 
 PERIOD = 0.005  # [s]
@@ -79,14 +79,14 @@ MEASURED = [  # by SysId 2026.2.2, from the same models
     ("type_", "truth", "measured"), MEASURED, ids=["simple A", "simple B", "elevator A", "B"]
 )
 def test_the_models_of_sysids_own_tests_give_sysids_own_gains(type_, truth, measured):
-    found = regress(model_rows(**truth), type=type_)
+    found = regress_acceleration(model_rows(**truth), type=type_)
 
     assert list(found.gains.values()) == pytest.approx(measured, rel=2e-9)
     assert list(found.gains.values()) == pytest.approx(list(truth.values()), abs=8e-3)
 
 
 def test_the_adjusted_r2_of_a_model_is_sysids_own():
-    found = regress(model_rows(ks=1.01, kv=3.060, ka=0.327), type="simple")
+    found = regress_acceleration(model_rows(ks=1.01, kv=3.060, ka=0.327), type="simple")
 
     assert found.r2 == pytest.approx(0.995963154, abs=1e-9)
 
@@ -101,7 +101,7 @@ def test_the_adjusted_r2_of_a_model_is_sysids_own():
     ids=["arm A", "arm B"],
 )
 def test_an_arm_is_found_with_its_angle(truth, within, offset):
-    found = regress(model_rows(**truth, offset=offset), type="arm")
+    found = regress_acceleration(model_rows(**truth, offset=offset), type="arm")
 
     *gains, angle = found.gains.values()
     assert gains == pytest.approx(list(truth.values()), abs=8e-3)
@@ -110,7 +110,7 @@ def test_an_arm_is_found_with_its_angle(truth, within, offset):
 
 def test_the_errors_cover_the_truth_of_noisy_accelerations():
     rows = model_rows(ks=0.3, kv=2.0, ka=0.2)
-    truth = regress(rows, type="simple").gains
+    truth = regress_acceleration(rows, type="simple").gains
     rng = np.random.default_rng(5)
     misses = []
     for _ in range(200):
@@ -125,7 +125,7 @@ def test_the_errors_cover_the_truth_of_noisy_accelerations():
             )
             for test, part in rows.items()
         }
-        found = regress(noisy, type="simple")
+        found = regress_acceleration(noisy, type="simple")
         misses.append([(found.gains[g] - truth[g]) / found.errors[g] for g in truth])
 
     spread = np.std(misses, axis=0)
@@ -148,4 +148,4 @@ def test_tests_that_excite_nothing_are_refused_by_the_gain_they_leave_open():
     }
 
     with pytest.raises(NotIdentifiable, match="cannot tell k. from the other gains. Move at two"):
-        regress(still, type="simple")
+        regress_acceleration(still, type="simple")

@@ -179,7 +179,7 @@ def test_a_real_arm_has_a_page_that_says_what_to_doubt(shared):
 
     assert page_flaws(told) == []
     assert told.count("<h3>Run ") == len(log.runs)
-    assert "<b>Look:</b> The simulation leaves the log by" in told
+    assert "<b>Look:</b> A simulation with these gains misses the measured velocity by" in told
 
 
 def test_a_page_is_written_whole(brief, tmp_path, monkeypatch):

@@ -22,8 +22,8 @@ from sim.report.robot_code_snippet import (
     ORDER,
     SEASONS,
     SPELLINGS,
-    robot_code_snippet,
     round_to_error,
+    write_robot_code,
 )
 
 TYPES = tuple(ORDER)
@@ -103,7 +103,7 @@ def stand_ins():
 @pytest.mark.parametrize("season", SEASONS)
 @pytest.mark.parametrize("type_", TYPES)
 def test_a_java_snippet_parses_and_hands_the_gains_over_in_wpilibs_order(type_, season):
-    text = robot_code_snippet(found(type_), language="java", season=season, name="left drive")
+    text = write_robot_code(found(type_), language="java", season=season, name="left drive")
 
     (made,) = java_nodes(text, "object_creation_expression")
     arguments = [
@@ -122,7 +122,7 @@ def test_a_java_snippet_parses_and_hands_the_gains_over_in_wpilibs_order(type_, 
 @pytest.mark.parametrize("season", SEASONS)
 @pytest.mark.parametrize("type_", TYPES)
 def test_a_python_snippet_runs_and_hands_the_gains_over_in_wpilibs_order(type_, season):
-    text = robot_code_snippet(found(type_), language="python", season=season)
+    text = write_robot_code(found(type_), language="python", season=season)
 
     made = run(text, stand_ins())
 
@@ -136,7 +136,7 @@ def test_a_python_snippet_runs_and_hands_the_gains_over_in_wpilibs_order(type_, 
 def test_the_numbers_come_back_within_a_tenth_of_their_errors(type_, language, season):
     fit = found(type_)
 
-    read = constants(robot_code_snippet(fit, language=language, season=season))
+    read = constants(write_robot_code(fit, language=language, season=season))
     for gain in RIGHT_ORDER[type_]:
         assert read[gain] == pytest.approx(fit.gains[gain], abs=0.1 * fit.errors[gain]), gain
     for loop, gains in fit.feedback().items():
@@ -154,15 +154,15 @@ def test_the_numbers_come_back_within_a_tenth_of_their_errors(type_, language, s
     ],
 )
 def test_the_call_is_the_seasons_and_an_arms_takes_the_angle_first(language, season, call):
-    assert call.format("") in robot_code_snippet(found("simple"), language=language, season=season)
-    assert call.format("angle, ") in robot_code_snippet(
+    assert call.format("") in write_robot_code(found("simple"), language=language, season=season)
+    assert call.format("angle, ") in write_robot_code(
         found("arm"), language=language, season=season
     )
 
 
 @pytest.mark.parametrize(("language", "season"), SPELLINGS)
 def test_only_a_season_that_is_out_has_nothing_uncertain(language, season):
-    said = "not released" in robot_code_snippet(found("simple"), language=language, season=season)
+    said = "not released" in write_robot_code(found("simple"), language=language, season=season)
     assert said == (season == 2027)
 
 
@@ -172,8 +172,8 @@ def test_an_arm_counted_in_turns_is_pasted_per_radian_and_says_so(units, languag
     fit = found("arm")
     turned = fit.in_units(units)
 
-    text = robot_code_snippet(turned, language=language)
-    read, radians = constants(text), constants(robot_code_snippet(fit, language=language))
+    text = write_robot_code(turned, language=language)
+    read, radians = constants(text), constants(write_robot_code(fit, language=language))
 
     for name in (*RIGHT_ORDER["arm"], "kAngleOffset"):
         assert read[name] == pytest.approx(radians[name], rel=1e-12), name
@@ -186,7 +186,7 @@ def test_an_arm_counted_in_turns_is_pasted_per_radian_and_says_so(units, languag
 
 
 def test_an_arm_in_radians_needs_no_conversion():
-    text = robot_code_snippet(found("arm"), language="java")
+    text = write_robot_code(found("arm"), language="java")
 
     assert "= measured + kAngleOffset" in text
     assert "kRadiansPerUnit" not in text
@@ -196,7 +196,7 @@ def test_an_arm_in_radians_needs_no_conversion():
 def test_an_angular_simple_mechanism_keeps_its_unit(units):
     fit = found("simple", units="radians", log_units=units).in_log_units()
 
-    text = robot_code_snippet(fit, language="python")
+    text = write_robot_code(fit, language="python")
 
     assert "SimpleMotorFeedforwardRadians(kS, kV, kA)" in text
     assert f"[V·s/{UNITS[units].symbol}]" in text
@@ -219,7 +219,7 @@ def discrete(type_, gains, *, now, then, angle=0.0):
 def test_the_object_that_robotpy_makes_calculates_our_formula(type_):
     pytest.importorskip("wpimath.controller", reason="RobotPy is not installed (extra `robot`)")
     fit = found(type_)
-    text = robot_code_snippet(fit, language="python", season=2026)
+    text = write_robot_code(fit, language="python", season=2026)
     made, gains = run(text), constants(text)
     place, angle = -0.4, -0.4 + gains.get("kAngleOffset", 0.0)
     first = (place + made.kAngleOffset,) if type_ == "arm" else ()
@@ -284,7 +284,7 @@ MILD = Doubt("late", "The velocity lags by 40 ms.")
 )
 def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked, said):
     with pytest.raises(BadRequest) as refused:
-        robot_code_snippet(found("simple", **changes), **({"language": "java"} | asked))
+        write_robot_code(found("simple", **changes), **({"language": "java"} | asked))
 
     assert said in str(refused.value)
     assert "\n" not in str(refused.value)
@@ -292,8 +292,8 @@ def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked, said):
 
 def test_a_mild_doubt_is_mentioned_and_none_is_not():
     said = "Warnings of the fit, to be read first: 1."
-    assert said in robot_code_snippet(found("simple", doubts=(MILD,)), language="python")
-    assert "Warnings" not in robot_code_snippet(found("simple"), language="python")
+    assert said in write_robot_code(found("simple", doubts=(MILD,)), language="python")
+    assert "Warnings" not in write_robot_code(found("simple"), language="python")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -301,8 +301,8 @@ def test_a_loop_without_gains_says_so_and_has_no_constant(language):
     # A light intake's gains: with a period of delay the regulator's kP comes out negative.
     light = {"kS": 0.46, "kV": 0.0498, "kA": 0.001525}
     slow = found("simple", units="radians", gains=light, position_delay=DT)
-    late = robot_code_snippet(slow, language=language)
-    none = robot_code_snippet(found("simple", gains=GAINS | {"kA": 0.0}), language=language)
+    late = write_robot_code(slow, language=language)
+    none = write_robot_code(found("simple", gains=GAINS | {"kA": 0.0}), language=language)
 
     assert "No gains for the position loop" in late
     assert "kPositionP" not in late

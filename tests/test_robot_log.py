@@ -13,7 +13,7 @@ from wpilog_file import FOUR, Logger, Motor, records, routine
 import sim
 from sim.core.log import Log, Run
 from sim.fit import fit
-from sim.io.formats.wpilog.contents import contents_of
+from sim.io.formats.wpilog.contents import read_contents
 from sim.io.formats.wpilog.records import load_records
 
 pytestmark = pytest.mark.robot
@@ -56,7 +56,7 @@ def test_a_real_routine_comes_back_as_its_four_runs(log: Log) -> None:
 
 
 def test_what_a_real_routine_applies_is_seen(log: Log) -> None:
-    ramp, step = log.of("quasistatic-reverse")[0], log.of("dynamic-forward")[0]
+    ramp, step = log.runs_of_test("quasistatic-reverse")[0], log.runs_of_test("dynamic-forward")[0]
 
     np.testing.assert_allclose(np.diff(ramp.voltage), -0.02, atol=1e-5)
     assert np.all(step.voltage == 7.0)
@@ -65,7 +65,7 @@ def test_what_a_real_routine_applies_is_seen(log: Log) -> None:
 def test_turns_become_radians(log: Log) -> None:
     """At the end of the step the wheel turns at (7 V - kS) / kV rotations per second."""
     final = (7.0 - KS) / KV * 2 * math.pi
-    run = log.of("dynamic-forward")[0]
+    run = log.runs_of_test("dynamic-forward")[0]
 
     assert run.velocity[-1] == pytest.approx(final, rel=1e-3)
     assert run.position[-1] - run.position[-2] == pytest.approx(final * 0.02, rel=1e-3)
@@ -88,7 +88,7 @@ def ours(path: Path) -> dict[str, tuple[str, str, list[int], list[object]]]:
             entry.time.tolist(),
             entry.texts() if entry.type in {"string", "json"} else entry.values().tolist(),
         )
-        for entry in contents_of(load_records(path)).entries
+        for entry in read_contents(load_records(path)).entries
     }
 
 

@@ -37,7 +37,7 @@ def test_every_kind_of_test_stays_within_the_step_and_is_mirrored_in_reverse(kin
     routine = Routine(ramp=0.35, step=3.5, timeout=10.0, kinds=(kind,))
     time = np.arange(0.04, 10.0, 0.02).tolist()
 
-    there, back = ([routine.voltage(test, t) for t in time] for test in routine.tests)
+    there, back = ([routine.command_voltage(test, t) for t in time] for test in routine.tests)
 
     assert routine.tests == (f"{kind}-forward", f"{kind}-reverse")
     assert np.abs(there).max() == pytest.approx(3.5, rel=0.02)
@@ -47,7 +47,9 @@ def test_every_kind_of_test_stays_within_the_step_and_is_mirrored_in_reverse(kin
 @pytest.mark.parametrize("kind", ["triangle", "multistep", "chirp"])
 def test_what_turns_around_goes_both_ways(kind):
     routine = Routine(kinds=(kind,), step=4.0)
-    volts = [routine.voltage(f"{kind}-forward", t) for t in np.arange(0.0, 10.0, 0.01).tolist()]
+    volts = [
+        routine.command_voltage(f"{kind}-forward", t) for t in np.arange(0.0, 10.0, 0.01).tolist()
+    ]
 
     assert min(volts) == pytest.approx(-4.0, rel=0.02)
     assert volts[1] > 0.0
@@ -56,8 +58,8 @@ def test_what_turns_around_goes_both_ways(kind):
 def test_a_coast_is_a_step_and_then_nothing():
     routine = Routine(kinds=("coast",), step=4.0)
 
-    assert routine.voltage("coast-reverse", 0.5) == -4.0
-    assert routine.voltage("coast-forward", 1.5) == 0.0
+    assert routine.command_voltage("coast-reverse", 0.5) == -4.0
+    assert routine.command_voltage("coast-forward", 1.5) == 0.0
 
 
 @pytest.mark.parametrize("kinds", [(), ("static",), ("dynamic", "dynamic")], ids=str)

@@ -10,7 +10,7 @@ import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.errors import BadRequest
 from sim.physics.battery import Battery
-from sim.plot import runway
+from sim.plot import plot_runway
 from sim.teaching.runway import PERIOD, Floor, drive_test
 
 ROBOT = replace(MECHANISMS["drivetrain"], travel=None)
@@ -38,8 +38,8 @@ def test_the_motors_are_off_a_thumb_after_the_tape():
     passed = went.time[np.argmax(went.position >= 7.0)]
 
     assert went.released - passed == pytest.approx(0.3)
-    assert 7.0 < went.rests < 12.0
-    assert went.hit is None
+    assert 7.0 < went.final_position < 12.0
+    assert went.hit_wall is None
 
 
 def test_braking_keeps_to_what_the_carpet_holds():
@@ -50,7 +50,9 @@ def test_braking_keeps_to_what_the_carpet_holds():
 
 
 def test_on_slippery_ground_it_goes_further():
-    carpet, tiles = (gone(RAMP, wall=12.0, tape=7.0, grip=grip).rests for grip in (1.1, 0.4))
+    carpet, tiles = (
+        gone(RAMP, wall=12.0, tape=7.0, grip=grip).final_position for grip in (1.1, 0.4)
+    )
     speed = gone(RAMP, wall=12.0, tape=7.0).velocity.max()
 
     assert tiles - carpet == pytest.approx(
@@ -61,8 +63,8 @@ def test_on_slippery_ground_it_goes_further():
 def test_without_a_tape_it_goes_on_until_the_wall():
     went = gone(RAMP, wall=12.0)
 
-    assert went.hit == pytest.approx(went.time[-1])
-    assert went.rests == 12.0
+    assert went.hit_wall == pytest.approx(went.time[-1])
+    assert went.final_position == 12.0
     assert went.released == pytest.approx(10.0)
 
 
@@ -77,7 +79,7 @@ def test_a_tired_battery_browns_out_in_a_step_and_not_in_a_ramp():
     )
 
     assert step.browned_out
-    assert step.rests < 0.5 * gone(STEP, wall=12.0, tape=7.0).rests
+    assert step.final_position < 0.5 * gone(STEP, wall=12.0, tape=7.0).final_position
     assert not ramp.browned_out
 
 
@@ -93,7 +95,7 @@ def test_a_reverse_test_is_refused():
 
 
 def test_the_picture_says_what_it_shows():
-    picture = runway(gone(RAMP, wall=12.0, tape=7.0), moment=0.5)
+    picture = plot_runway(gone(RAMP, wall=12.0, tape=7.0), moment=0.5)
 
     assert "wall at 12.0 m" in picture.alt
     assert "tape lies at 7.0 m" in picture.alt
@@ -103,7 +105,7 @@ def test_the_picture_says_what_it_shows():
 
 @pytest.mark.parametrize(("tape", "side"), [(3.0, "left"), (7.0, "left"), (10.5, "right")])
 def test_the_motors_words_stand_off_the_tape_and_off_the_wall(tape, side):
-    picture = runway(gone(RAMP, wall=12.0, tape=tape))
+    picture = plot_runway(gone(RAMP, wall=12.0, tape=tape))
 
     (words,) = (text for text in picture.figure.axes[0].texts if text.get_text() == "motors off")
     assert words.get_ha() == side  # the tape is passed before, the wall comes after
@@ -112,23 +114,23 @@ def test_the_motors_words_stand_off_the_tape_and_off_the_wall(tape, side):
 def test_the_brownout_line_is_named_with_its_volts_and_not_covered():
     went = gone(RAMP, wall=12.0)
 
-    (words,) = runway(went).figure.axes[2].texts
+    (words,) = plot_runway(went).figure.axes[2].texts
     assert words.get_text() == f"dashed: brownout below {went.brownout:g} V"
     assert words.xy[1] == 0.0
 
 
 def test_the_picture_of_an_accident_says_so():
     went = gone(RAMP, wall=12.0)
-    picture = runway(went)
+    picture = plot_runway(went)
 
     assert "There is no tape" in picture.alt
-    assert f"hits the wall after {went.hit:.2f} s" in picture.alt
+    assert f"hits the wall after {went.hit_wall:.2f} s" in picture.alt
     assert dict(picture.table.rows)["room left [m]"] == "none: it hit the wall"
 
 
 def test_a_brownout_lights_its_lamp():
-    dark = runway(gone(STEP, wall=12.0))
-    lit = runway(drive_test(TIRED, SLOW, test=STEP, floor=Floor(wall=12.0)))
+    dark = plot_runway(gone(STEP, wall=12.0))
+    lit = plot_runway(drive_test(TIRED, SLOW, test=STEP, floor=Floor(wall=12.0)))
 
     assert "which is a brownout" in lit.alt
     assert [axes.get_title(loc="right") for axes in (dark.figure.axes[0], lit.figure.axes[0])] == [
@@ -140,9 +142,9 @@ def test_a_brownout_lights_its_lamp():
 def test_the_moment_moves_the_robot():
     went = gone(RAMP, wall=12.0, tape=7.0)
 
-    assert runway(went, moment=0.2).svg != runway(went, moment=0.8).svg
+    assert plot_runway(went, moment=0.2).svg != plot_runway(went, moment=0.8).svg
     with pytest.raises(BadRequest, match="Choose 0"):
-        runway(went, moment=math.pi)
+        plot_runway(went, moment=math.pi)
 
 
 def test_what_braking_takes_is_no_less_than_the_carpet_asks_for():
@@ -151,4 +153,4 @@ def test_what_braking_takes_is_no_less_than_the_carpet_asks_for():
     speed = went.velocity[off]
 
     assert speed == went.velocity.max()
-    assert went.rests - went.position[off] > 0.97 * speed**2 / (2 * 1.1 * 9.81)
+    assert went.final_position - went.position[off] > 0.97 * speed**2 / (2 * 1.1 * 9.81)

@@ -402,6 +402,51 @@ def test_two_students_cannot_reach_each_others_files(root, separate_homes, monke
         rooms.close()
 
 
+PASSABLE = """
+set -e
+aside=$1; shift
+number=0
+while [ "$1" != -- ]; do  # pairs: a folder that nobody may pass, and one in it that is needed
+    number=$((number + 1)); mkdir -p "$aside/$number"; mount --bind "$2" "$aside/$number"
+    echo "$1" >> "$aside/private"; echo "$2" >> "$aside/needed"
+    shift 2
+done
+shift
+sort -u "$aside/private" | while read -r folder; do mount -t tmpfs -o mode=755 none "$folder"; done
+number=0
+while read -r folder; do
+    number=$((number + 1)); mkdir -p "$folder"; mount --move "$aside/$number" "$folder"
+done < "$aside/needed"
+exec "$@"
+"""
+
+
+def private_parent(path):
+    """The outermost folder around a path that other users may not pass; None if all may."""
+    return next((one for one in [*path.parents][::-1] if not one.stat().st_mode & 0o001), None)
+
+
+def test_two_students_are_kept_apart_where_python_lies_in_roots_own_folder(root, tmp_path):
+    """The test above once more, with Python and the course where every user may reach them."""
+    if not can_separate() or not sys.platform.startswith("linux") or not shutil.which("unshare"):
+        pytest.skip("only root on Linux can look at the same files in another way")
+    needed = {Path(one).resolve() for one in (sys.base_prefix, sys.prefix, root)}
+    pairs = [(private_parent(one), one) for one in sorted(needed)]
+    hidden = [str(path) for private, one in pairs if private for path in (private, one)]
+    if not hidden:
+        pytest.skip("every user can reach Python here: the test above has run")
+    test = f"{__file__}::test_two_students_cannot_reach_each_others_files"
+    done = subprocess.run(
+        ["unshare", "--mount", "sh", "-c", PASSABLE, "sh", str(tmp_path), *hidden, "--",  # noqa: S607
+         sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", test],
+        cwd=root, capture_output=True, encoding="utf-8", check=False, timeout=300,
+    )  # fmt: skip
+    if "unshare:" in done.stderr or "mount:" in done.stderr:
+        pytest.skip(f"no mounts of one's own here: {done.stderr.strip()[-200:]}")
+
+    assert "1 passed" in done.stdout, done.stdout + done.stderr
+
+
 @pytest.mark.browser
 def test_two_students_work_at_the_same_time_each_in_a_home_of_their_own(root, tmp_path):
     playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")

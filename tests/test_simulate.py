@@ -9,14 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.bench.mechanism import Sensor
-from sim.bench.mechanisms import MECHANISMS, mechanism
+from sim.bench.mechanisms import MECHANISMS, find_mechanism
 from sim.bench.routine import Routine
 from sim.bench.simulate import move_gains_only, simulate
 from sim.core.errors import BadRequest
 from sim.core.log import FOUR_TESTS
 from sim.fit import fit
 from sim.physics.battery import Battery
-from sim.physics.motors import MOTORS, motor, theoretical_kv
+from sim.physics.motors import MOTORS, find_motor, theoretical_kv
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)
@@ -58,7 +58,7 @@ def test_a_mechanism_says_what_it_is(name):
 
 def test_an_unknown_mechanism_lists_the_known():
     with pytest.raises(BadRequest, match="Choose one of: arm, drivetrain, elevator"):
-        mechanism("trebuchet")
+        find_mechanism("trebuchet")
 
 
 def test_the_drivetrain_has_the_theory_of_its_parts():
@@ -91,14 +91,14 @@ def test_a_motor_has_the_constants_of_its_data_sheet(name, resistance, volts_per
 
 
 def test_theoretical_kv_counts_gears_and_wheel():
-    assert theoretical_kv(motor("krakenX60"), ratio=6.75, radius=0.0508) == pytest.approx(
+    assert theoretical_kv(find_motor("krakenX60"), ratio=6.75, radius=0.0508) == pytest.approx(
         2.538, abs=1e-3
     )
 
 
 def test_an_unknown_motor_lists_the_known():
     with pytest.raises(BadRequest, match="Choose one of: krakenX60"):
-        motor("hamster")
+        find_motor("hamster")
 
 
 def test_a_step_follows_the_exponential_of_the_text_book():
@@ -203,7 +203,7 @@ def test_a_test_ends_where_the_travel_does():
     log = simulate(short, Routine(ramp=0.5, step=3.5), rng=rng())
 
     assert all(np.ptp(run.position) <= 2.0 for run in log.runs)
-    assert len(log.of("dynamic-forward")[0]) < 100
+    assert len(log.runs_of_test("dynamic-forward")[0]) < 100
 
 
 @pytest.mark.parametrize(
@@ -234,7 +234,9 @@ def test_a_brownout_is_said_and_only_then():
 
 def test_a_recorded_voltage_is_what_reached_the_motors():
     # a Kraken's 120 A are 120·12/366 V = 3.93 V from rest, whatever is asked for
-    step = simulate(MECHANISMS["drivetrain"], Routine(step=7.0), rng=rng()).of("dynamic-forward")[0]
+    step = simulate(MECHANISMS["drivetrain"], Routine(step=7.0), rng=rng()).runs_of_test(
+        "dynamic-forward"
+    )[0]
 
     assert step.voltage[0] == pytest.approx(120.0 * 12.0 / 366.0)
     assert step.voltage[-1] == pytest.approx(7.0)

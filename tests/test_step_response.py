@@ -14,12 +14,12 @@ from sim.feedback import (
     Feedback,
     Plant,
     StepResponse,
+    design_position_loop,
+    design_velocity_loop,
     judge_step_response,
-    position_loop,
-    step_response,
-    velocity_loop,
+    simulate_step_response,
 )
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
 
 GAINS = {"kS": 0.15, "kV": 2.5, "kA": 0.19}
@@ -36,24 +36,26 @@ QUICK = replace(PRESETS["ctre-phoenix6"], delay=0.0)  # 1 ms, volts: nearly cont
 def test_the_mechanism_moves_as_in_the_engine(kind, loop):
     plant = PLANTS[kind]
     gains = Feedback(3.0, 0.0) if loop == "velocity" else Feedback(50.0, 4.0)
-    took = step_response(plant, loop=loop, feedback=gains, target=plant.step(loop), delay=0.01)
+    took = simulate_step_response(
+        plant, loop=loop, feedback=gains, target=plant.target_step(loop), delay=0.01
+    )
 
-    track = move(
+    track = simulate_run(
         Model(kind, plant.gains),
         time=np.array(took.time),
         voltage=np.array([*took.voltage[1:], 0.0]),  # each until the next
-        state=State.at(plant.level),
+        state=State.cold_at(plant.level_position),
         step=1e-4,
     )
 
-    told = track.velocity if loop == "velocity" else track.position - plant.level
+    told = track.velocity if loop == "velocity" else track.position - plant.level_position
     assert np.array(took.value) == pytest.approx(told, abs=2e-3 * took.target)
 
 
 def test_without_friction_and_delay_a_velocity_follows_the_exponential_of_paper():
     # kV·v + kA·v' = kV·r + kP·(r - v), so the error dies with kA/(kV + kP)
     plant = Plant("simple", {"kS": 0.0, "kV": 1.0, "kA": 0.5})
-    took = step_response(
+    took = simulate_step_response(
         plant, loop="velocity", feedback=Feedback(4.0, 0.0), target=1.0, preset=QUICK
     )
 
@@ -69,7 +71,7 @@ def test_a_delay_makes_a_loop_swing_from_the_gain_of_paper_on(share, kind):
     plant = Plant("simple", {"kS": 0.0, "kV": 1e-6, "kA": ka})
     most = 0.5 * math.pi * ka / (wait + 0.5 * QUICK.period)
 
-    took = step_response(
+    took = simulate_step_response(
         plant, loop="velocity", feedback=Feedback(share * most, 0.0), target=1.0,
         preset=QUICK, delay=wait, seconds=10.0,
     )  # fmt: skip
@@ -88,14 +90,16 @@ def test_a_presets_units_cancel(name, loop):
     written = Feedback(3.0 * scale, 0.2 * scale / (1.0 if preset.normalized else preset.period))
     asked = {"loop": loop, "target": 0.4, "delay": 0.0}
 
-    here = step_response(PLANTS["simple"], feedback=written, preset=preset, **asked)
-    there = step_response(PLANTS["simple"], feedback=Feedback(3.0, 0.2), preset=plain, **asked)
+    here = simulate_step_response(PLANTS["simple"], feedback=written, preset=preset, **asked)
+    there = simulate_step_response(
+        PLANTS["simple"], feedback=Feedback(3.0, 0.2), preset=plain, **asked
+    )
 
     assert here.value == pytest.approx(there.value)
 
 
 def test_the_voltage_stays_within_the_battery():
-    took = step_response(
+    took = simulate_step_response(
         PLANTS["simple"], loop="position", feedback=Feedback(900.0, 0.0), target=0.5
     )
 
@@ -105,39 +109,43 @@ def test_the_voltage_stays_within_the_battery():
 def test_a_position_loop_too_weak_for_friction_stops_short_by_what_friction_holds():
     # it stands where kP·error = kS: 0.15 V / 2 V/m = 75 mm short, 15 % of the step
     weak = Feedback(2.0, 0.0)
-    took = step_response(PLANTS["simple"], loop="position", feedback=weak, target=0.5, seconds=10.0)
+    took = simulate_step_response(
+        PLANTS["simple"], loop="position", feedback=weak, target=0.5, seconds=10.0
+    )
 
     told = judge_step_response(took)
 
     assert told.kind == "stays-short"
     assert told.left == pytest.approx(0.15, abs=0.01)
-    assert told.words == "stops 15% of the step before the target"
+    assert told.description == "stops 15% of the step before the target"
 
 
 def test_a_negative_gain_runs_away():
-    took = step_response(
+    took = simulate_step_response(
         PLANTS["simple"], loop="position", feedback=Feedback(-9.0, 0.0), target=0.5
     )
 
     assert judge_step_response(took).kind == "runs-away"
-    assert judge_step_response(took).words == "runs away from the target"
+    assert judge_step_response(took).description == "runs away from the target"
 
 
 @pytest.mark.parametrize("loop", ["velocity", "position"])
 @pytest.mark.parametrize("kind", PLANTS)
 def test_what_sysid_suggests_without_a_delay_settles(kind, loop):
     plant = PLANTS[kind]
-    suggested = {"velocity": velocity_loop, "position": position_loop}[loop](
+    suggested = {"velocity": design_velocity_loop, "position": design_position_loop}[loop](
         kv=2.5, ka=0.19, velocity_error=1.2
     )
 
     told = judge_step_response(
-        step_response(plant, loop=loop, feedback=suggested, target=plant.step(loop), delay=0.0)
+        simulate_step_response(
+            plant, loop=loop, feedback=suggested, target=plant.target_step(loop), delay=0.0
+        )
     )
 
-    assert told.good
+    assert told.is_good
     assert told.reached < told.settled + 0.5
-    assert told.words.startswith("is 90% there after")
+    assert told.description.startswith("is 90% there after")
 
 
 def test_the_numbers_of_a_verdict_are_those_of_the_curve():
@@ -153,7 +161,7 @@ def test_the_numbers_of_a_verdict_are_those_of_the_curve():
     assert told.reached == pytest.approx(0.45, abs=0.002)
     assert told.overshoot == pytest.approx(0.2, abs=0.001)
     assert told.settled == pytest.approx(0.75, abs=0.002)
-    assert told.words == (
+    assert told.description == (
         "is 90% there after 450 ms, goes 20% past the target and is settled after 751 ms"
     )
 
@@ -168,12 +176,12 @@ def test_the_numbers_of_a_verdict_are_those_of_the_curve():
 )
 def test_whatever_the_gains_the_answer_is_numbers_and_a_sentence(kp, kd, delay, kv, ka):
     plant = Plant("simple", {"kS": 0.1, "kV": kv, "kA": ka})
-    took = step_response(
+    took = simulate_step_response(
         plant, loop="position", feedback=Feedback(kp, kd), target=0.3, delay=delay, seconds=1.0
     )
 
     assert all(map(math.isfinite, took.value))
-    assert "nan" not in judge_step_response(took).words
+    assert "nan" not in judge_step_response(took).description
 
 
 @pytest.mark.parametrize(
@@ -189,4 +197,4 @@ def test_what_cannot_be_simulated_is_refused(changes, said):
     asked |= {"target": 1.0, **changes}
 
     with pytest.raises(BadRequest, match=said):
-        step_response(asked.pop("plant"), **asked)
+        simulate_step_response(asked.pop("plant"), **asked)

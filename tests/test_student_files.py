@@ -6,7 +6,7 @@ from grader.check import Wrong
 from grader.choice_answer import check_choice, read_choice
 from grader.mistake import exchanged, number, put, scaled
 from grader.student_files import write_student_files
-from grader.variant import class_secret, folder_name, student_seed
+from grader.variant import class_secret, make_folder_name, student_seed
 from sim.core.errors import BadRequest
 
 TYPES = ("Simple", "Arm", "Elevator")
@@ -18,7 +18,7 @@ def test_files_are_written_once_and_again_when_they_were_changed(tmp_path):
     told = {"exercise": exercise, "student": "Zoë", "what": "numbers", "say": said.append}
     write_student_files(files, **told)
     write_student_files(files, **told)
-    made = exercise / "data" / folder_name("Zoë")
+    made = exercise / "data" / make_folder_name("Zoë")
     (made / "log.csv").write_bytes(b"other")
     write_student_files(files, **told)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sim.fit.sysid_rows import Rows, median_filter, noise_floor, trim_step
+from sim.fit.sysid_rows import Rows, estimate_noise_floor, median_filter, trim_step
 
 
 def test_a_median_of_three_is_sysids_own():
@@ -28,7 +28,7 @@ def test_a_median_is_fed_as_sysid_feeds_its_buffer(window):
 def test_the_noise_floor_is_sysids_own():
     velocity = np.array([0, 1, 2, 5, 0.35, 0.15, 0, 0.02, 0.01, 0])
 
-    assert noise_floor(velocity, window=2) == pytest.approx(0.953, abs=1e-3)
+    assert estimate_noise_floor(velocity, window=2) == pytest.approx(0.953, abs=1e-3)
 
 
 @pytest.mark.parametrize(

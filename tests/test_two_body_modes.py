@@ -8,16 +8,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from sim.physics.engine import NO_TRUST, RunBatch, State, follow, move
+from sim.physics.engine import NO_CORRECTION, RunBatch, State, filter_runs, simulate_run
 from sim.physics.engine.two_body_modes import (
     MOVES,
     ROW,
     STANDS,
     WAYS,
-    becomes,
-    doubled,
-    prepared,
-    tabled,
+    apply_row,
+    make_table,
+    make_table_from_half,
+    prepare_series,
 )
 from sim.physics.model import Model, Part
 
@@ -54,7 +54,14 @@ def searched(model, volts):
         measured=np.full((TIME.size, 2), np.nan), position=still, velocity=still,
         low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
     )  # fmt: skip
-    return follow(model, course, trust=NO_TRUST, beside=still, meshed=still, rubs=still)
+    return filter_runs(
+        model,
+        course,
+        kalman_gain=NO_CORRECTION,
+        position_offset=still,
+        backlash_phase=still,
+        friction_offset=still,
+    )
 
 
 @given(
@@ -71,7 +78,7 @@ def test_the_tables_are_the_matrix_exponential(dt, kv, bodies, swing, damping):
     damp = 2.0 * damping * math.sqrt(stiff * reduced)
     ways = np.zeros(WAYS)
 
-    prepared(ways, MOVES, kv, own, other, stiff, damp)
+    prepare_series(ways, MOVES, kv, own, other, stiff, damp)
 
     flow = np.zeros((6, 6))  # of d, v, w, y, b, r
     flow[0, 1:3] = 1.0, -1.0
@@ -80,7 +87,7 @@ def test_the_tables_are_the_matrix_exponential(dt, kv, bodies, swing, damping):
     flow[3, 2] = 1.0
     for level in range(4):
         right = expm(flow * dt / 2**level)[:4][:, [0, 1, 2, 4, 5]]
-        for make in (doubled, tabled):
+        for make in (make_table_from_half, make_table):
             made = numbers(ways, make(ways, MOVES, dt, level))
             assert made == pytest.approx(right, rel=1e-6, abs=1e-8 * np.abs(right).max())
 
@@ -91,39 +98,39 @@ def numbers(ways, at):
 
 def test_a_table_is_kept_for_the_next_step_and_made_anew_for_another():
     ways = np.zeros(WAYS)
-    prepared(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
-    first = numbers(ways, doubled(ways, MOVES, 0.01, 0)).copy()
-    half = numbers(ways, doubled(ways, MOVES, 0.01, 1)).copy()
+    prepare_series(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
+    first = numbers(ways, make_table_from_half(ways, MOVES, 0.01, 0)).copy()
+    half = numbers(ways, make_table_from_half(ways, MOVES, 0.01, 1)).copy()
     kept = ways.copy()
 
-    doubled(ways, MOVES, 0.01, 0)
-    tabled(ways, MOVES, 0.01, 1)
+    make_table_from_half(ways, MOVES, 0.01, 0)
+    make_table(ways, MOVES, 0.01, 1)
     assert (ways == kept).all()
 
-    assert numbers(ways, doubled(ways, MOVES, 0.005, 0)) == pytest.approx(half)
+    assert numbers(ways, make_table_from_half(ways, MOVES, 0.005, 0)) == pytest.approx(half)
 
-    prepared(ways, MOVES, 2.0, 0.1, 0.3, 50.0, 0.1)
-    assert numbers(ways, doubled(ways, MOVES, 0.01, 0)) != pytest.approx(first)
+    prepare_series(ways, MOVES, 2.0, 0.1, 0.3, 50.0, 0.1)
+    assert numbers(ways, make_table_from_half(ways, MOVES, 0.01, 0)) != pytest.approx(first)
 
 
 def test_a_load_that_stands_has_tables_of_its_own():
     ways = np.zeros(WAYS)
-    prepared(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
-    first = numbers(ways, doubled(ways, MOVES, 0.01, 0)).copy()
+    prepare_series(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
+    first = numbers(ways, make_table_from_half(ways, MOVES, 0.01, 0)).copy()
 
-    prepared(ways, STANDS, 2.0, 0.1, 1e9, 50.0, 0.1)
-    stands = numbers(ways, doubled(ways, STANDS, 0.01, 0))
+    prepare_series(ways, STANDS, 2.0, 0.1, 1e9, 50.0, 0.1)
+    stands = numbers(ways, make_table_from_half(ways, STANDS, 0.01, 0))
 
     assert stands[2].tolist() == pytest.approx([0.0, 0.0, 1.0, 0.0, 0.0], abs=1e-6)
-    assert (numbers(ways, doubled(ways, MOVES, 0.01, 0)) == first).all()
+    assert (numbers(ways, make_table_from_half(ways, MOVES, 0.01, 0)) == first).all()
 
 
 def test_a_row_is_what_a_motion_and_its_pushes_become():
     ways = np.zeros(WAYS)
-    prepared(ways, MOVES, 0.0, 0.1, 0.2, 50.0, 0.0)
-    at = doubled(ways, MOVES, 0.01, 0)
+    prepare_series(ways, MOVES, 0.0, 0.1, 0.2, 50.0, 0.0)
+    at = make_table_from_half(ways, MOVES, 0.01, 0)
 
-    fallen = becomes(ways, at + 2 * ROW, 0.0, 0.0, 0.0, 0.0, -0.3)
+    fallen = apply_row(ways, at + 2 * ROW, 0.0, 0.0, 0.0, 0.0, -0.3)
 
     assert fallen == pytest.approx(-0.01 * 0.3 / 0.2, rel=0.01)
 
@@ -135,9 +142,9 @@ def test_a_row_is_what_a_motion_and_its_pushes_become():
 def test_a_spring_moves_as_in_steps_a_thousand_times_as_fine(body, volts, swing, share):
     model, asked = sprung(BODIES[body], swing=swing, share=share), VOLTAGES[volts]
 
-    right = move(model, time=TIME, voltage=asked, state=State(), step=FINE)
+    right = simulate_run(model, time=TIME, voltage=asked, state=State(), step=FINE)
 
-    made = move(model, time=TIME, voltage=asked, state=State())
+    made = simulate_run(model, time=TIME, voltage=asked, state=State())
     quick = searched(model, asked)
     top, way = np.abs(right.velocity).max(), np.ptp(right.position)
     assert made.velocity == pytest.approx(right.velocity, abs=5e-4 * top)
@@ -154,7 +161,7 @@ def test_teeth_meet_and_part_when_they_do_in_steps_a_thousand_times_as_fine(
 ):
     model, asked = loose(BODIES[body], moment=moment, share=share), VOLTAGES[volts]
 
-    right = move(model, time=TIME, voltage=asked, state=State(), step=FINE)
+    right = simulate_run(model, time=TIME, voltage=asked, state=State(), step=FINE)
 
     quick = searched(model, asked)
     top, way = np.abs(right.velocity).max(), np.ptp(right.position)
@@ -167,7 +174,7 @@ def test_play_on_a_spring_moves_as_in_fine_steps():
     model += sprung(BODIES["heavy"], swing=6.0, share=0.3).parts[0]
     asked = VOLTAGES["there and back"]
 
-    right = move(model, time=TIME, voltage=asked, state=State(), step=FINE)
+    right = simulate_run(model, time=TIME, voltage=asked, state=State(), step=FINE)
 
     quick = searched(model, asked)
     top = np.abs(right.velocity).max()
@@ -178,7 +185,7 @@ def test_a_spring_between_two_bodies_that_rest_stays_as_it_is():
     model = sprung(BODIES["heavy"], swing=4.0, share=0.4)
     state = State(np.array([0.001, 0.0, 0.0, 0.0, 0.0]))
 
-    track = move(model, time=TIME, voltage=np.zeros(TIME.size), state=state)
+    track = simulate_run(model, time=TIME, voltage=np.zeros(TIME.size), state=state)
 
     assert not track.velocity.any()
     assert state.body.tolist() == [0.001, 0.0, 0.0, 0.0, 0.0]
@@ -192,7 +199,7 @@ def test_what_lies_on_its_stop_is_lifted_when_it_is_in_fine_steps(part):
     model = Model("elevator", gains, other(gains, share=0.3, **size).parts, travel=(0.0, 9.0))
     asked = VOLTAGES["a ramp"]
 
-    right = move(model, time=TIME, voltage=asked, state=State(), step=FINE)
+    right = simulate_run(model, time=TIME, voltage=asked, state=State(), step=FINE)
 
     quick = searched(model, asked)
     top = np.abs(right.velocity).max()
@@ -206,6 +213,6 @@ def test_inertia_that_a_search_makes_negative_ends_all_the_same(extra):
     change = {"extra": extra, "onset": 0.5, "until": 99.0, "shared": 0.0}
     model += Part("inertia-change", change)
 
-    track = move(model, time=TIME, voltage=VOLTAGES["a ramp"], state=State())
+    track = simulate_run(model, time=TIME, voltage=VOLTAGES["a ramp"], state=State())
 
     assert track.position.shape == TIME.shape

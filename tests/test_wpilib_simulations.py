@@ -20,7 +20,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import power_path_arrays, simulate
 from sim.core.log import KINDS
 from sim.physics.battery import Battery
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.motors import MOTORS, Motor
 
 pytestmark = pytest.mark.robot
@@ -96,8 +96,10 @@ def apart_at_stops(built: Mechanism, name: str, twin, step: float | None = None)
     begin = 0.5 * (low + high)
     theirs = twin(bare(name), begin).follow(time, voltage)
     assert (theirs["position"].min(), theirs["position"].max()) == (low, high)
-    state, wires = State.at(begin), power_path_arrays(built)
-    ours = move(built.model, time=time, voltage=voltage, state=state, wires=wires, step=step)
+    state, wires = State.cold_at(begin), power_path_arrays(built)
+    ours = simulate_run(
+        built.model, time=time, voltage=voltage, state=state, wires=wires, step=step
+    )
     return apart(built, ours, theirs, voltage)
 
 

@@ -16,7 +16,7 @@ from wpilog_file import (
     start,
 )
 
-from sim.io.formats.wpilog.contents import Contents, contents_of
+from sim.io.formats.wpilog.contents import Contents, read_contents
 from sim.io.formats.wpilog.entry import KINDS, Entry
 from sim.io.formats.wpilog.records import load_records, read_headers
 
@@ -26,7 +26,7 @@ TMP = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 def contents_in(tmp_path: Path, *parts: bytes) -> Contents:
     path = tmp_path / "log.wpilog"
     path.write_bytes(HEADER + b"".join(parts))
-    return contents_of(load_records(path))
+    return read_contents(load_records(path))
 
 
 def values(entry: Entry) -> list[object]:

@@ -61,13 +61,13 @@ def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None
         shown = [
             plot.Trace(one.name, ylabel, one.time, one.wanted, {done: one.found}) for one in motions
         ]
-        return plot.consequence(shown, words=words)
+        return plot.plot_consequence(shown, words=words)
 
     return Consequence(words, draw)
 
 
 def _moved(name: str, volts: float, variant: Variant) -> Motion:
-    from sim.feedback.response import Moving, Plant  # noqa: PLC0415 - numpy only where it is needed
+    from sim.feedback.response import MovingPlant, Plant  # noqa: PLC0415 - numpy only where it is needed
 
     at, gains = variant.moments[name], variant.gains
     lasts, begin = LONG * gains["kA"] / gains["kV"], 0.0
@@ -77,10 +77,10 @@ def _moved(name: str, volts: float, variant: Variant) -> Motion:
     step = lasts / STEPS
     time = tuple(step * k for k in range(STEPS + 1))
     wanted = tuple(at.velocity + at.acceleration * t for t in time)
-    moving = Moving(Plant("simple", gains), step=step, start=0.0, speed=begin)
+    moving = MovingPlant(Plant("simple", gains), step=step, start=0.0, speed=begin)
     for t in time[:-1]:
         change = gains["kV"] * at.acceleration * (t + step / 2.0)
-        moving.on(min(max(volts + change, -BATTERY), BATTERY))
+        moving.apply_voltage(min(max(volts + change, -BATTERY), BATTERY))
     return Motion(name, time, wanted, tuple(moving.speed))
 
 

@@ -66,10 +66,10 @@ def _right(one: Feedforward, gains: dict[str, float], variant: Variant) -> bool:
 
 
 def _profile(plant: "Plant", kind: str) -> "Profile":
-    from sim.feedback.profile import brisk_profile, there_and_back  # noqa: PLC0415 - numpy, when needed
+    from sim.feedback.profile import make_brisk_profile, make_return_profile  # noqa: PLC0415 - numpy, when needed
 
     if kind in SPEED:
-        return there_and_back(
+        return make_return_profile(
             SPEED[kind], rising=RISING, steady=STEADY, still=STILL, start=START[kind]
         )
-    return brisk_profile(plant)
+    return make_brisk_profile(plant)

@@ -11,9 +11,9 @@ from grader.answer import Asked, Band, read_answer_number
 from grader.check import NotReached, Wrong, check
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 
-from .drawn import Variant, draw
+from .drawn import FLOOR, Variant, draw
 from .gap import compared, gap, noise, with_effects, with_gains
 from .patch import names_of, on_a_bound, parts_of
 
@@ -24,13 +24,19 @@ if TYPE_CHECKING:
     from sim.physics.model import Model, Part
 
 __all__ = [  # what try_it.py uses, too
-    "compared", "draw", "folder_name", "gap", "names_of", "noise", "with_effects", "with_gains",
+    "compared",
+    "draw",
+    "gap",
+    "make_folder_name",
+    "names_of",
+    "noise",
+    "with_effects",
+    "with_gains",
 ]  # fmt: skip
 
 FILES = ("answers.toml",)
 HERE = Path(__file__).resolve().parent
 
-FLOOR = 1.3  # [of the gap that the truth leaves] for full marks
 SHRINK = 0.6  # [share of what can be shrunk] for partial marks
 WORSE = 1.05  # [of the base's gap] beyond it, effects do harm
 SURE = 20.0  # [BIC] odds of about twenty thousand to one
@@ -55,9 +61,9 @@ class Answers:
     @property
     def parts(self) -> "list[Part]":
         """The effects with their parameters; raises Wrong."""
-        from sim.core.units import unit  # noqa: PLC0415 - numpy only where it is needed
+        from sim.core.units import find_unit  # noqa: PLC0415 - numpy only where it is needed
 
-        return parts_of(self.names, self.given, unit(self.variant.log.units))
+        return parts_of(self.names, self.given, find_unit(self.variant.log.units))
 
     def fitted(self, parts: "Sequence[Part]") -> "Model":
         """Some of the answer's effects, and gains fitted to the log: each selection once."""

@@ -36,9 +36,9 @@ def errors(model: "Model", log: "Log", *, step: float | None = None) -> "Array":
     """
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
-    from sim.physics.replay import replay  # noqa: PLC0415 - the engine takes a moment to load
+    from sim.physics.replay import replay_log  # noqa: PLC0415 - the engine takes a moment to load
 
-    tracks = replay(model, log, step=step)
+    tracks = replay_log(model, log, step=step)
     left = [
         (run.velocity - track.seen)[where]
         for run, track, where in zip(log.runs, tracks, compared(log), strict=True)
@@ -84,7 +84,7 @@ def with_effects(log: "Log", names: Sequence[str], *, like: "Model | None" = Non
     """
     from itertools import product  # noqa: PLC0415 - only where something is searched
 
-    from sim.physics.effects import effect  # noqa: PLC0415 - the same
+    from sim.physics.effects import find_effect  # noqa: PLC0415 - the same
     from sim.physics.model import Part  # noqa: PLC0415 - the same
     from sim.physics.voltage_residual import compute_voltage_residual  # noqa: PLC0415 - the same
 
@@ -92,17 +92,17 @@ def with_effects(log: "Log", names: Sequence[str], *, like: "Model | None" = Non
     there = {part.effect: part.parameters for part in (like.parts if like else ())}
     seen = compute_voltage_residual(log, gains, type="simple")
     begins = [
-        [there[name]] if name in there else list(effect(name).starts(seen))[:STARTS]
+        [there[name]] if name in there else list(find_effect(name).start_values(seen))[:STARTS]
         for name in names
     ]
-    known = [one for name in names for one in effect(name).parameters]
+    known = [one for name in names for one in find_effect(name).parameters]
     least = [*(LEAST[name] for name in gains), *(one.least for one in known)]
     most = [math.inf] * len(gains) + [one.most for one in known]
 
     def model(values: "Array") -> "Model":
         left = iter(values.tolist())
         found = {name: next(left) for name in gains}
-        parts = [Part(name, {one: next(left) for one in effect(name).names}) for name in names]
+        parts = [Part(name, {one: next(left) for one in find_effect(name).names}) for name in names]
         return _model(found, parts)
 
     best, smallest = None, math.inf

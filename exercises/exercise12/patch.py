@@ -67,13 +67,13 @@ def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -
     Raises:
         Wrong: a parameter is missing, or is none.
     """
-    from sim.physics.effects import effect  # noqa: PLC0415 - numpy only where it is needed
+    from sim.physics.effects import find_effect  # noqa: PLC0415 - numpy only where it is needed
     from sim.physics.model import Part  # noqa: PLC0415 - the same
 
     parts = []
     for name in names:
         table = given.get(name, given.get(name.replace("-", "_")))
-        known = effect(name).parameters
+        known = find_effect(name).parameters
         if not isinstance(table, dict):
             lines = ", ".join(f"{name}.{one.name} = …" for one in known)
             raise Wrong(f"no parameters of {name}", hint=f"Write a line for each: {lines}.")
@@ -101,9 +101,9 @@ def _value(name: str, known: "Parameter", raw: object, per: "Unit") -> float:
 
 def on_a_bound(part: "Part") -> str:
     """The parameter that stands at the end of what is allowed; empty if none does."""
-    from sim.physics.effects import effect  # noqa: PLC0415 - numpy only where it is needed
+    from sim.physics.effects import find_effect  # noqa: PLC0415 - numpy only where it is needed
 
-    for one in effect(part.effect).parameters:
+    for one in find_effect(part.effect).parameters:
         value = part.parameters[one.name]
         for bound in (one.least, one.most):
             if math.isfinite(bound) and abs(value - bound) <= max(EDGE * abs(bound), NOTHING):

@@ -15,9 +15,9 @@ from grader.course import find_course, load_progress
 from grader.exercise import find_exercise
 from sim import read
 from sim.core.errors import Refusal
-from sim.core.units import gains_per, unit
-from sim.physics.replay import replay
-from sim.reconcile.residual_map import residual_map
+from sim.core.units import find_unit, gains_per
+from sim.physics.replay import replay_log
+from sim.reconcile.residual_map import map_residuals
 
 TOLD = 4  # places
 
@@ -34,15 +34,15 @@ def main() -> int:
     student = asked.student or load_progress(course)[0].student
     exercise.prepare(student, say=_say)
     room = exercise.module
-    data = room.HERE / "data" / room.folder_name(student)
+    data = room.HERE / "data" / room.make_folder_name(student)
     logs = {name: read(data / f"{name}.wpilog") for name in ("log", "validation", "held-out")}
     names = room.names_of(asked.effects) if asked.effects else ()
     model = room.with_effects(logs["log"], names)
-    per = unit(logs["log"].units)
+    per = find_unit(logs["log"].units)
     gains = gains_per(model.gains, factor=per.si)
     _say(", ".join(f"{name} = {value:.4g}" for name, value in gains.items()))
     for part in model.parts:
-        for name, one in part.said(per).items():
+        for name, one in part.to_json(per).items():
             _say(f"{part.effect}.{name} = {one['value']:.5g}  # [{one['unit']}]")
     for name, log in logs.items():
         if name != "held-out" or asked.held_out:
@@ -50,9 +50,9 @@ def main() -> int:
             _say(f"gap of the {name}: {wide:.3g} times the noise of the velocity")
     _say("Where the validation disagrees most:")
     shown = logs["validation"]
-    tracks = [np.column_stack((one.position, one.seen)) for one in replay(model, shown)]
-    found = residual_map(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
-    places = found.places(TOLD, signal="velocity") if found else ()
+    tracks = [np.column_stack((one.position, one.seen)) for one in replay_log(model, shown)]
+    found = map_residuals(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
+    places = found.find_places(TOLD, signal="velocity") if found else ()
     for place in places:
         _say(f"  {place.sentence}")
     if not places:

@@ -73,11 +73,13 @@ def _followed(
 ) -> "FollowedProfile":
     from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
     from sim.feedback.following import follow_profile  # noqa: PLC0415 - the same
-    from sim.feedback.profile import there_and_back  # noqa: PLC0415 - the same
+    from sim.feedback.profile import make_return_profile  # noqa: PLC0415 - the same
 
     moves = {"kV": KV[kind], "kA": truth["kG"] / FALLS[kind]}
     symbol, place = ("m", "height") if kind == "elevator" else ("rad", "angle")
-    wanted = there_and_back(SPEED[kind], rising=RISING, steady=STEADY, still=STILL, start=start)
+    wanted = make_return_profile(
+        SPEED[kind], rising=RISING, steady=STEADY, still=STILL, start=start
+    )
     plant, believed = (Plant(kind, {**gains, **moves}) for gains in (truth, theirs))
     return follow_profile(
         plant, believed, wanted, name=kind, symbol=symbol, place=place, stops=room

@@ -8,6 +8,7 @@ from grader import robotcode
 from grader.check import NotReached, Status, Wrong, check, run_all
 from grader.logged_numbers import (
     check_all_logged,
+    check_circumference,
     check_constants,
     check_devices,
     check_logged_signs,
@@ -25,6 +26,7 @@ from grader.sysid_routine_checks import (
     Advice,
     Setting,
     cannot_tell,
+    check_alone,
     check_compiles,
     check_driven,
     check_open_loop,
@@ -197,6 +199,7 @@ def _drive(facts: RoutineFacts) -> str | None:
     if wrong:
         wrong[0].earned = round(3 * (1 - len(wrong) / len(motors)), 1)
         raise wrong[0]
+    check_alone(facts)
     check_numbers(facts)
     note = check_signs(facts, points=3, mirrored=facts.class_name != TASK)
     if note:
@@ -269,6 +272,7 @@ def _units(facts: RoutineFacts) -> None:
     task = facts.class_name == TASK
     check_units(signals, mechanism="Drivetrain" if task else facts.class_name)
     check_sources(signals, geared=facts.geared)
+    check_circumference(facts)
     if task:
         check_constants(facts, METERS)
 

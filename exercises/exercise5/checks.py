@@ -183,6 +183,12 @@ def bound(facts: BindingFacts) -> None:
             hint="There nobody holds a button, and nobody can let it go. Bind the test to one.",
         )
     _readable(facts, earned=0.0)
+    if all_of(one.test for one in facts.factories) >= TESTS:
+        raise Wrong(
+            "no button runs a test",
+            hint="Bind each of the four to a button. If you did: is the line reached, or does a "
+            "return or a condition come before it?",
+        )
     reached(facts)
 
 

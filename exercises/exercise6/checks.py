@@ -23,6 +23,7 @@ FILES = ("answers.toml",)
 FILE_MADE = "given.toml"
 HERE = Path(__file__).resolve().parent
 POINTS = 1.5  # for a mechanism's plan
+LEAST = 0.001  # of any part of a plan: less than that is nothing
 MOST = {"ramp": ("V/s", 100.0), "step": ("V", 12.0), "timeout": ("s", 600.0)}  # as SysIdRoutine's
 GAINS = {"kS": ("ks", "V"), "kG": ("kg", "V"), "kV": ("kv", "V·s/{}"), "kA": ("ka", "V·s²/{}")}
 
@@ -166,8 +167,8 @@ def _positive(
         if what == "release":
             wrong.hint += ' Or "timeout", if nobody lets go before it.'
         raise
-    if not 0.0 < value <= most:
-        hint = f"Choose a number above 0, at most {most:g} {unit}."
+    if not LEAST < value <= most:
+        hint = f"Choose a number above {LEAST:g}, at most {most:g} {unit}."
         raise Wrong(f"{name}: {value:g} {unit}", hint=hint)
     return value
 

@@ -76,14 +76,14 @@ def _feasible(student: str, kind: str) -> "tuple[Machine, Mechanism]":
 
 def _built(kind: str, rng: "np.random.Generator") -> "Mechanism":
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.physics.motors import motor  # noqa: PLC0415 - the same
+    from sim.physics.motors import find_motor  # noqa: PLC0415 - the same
 
     plain = MECHANISMS[kind]
     names = MOTORS[kind]
     plain = replace(
         plain,
         spread={**plain.spread, **SPREAD.get(kind, {})},
-        motor=motor(names[int(rng.integers(len(names)))]),
+        motor=find_motor(names[int(rng.integers(len(names)))]),
         travel=None,
         lowest=None,
     )
@@ -91,9 +91,9 @@ def _built(kind: str, rng: "np.random.Generator") -> "Mechanism":
 
 
 def _machine(kind: str, built: "Mechanism", rng: "np.random.Generator") -> Machine:
-    from sim.core.units import gains_per, unit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - numpy only where it is needed
 
-    per = unit(UNITS.get(kind, "rotations"))
+    per = find_unit(UNITS.get(kind, "rotations"))
     found = gains_per(built.gains, factor=per.si)
     gains = [_rounded(found.get(name, 0.0)) for name in ("kS", "kV", "kA", "kG")]
     machine = Machine(

@@ -60,7 +60,7 @@ def outcome(plans: Mapping[str, Plan], machines: Mapping[str, Machine]) -> Conse
             )
             for one in found
         ]
-        return plot.consequence(shown, words=words)
+        return plot.plot_consequence(shown, words=words)
 
     return Consequence(words, draw)
 
@@ -108,11 +108,11 @@ def _ends(test: Test) -> float:
 
 def _places(test: Test, time: tuple[float, ...]) -> tuple[float, ...]:
     """Where it is: driven, then with 0 V in brake mode, until it stands."""
-    from sim.feedback.response import Moving, Plant  # noqa: PLC0415 - numpy only where it is needed
+    from sim.feedback.response import MovingPlant, Plant  # noqa: PLC0415 - numpy only where it is needed
 
     machine, places, ends = test.machine, [], test.still + test.lasts
     gains = {"kS": machine.hold, "kV": machine.kv, "kA": machine.ka}  # on its way up: all hold it
-    moving = Moving(
+    moving = MovingPlant(
         Plant("simple", gains), step=time[1] - time[0], start=test.place(test.lasts),
         speed=test.fastest,
     )  # fmt: skip
@@ -121,5 +121,5 @@ def _places(test: Test, time: tuple[float, ...]) -> tuple[float, ...]:
             places.append(test.place(max(t - test.still, 0.0)))
             continue
         places.append(moving.path[-1])
-        moving.on(0.0)
+        moving.apply_voltage(0.0)
     return tuple(places)

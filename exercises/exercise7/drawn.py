@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from sim.core.log import Log
-    from sim.inspect.fault import Stretch
+    from sim.inspect.fault import LogInterval
 
 LOGS = 12
 SOUND = (2, 3)  # this many of them are sound: two or three, so that nobody can count them off
@@ -46,7 +46,7 @@ class Damaged:
     """
 
     fault: str
-    where: "tuple[Stretch, ...]"
+    where: "tuple[LogInterval, ...]"
     whole: bool
 
 
@@ -136,7 +136,7 @@ def _solvable(case: Case) -> bool:
     from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - numpy only where it is needed
 
     found = inspect(case.log)
-    if found.clean and not case.damage:
+    if found.is_clean and not case.damage:
         return True
     if {one.fault for one in found.damages} != {one.fault for one in case.damage}:
         return False

@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING
 import click
 import numpy as np
 
-from sim.bench.dataset.student import folder_name
+from sim.bench.dataset.student import make_folder_name
 from sim.core.errors import Refusal
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.io import read
-from sim.plot.picture import COLORS, INK, Picture, panels
+from sim.plot.picture import COLORS, INK, Picture, make_panels
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,7 +40,7 @@ DOTS = 150  # samples in a picture up to which each gets a dot
 @click.option("--student", default="me", help="The name your logs are under.")
 def main(log: str, test: str, begin: float, end: float, student: str) -> None:
     """Draw one log, or a part of it."""
-    own = DATA / folder_name(student) / f"log{int(log):02}.wpilog" if log.isdecimal() else None
+    own = DATA / make_folder_name(student) / f"log{int(log):02}.wpilog" if log.isdecimal() else None
     place = own or Path(log)
     try:
         found = read(place)
@@ -62,9 +62,9 @@ def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float =
         begin: [s] since each test began, what to draw first.
         end: [s] the same, what to draw last.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     names = ("voltage [V]", f"velocity [{per.symbol}/s]", f"position [{per.symbol}]", "step [ms]")
-    figure, grid = panels(len(names), len(runs), width=3.4 * len(runs) + 1.0, height=8.4)
+    figure, grid = make_panels(len(names), len(runs), width=3.4 * len(runs) + 1.0, height=8.4)
     for column, run in enumerate(runs):
         since = run.time - run.time[0]
         kept = (since >= begin) & (since <= end)

@@ -37,11 +37,11 @@ def read(path: Path, *, student: str) -> Answers:
     Raises:
         UnreadableFile: the file cannot be read.
     """
-    from sim.core.units import unit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.units import find_unit  # noqa: PLC0415 - numpy only where it is needed
 
     given = {name.lower(): value for name, value in read_answers(path).items()}
     variant = draw(student)
-    per = unit(variant.mechanism.units)
+    per = find_unit(variant.mechanism.units)
     try:
         return Answers(read_preparation(given, symbol=per.symbol, si=per.si), variant)
     except Wrong as wrong:

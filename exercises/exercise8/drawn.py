@@ -30,6 +30,7 @@ ABOVE = 3.5  # [times the noise at rest] is a threshold that none of it passes
 EARLY = 0.05  # [s] before the impact a careful person cuts
 EARLIER = (0.0, 0.2)  # [s] and so much earlier others do; all of these must find the gains
 ROUGHLY = (0.55, 1.0, 1.2)  # [times the threshold] that others choose, down to what just passes
+BETWEEN = tuple(0.575 + 0.025 * step for step in range(18))  # [times the threshold] all of these
 NOTHING = Preparation({}, 0.0, 1)
 LACKING: tuple[tuple[str, dict[str, Any]], ...] = (  # what must cost a gain to leave out, or overdo
     ("kA", {"keep": {}}),
@@ -39,6 +40,7 @@ LACKING: tuple[tuple[str, dict[str, Any]], ...] = (  # what must cost a gain to 
 )
 SURELY = 1.3  # [times the bands] even if they were this much wider
 SNUG = 0.9  # [times the bands] what is right must be so even if they were this much narrower
+NEARLY = 0.98  # [times the bands] the same, for thresholds between two that were tried
 MOST_DRAWS = 300  # so many in a row that cannot be solved would be our fault
 
 
@@ -81,7 +83,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
     from sim.core.errors import Refusal  # noqa: PLC0415 - the same
-    from sim.core.units import gains_per, unit  # noqa: PLC0415 - the same
+    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - the same
     from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
 
     mechanism = MECHANISMS[kind].draw(rng)
@@ -100,7 +102,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     spiky = tuple(
         spiked(run, valid[run.test], impacts.get(run.test), rng) for run in trembles.log.runs
     )
-    per = unit(mechanism.units)
+    per = find_unit(mechanism.units)
     return Variant(
         mechanism,
         replace(log, runs=spiky),
@@ -126,6 +128,10 @@ def _solvable(variant: Variant) -> bool:
     return (
         all(part.enough and part.reaches for part in remaining)
         and all(points(log, one, asked) == full for one in by_eye)
+        and all(
+            points(log, _cut(reference, EARLIER[1] / 2, times), asked, wider=NEARLY) == full
+            for times in BETWEEN
+        )
         and all(
             points(log, replace(one, **part), {gain: asked[gain]}, wider=SURELY) < POINTS
             for one in by_eye

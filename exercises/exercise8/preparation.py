@@ -18,6 +18,7 @@ LONGEST = 15  # [samples] of a median window, as SysId's
 EVERYTHING = ("all", "everything", "whole")
 ANY = Band(0.0, 0.0)  # nobody asks how near: what comes of it is graded
 NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+COMMAS = re.compile(r"\d,\d+,\d")  # 1,5,5 may be 1.5 to 5, and 1 to 5.5
 BETWEEN = re.compile(r"\s*(?:(?:to|until|till|from|and|seconds?|secs?|s)\b\s*|[-–,;.:()]\s*)*")
 
 
@@ -98,6 +99,11 @@ def _window(test: str, raw: object) -> tuple[float, float] | None:
     if raw.strip().lower() in EVERYTHING:
         return None
     times = [float(part.replace(",", ".")) for part in NUMBER.findall(raw)]
+    if COMMAS.search(raw):
+        raise Wrong(
+            f'{name}: "{raw[:40]}"',
+            hint=f"Three numbers with commas can be read as two times in two ways. {ask}",
+        )
     if len(times) != 2 or not BETWEEN.fullmatch(NUMBER.sub(" ", raw.lower())):
         raise Wrong(f'{name}: "{raw[:40]}", which is not two times', hint=ask)
     if times[0] >= times[1]:

@@ -33,6 +33,7 @@ REMEMBERED = 32  # learners whose logs are kept while this runs: it takes time t
 MOST_DRAWS = 100  # so many mechanisms in a row that cannot be fitted would be our fault
 
 METRICS = ("acceleration_r2", "simulated_velocity_r2")
+PERFECT = "An R² of 1 is a model without any error. Write down the digits that your fit prints."
 METRIC_BANDS = {"acceleration_r2": 0.05, "simulated_velocity_r2": 0.02}  # one way to compute each
 
 
@@ -68,7 +69,7 @@ def _drawn(student: str, _seed: int) -> Variant:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.core.units import gains_per, unit  # noqa: PLC0415 - the same
+    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - the same
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
 
     for attempt in range(MOST_DRAWS):
@@ -78,7 +79,7 @@ def _drawn(student: str, _seed: int) -> Variant:
         routine = Routine(ramp=RAMP, step=STEPS.get(kind, USUAL_STEP), timeout=TIMEOUT)
         log = simulate(mechanism, routine, rng=rng, period=PERIOD)
         found = fit(log, type=mechanism.type, method="sysid").in_units(mechanism.units)
-        per = unit(mechanism.units)
+        per = find_unit(mechanism.units)
         gains = gains_per(mechanism.gains, factor=per.si)
         asked = gains_asked(gains, position=per.symbol)
         found_all = all(one.right(found.gains[name]) for name, one in asked.items())
@@ -130,10 +131,10 @@ def read(path: Path, *, student: str, run: bool = True) -> Answers:
 
 def consequence(answers: Answers) -> Consequence | None:
     """What the learner's gains would do on their mechanism."""
-    from sim.core.units import unit  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.units import find_unit  # noqa: PLC0415 - numpy only where it is needed
 
     of = answers.variant.mechanism
-    symbol = unit(of.units).symbol
+    symbol = find_unit(of.units).symbol
     return outcome(answers.given, answers.key.asked, kind=of.name, symbol=symbol)
 
 
@@ -176,6 +177,11 @@ def function(answers: Answers) -> str | None:
     return judge_function(answers.function, student=answers.student, points=5, run=answers.run)
 
 
+def is_measured_r2(value: float, asked: Asked) -> bool:
+    """Whether an R² is right: near the expected one, and 1 only where two digits make it 1."""
+    return asked.right(value) and (value < 1 or round(asked.expected, 2) >= 1)
+
+
 def _metric(name: str, answers: Answers) -> None:
     expected = {one: float(getattr(answers.variant.fit, one)) for one in METRICS}
     asked = {
@@ -183,11 +189,13 @@ def _metric(name: str, answers: Answers) -> None:
         for one in METRICS
     }
     value = read_answer_number(answers.given[name], asked[name])
-    if asked[name].right(value):
+    if is_measured_r2(value, asked[name]):
         return
     (other,) = set(METRICS) - {name}
     if value > 1:
         hint = "R² is at most 1: a share, not percent."
+    elif value == 1:
+        hint = PERFECT
     elif asked[other].right(value):
         hint = f"That is the {other}. Are the two swapped?"
     else:
@@ -209,7 +217,7 @@ def _missed(answers: Answers) -> str:
     """How far the learner's model misses the voltage in the log, beside how far a good one does."""
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
-    from sim.core.units import unit  # noqa: PLC0415 - the same
+    from sim.core.units import find_unit  # noqa: PLC0415 - the same
 
     try:
         gains = [
@@ -217,7 +225,7 @@ def _missed(answers: Answers) -> str:
         ]
     except Wrong:
         return ""
-    known, voltage = columns(answers.variant.log, si=unit(answers.variant.mechanism.units).si)
+    known, voltage = columns(answers.variant.log, si=find_unit(answers.variant.mechanism.units).si)
     good = [answers.variant.fit.gains[name] for name in answers.key.asked]
     with np.errstate(over="ignore"):  # a number may be as large as a file can hold
         mine, best = (

@@ -22,7 +22,7 @@ def outcome(
     """
     from sim.feedback import Plant  # noqa: PLC0415 - numpy only where it is needed
     from sim.feedback.following import follow_profile  # noqa: PLC0415 - the same
-    from sim.feedback.profile import brisk_profile  # noqa: PLC0415 - the same
+    from sim.feedback.profile import make_brisk_profile  # noqa: PLC0415 - the same
 
     try:
         gains = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
@@ -36,7 +36,7 @@ def outcome(
     return follow_profiles(
         [
             follow_profile(
-                plant, believed, brisk_profile(plant), name=kind, symbol=symbol, place=place
+                plant, believed, make_brisk_profile(plant), name=kind, symbol=symbol, place=place
             )
         ]
     )

@@ -59,9 +59,9 @@ def scene(
     """
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
-    from sim.core.units import unit  # noqa: PLC0415 - the same
+    from sim.core.units import find_unit  # noqa: PLC0415 - the same
 
-    explained, *_ = np.linalg.lstsq(*columns(log, si=unit(mechanism.units).si), rcond=None)
+    explained, *_ = np.linalg.lstsq(*columns(log, si=find_unit(mechanism.units).si), rcond=None)
     looks = {
         name: (Lookalike(float(value), EXPLAINED),)
         for name, value in zip(asked, explained, strict=True)

@@ -184,8 +184,10 @@ def r2(answers: Answers) -> None:
     found = float(answers.measured.fit.simulated_velocity_r2)
     asked = Asked("simulated_velocity_r2", found, "", Band(0.0, 0.0, 0.02, 0.02))
     value = read_answer_number(answers.given.get("simulated_velocity_r2"), asked)
-    if not asked.right(value):
+    if not NINTH.is_measured_r2(value, asked):
         hint = "There are two R². Asked for is the simulated velocity's, a share of 1."
+        if value == 1:
+            hint = NINTH.PERFECT
         raise Wrong(f"{value:.4g}", hint=hint, misconception="M-R2")
 
 

@@ -62,7 +62,7 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     Raises:
         NotReached: the log cannot be read or fitted.
     """
-    from sim.core.units import unit  # noqa: PLC0415 - the same
+    from sim.core.units import find_unit  # noqa: PLC0415 - the same
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
     from sim.io import read  # noqa: PLC0415 - the same
 
@@ -71,7 +71,7 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     try:
         log = read(path)
         kind = log.type or "simple"
-        units = "Meters" if not unit(log.units).angular else "Rotations"
+        units = "Meters" if not find_unit(log.units).angular else "Rotations"
         units = "Radians" if kind == "arm" else units
         found = fit(log, type=kind, method="sysid").in_units(units.lower())
     except Refusal as refusal:

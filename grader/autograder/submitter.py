@@ -5,7 +5,7 @@ import json
 import sys
 from pathlib import Path
 
-from grader.variant import student_name
+from grader.variant import check_student_name
 from sim.core.errors import BadRequest, Refusal
 
 KEYS = ("email", "name", "sid")
@@ -38,7 +38,7 @@ def find_submitter(metadata: Path, *, by: str, roster: Path | None) -> str:
             where=str(metadata),
             advice="Export the autograder anew with another --student-from.",
         )
-    return student_name(found) if roster is None else _on_roster(found, roster)
+    return check_student_name(found) if roster is None else _on_roster(found, roster)
 
 
 def _on_roster(found: str, roster: Path) -> str:

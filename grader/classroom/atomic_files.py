@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from sim.core.errors import BadRequest
-from sim.report.page_file import write_whole
+from sim.report.page_file import write_page_file
 from sim.support.atomic_file import make_private_folder
 
 
@@ -21,5 +21,5 @@ def write_private_file(path: Path, text: str) -> Path:
             where=str(path.parent),
             advice="Name another folder with -o.",
         ) from None
-    write_whole(text, path, private=True)
+    write_page_file(text, path, private=True)
     return path

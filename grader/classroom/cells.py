@@ -1,6 +1,6 @@
 """Cells of a table that a spreadsheet must not take for a formula."""
 
-from sim.support.printable import printable
+from sim.support.printable import make_printable
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
@@ -10,5 +10,5 @@ def escape_formula(text: str) -> str:
 
     Source: OWASP, "CSV Injection".
     """
-    text = printable(text)
+    text = make_printable(text)
     return f"'{text}" if text.startswith(FORMULA) else text

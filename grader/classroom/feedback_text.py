@@ -4,16 +4,16 @@ from collections.abc import Mapping
 from typing import Any
 
 from grader.misconception import MISCONCEPTIONS
-from sim.support.printable import printable
+from sim.support.printable import make_printable
 
 
 def feedback(check: Mapping[str, Any]) -> str:
     """What was given, the likely cause and the next step, and why; empty where all is said."""
     if check["status"] == "passed":
-        return printable(str(check["hint"]))
+        return make_printable(str(check["hint"]))
     if check["status"] != "failed":
-        return printable(str(check["seen"]))
+        return make_printable(str(check["seen"]))
     known = MISCONCEPTIONS.get(str(check["misconception"]))
     why = (known.says, f"see {known.where}") if known else ()
     lines = (f"got {check['seen']}", str(check["hint"]), *why)
-    return printable("\n".join(line for line in lines if line))
+    return make_printable("\n".join(line for line in lines if line))

@@ -9,7 +9,7 @@ from grader.class_package import PLACE, ClassPackage, parse_issued
 from grader.classroom.secret import identity_seal
 from grader.classroom.submissions import PROGRESS, Submission
 from grader.course import NOBODY
-from grader.variant import folder_name, same, student_name
+from grader.variant import check_student_name, make_folder_name, normalize_name
 from sim.core.errors import BadRequest, Refusal
 
 
@@ -69,11 +69,11 @@ def _without_class(one: Submission) -> Submission:
     """The same, on the numbers of whoever the course was started as."""
     started_as = _started_as(one)
     one = _by_name(one, started_as)
-    if folder_name(one.student) in one.data_folders:
+    if make_folder_name(one.student) in one.data_folders:
         return one
-    if not started_as and folder_name(NOBODY) in one.data_folders:
+    if not started_as and make_folder_name(NOBODY) in one.data_folders:
         started_as = NOBODY
-    if not started_as or same(started_as) == same(one.student):
+    if not started_as or normalize_name(started_as) == normalize_name(one.student):
         return one
     if started_as == NOBODY:  # these numbers are nobody's: whoever never gave a name has them
         return replace(one, worked_as=NOBODY)
@@ -88,7 +88,7 @@ def _without_class(one: Submission) -> Submission:
 
 def _by_name(one: Submission, student: str) -> Submission:
     """The same, by the name whose folder `grade serve` gave the student; else as it is."""
-    if student and one.student.casefold() == folder_name(student):
+    if student and one.student.casefold() == make_folder_name(student):
         return replace(one, student=student)
     return one
 
@@ -97,6 +97,6 @@ def _started_as(one: Submission) -> str:
     """Who the course says is learning; empty where it says nothing that can be read."""
     try:
         raw = tomllib.loads(one.identities[PROGRESS].decode("utf-8"))
-        return student_name(str(raw["student"]))
+        return check_student_name(str(raw["student"]))
     except (LookupError, ValueError, TypeError, RecursionError, Refusal):
         return ""

@@ -11,7 +11,7 @@ from grader.classroom.grading import MISSING, Graded
 from grader.classroom.items import FEWEST, analyze_items, count_misconceptions, summarize_exercises
 from grader.classroom.results import Results, scores, status_of
 from grader.misconception import MISCONCEPTIONS
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -48,7 +48,7 @@ def _templates() -> "Environment":
 
 
 def _page(one: Graded) -> str:
-    return f"{PEOPLE}/{folder_name(one.student)}.html"
+    return f"{PEOPLE}/{make_folder_name(one.student)}.html"
 
 
 def class_summary(results: Results) -> str:
@@ -69,7 +69,7 @@ def _share(one: Graded, results: Results) -> float:
 
 
 def _of_class(results: Results) -> dict[str, Any]:
-    from sim.plot import score_heatmap, score_histogram  # noqa: PLC0415 - matplotlib only where it draws
+    from sim.plot import plot_score_heatmap, plot_score_histogram  # noqa: PLC0415 - matplotlib only where it draws
 
     names = [one.student for one in results.students]
     table = [[_cell_share(record) for record in one.records] for one in results.students]
@@ -82,8 +82,8 @@ def _of_class(results: Results) -> dict[str, Any]:
         "open": _open(results),
         "count": len(results.students),
         "columns": summarize_exercises(results.students),
-        "heat": score_heatmap(names, results.exercises, table).html,
-        "spread": score_histogram([_share(one, results) for one in results.students]).html,
+        "heat": plot_score_heatmap(names, results.exercises, table).html,
+        "spread": plot_score_histogram([_share(one, results) for one in results.students]).html,
         "misconceptions": [
             {"code": code, "count": count, "says": _put_right(code)}
             for code, count in count_misconceptions(results.students)

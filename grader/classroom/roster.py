@@ -40,8 +40,8 @@ def read_members(path: Path) -> Members:
         BadRequest: it cannot be read, has no such column, or somebody twice.
     """
     roster = read_roster(path, advice="Give the path of a CSV file in UTF-8.")
-    columns = COLUMNS[1:] if roster.place(["sis login id"]) is not None else COLUMNS
-    place = roster.place(columns)
+    columns = COLUMNS[1:] if roster.find_column(["sis login id"]) is not None else COLUMNS
+    place = roster.find_column(columns)
     if place is None:
         raise BadRequest(
             "no column with the students in its first line",

@@ -6,7 +6,7 @@ import os
 import secrets
 from pathlib import Path
 
-from sim.bench.dataset.secret import FEWEST, SIZE, VARIABLE, Secret, kept_in
+from sim.bench.dataset.secret import FEWEST, SIZE, VARIABLE, Secret, read_secret
 from sim.core.errors import BadRequest
 
 
@@ -23,7 +23,7 @@ def find_secret(path: Path | None, *, make: bool) -> Secret | None:
     Raises:
         BadRequest: the file is not there, cannot be read, or holds too short a secret.
     """
-    value = kept_in(path) if path else os.environ.get(VARIABLE, "").strip().encode()
+    value = read_secret(path) if path else os.environ.get(VARIABLE, "").strip().encode()
     if value and len(value) < FEWEST:
         raise BadRequest(
             f"the secret has fewer than {FEWEST} characters",

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from grader.classroom.grading import Graded
 from grader.classroom.submissions import Submission
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 
@@ -88,4 +88,4 @@ class Store:
             ) from None
 
     def _path(self, student: str) -> Path:
-        return self.folder / RESULTS / f"{folder_name(student)}.json"
+        return self.folder / RESULTS / f"{make_folder_name(student)}.json"

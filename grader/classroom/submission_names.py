@@ -16,7 +16,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import PurePath
 
-from grader.variant import folder_name, same
+from grader.variant import make_folder_name, normalize_name
 from sim.core.errors import Refusal
 
 CANVAS = re.compile(r"(?P<name>[^_]+)(?:_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)")
@@ -79,8 +79,10 @@ class Identities:
     """
 
     def __init__(self, rows: Mapping[str, Mapping[str, str]]) -> None:
-        self._students = {same(student): student for student in rows}
-        self._students |= {folder_name(student): student for student in rows}  # of a served class
+        self._students = {normalize_name(student): student for student in rows}
+        self._students |= {
+            make_folder_name(student): student for student in rows
+        }  # of a served class
         self._canvas_ids: dict[str, str] = {}
         self._aliases: dict[str, set[str]] = {}
         self._github: dict[str, str] = {}
@@ -97,7 +99,7 @@ class Identities:
     def find(self, name: SubmissionName) -> str | None:
         """The only student on the roster that is meant; None if there is none, or several."""
         try:
-            exact = self._students.get(same(name.student))
+            exact = self._students.get(normalize_name(name.student))
         except Refusal:
             return None
         known = exact or self._canvas_ids.get(name.canvas_id)

@@ -21,7 +21,7 @@ from grader.class_package import PLACE as ISSUED
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
 from grader.exercise import Exercise
 from grader.submission import LARGEST
-from grader.variant import student_name
+from grader.variant import check_student_name
 from sim.core.errors import BadRequest, Refusal
 
 MOST_SEEN = 20_000  # [entries] of one student's: a whole robot project with its build has fewer
@@ -200,7 +200,7 @@ def _read(
 ) -> Submission:
     place = parts[0].path
     try:
-        student = student_name(student)
+        student = check_student_name(student)
     except Refusal as refusal:
         return Submission(_legible(student), place, problem=str(refusal))
     at = ""
@@ -221,7 +221,7 @@ def _read(
 def _legible(name: str) -> str:
     """A name to be shown for one that is none: what can be seen of it, and not too long."""
     try:
-        return student_name(name)
+        return check_student_name(name)
     except Refusal:
         mark = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:8]
         return f"{_shown(name, most=SHOWN)}… ({mark})"

@@ -227,7 +227,7 @@ def _tell(said: str) -> None:
 
 def run(arguments: list[str] | None = None) -> int:
     """Run the command and return its exit code; nothing gets out as a traceback."""
-    return command_line.run(grade, name="grade", arguments=arguments)
+    return command_line.run_command(grade, name="grade", arguments=arguments)
 
 
 def main() -> None:

@@ -225,10 +225,10 @@ def _with_absent(
 ) -> "tuple[Graded, ...]":
     """Everybody, and whoever is on the roster and handed nothing in."""
     from grader.classroom.grading import ungraded_student  # noqa: PLC0415 - --help must not wait for it
-    from grader.variant import same  # noqa: PLC0415 - the same
+    from grader.variant import normalize_name  # noqa: PLC0415 - the same
 
-    present = {same(one.student) for one in graded}
-    absent = [name for name in (known.rows if known else ()) if same(name) not in present]
+    present = {normalize_name(one.student) for one in graded}
+    absent = [name for name in (known.rows if known else ()) if normalize_name(name) not in present]
     found = [*graded, *(ungraded_student(name, asked, handed_in=(), reason="") for name in absent)]
     return tuple(sorted(found, key=lambda one: one.student.casefold()))
 

@@ -109,7 +109,7 @@ def _release(
     from grader.course import other_code  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
     from grader.release import Package, student_package, zip_files  # noqa: PLC0415 - the same
-    from grader.variant import folder_name  # noqa: PLC0415 - the same
+    from grader.variant import make_folder_name  # noqa: PLC0415 - the same
     from sim.support.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
@@ -122,7 +122,7 @@ def _release(
     tell_left_out(chosen.left_out)
     everybody = zip_files(chosen.files)
     if secret and secret.new:
-        secret.keep()
+        secret.save()
         complain(f"{secret.new}: a new secret. Keep it, and keep it to yourself.")
     packed = pack_course(course)
     value = secret.value if secret else b""
@@ -133,7 +133,7 @@ def _release(
             student_package, packages, processes=processes or available_cores(), worth=WORTH
         )
         for student, content in made:
-            put(output / "students" / f"{folder_name(student)}.zip", content)
+            put(output / "students" / f"{make_folder_name(student)}.zip", content)
             step()
     show([line(f"{output / 'course.zip'}: for everybody, {len(everybody) / 1e6:.1f} MB")])
     if students:

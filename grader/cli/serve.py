@@ -37,7 +37,7 @@ def serve(
     from grader.serve.jupyter_servers import JupyterServers  # noqa: PLC0415 - the same
     from grader.serve.login_page import ServedClass, serve_forever  # noqa: PLC0415 - the same
     from grader.serve.student_folders import login_codes, student_folder  # noqa: PLC0415 - the same
-    from grader.variant import folder_name  # noqa: PLC0415 - the same
+    from grader.variant import make_folder_name  # noqa: PLC0415 - the same
     from sim.bench.dataset.secret import VARIABLE  # noqa: PLC0415 - the same
 
     os.environ.pop(VARIABLE, None)  # neither this process nor a student's needs the secret
@@ -50,7 +50,7 @@ def serve(
     first = lessons[0].relative_to(course).as_posix() if lessons else "exercises"
 
     def at_home(student: str) -> Path:
-        own = packages / "students" / f"{folder_name(student)}.zip" if packages else None
+        own = packages / "students" / f"{make_folder_name(student)}.zip" if packages else None
         if own is not None and not own.is_file():
             raise BadRequest(
                 f"there is no package for {student}",

@@ -4,7 +4,7 @@ import click
 
 from grader.terminal import line, show
 from sim.core.errors import Refusal
-from sim.support.command_line import COULD_NOT, DONE, complain
+from sim.support.command_line import COULD_NOT, DONE, print_error
 
 
 @click.command()
@@ -37,7 +37,7 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
         try:
             code = grade_file(one, None, folder, now, who, plain=plain)
         except Refusal as refusal:  # the next time it is saved, it may be readable
-            complain(str(refusal), name="grade")
+            print_error(str(refusal), name="grade")
             code = COULD_NOT
         if code != DONE:
             show(

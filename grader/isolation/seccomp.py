@@ -51,23 +51,27 @@ class SyscallTable:
     refused: tuple[int, ...]
 
 
-# In the order: kill tgkill prlimit64 sched_setaffinity; then fork vfork execve execveat socket
+# In the order: kill tgkill prlimit64 sched_setaffinity sched_setparam sched_setscheduler
+# sched_setattr; then fork vfork execve execveat socket
 # setsid setpgid tkill rt_sigqueueinfo rt_tgsigqueueinfo pidfd_send_signal ptrace process_vm_readv
 # process_vm_writev io_uring_setup unshare setns keyctl bpf perf_event_open shmget msgget semget
 # mq_open truncate chmod fchmod fchmodat fchmodat2 chown fchown lchown fchownat setxattr lsetxattr
-# fsetxattr utime utimes utimensat setpriority ioprio_set pidfd_getfd. (ARM has no fork, vfork,
+# fsetxattr utime utimes utimensat setpriority ioprio_set pidfd_getfd; memory, semaphores and
+# messages that programs of one user share: shmat shmctl semop semctl msgsnd msgrcv msgctl
+# semtimedop. (ARM has no fork, vfork,
 # chmod, chown, lchown, utime, utimes.)
 TABLES = {
     "x86_64": SyscallTable(
-        0xC000003E, 56, 435, 126, 72, 16, (62, 234, 302, 203),
+        0xC000003E, 56, 435, 126, 72, 16, (62, 234, 302, 203, 142, 144, 314),
         (57, 58, 59, 322, 41, 112, 109, 200, 129, 297, 424, 101, 310, 311, 425, 272, 308, 250,
          321, 298, 29, 68, 64, 240, 76, 90, 91, 268, 452, 92, 93, 94, 260, 188, 189, 190, 132,
-         235, 280, 141, 251, 438),
+         235, 280, 141, 251, 438, 30, 31, 65, 66, 69, 70, 71, 220),
     ),
     "aarch64": SyscallTable(
-        0xC00000B7, 220, 435, 91, 25, 29, (129, 131, 261, 122),
+        0xC00000B7, 220, 435, 91, 25, 29, (129, 131, 261, 122, 118, 119, 274),
         (221, 281, 198, 157, 154, 130, 138, 240, 424, 117, 270, 271, 425, 97, 268, 219, 280, 241,
-         194, 186, 190, 180, 45, 52, 53, 452, 55, 54, 5, 6, 7, 88, 140, 30, 438),
+         194, 186, 190, 180, 45, 52, 53, 452, 55, 54, 5, 6, 7, 88, 140, 30, 438, 196, 195, 193, 191,
+         189, 188, 187, 192),
     ),
 }  # fmt: skip
 

@@ -19,6 +19,7 @@ class Mark(Enum):
     DUTY = "duty"  # the share of the bus voltage it reports
     BUS = "bus"  # the bus or battery voltage
     MEASURED = "measured"  # a sensor
+    UNSIGNED = "unsigned"  # a function that drops the sign
     COMMANDED = "commanded"  # what the drive callback was asked for
 
 

@@ -4,6 +4,7 @@ Every method is gone through once from where it is called, with what it is given
 that is written out, once for each element.
 """
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,6 +13,7 @@ from grader.robotcode.binding_facts import (
     Binding,
     BindingFacts,
     Guard,
+    Hold,
 )
 from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS
 from grader.robotcode.closure import (
@@ -37,6 +39,7 @@ from grader.robotcode.triggers import Asks, TriggerPart, Triggers
 from grader.robotcode.vocabulary import java_spelling
 
 DEEPEST = 120  # pieces of code one inside the other
+LEAVES = re.compile(r"if\s*\(?\s*true\s*\)?\s*[:{]?\s*return", re.IGNORECASE)
 MOST_CALLS = 5  # methods followed, one inside the other
 MOST_STEPS = 50_000  # pieces of code gone through; a robot's container has a thousandth
 _GUARDS = {
@@ -131,6 +134,8 @@ class _Reader:
         for node in nodes:
             if around is not None:
                 self._through(around.at(node), way)
+            if isinstance(node, Branch) and LEAVES.match(node.place.text):
+                return
 
     def _through(self, seen: BoundNode, way: _Way) -> None:
         """Go through a piece of code, what is inside it first."""
@@ -149,6 +154,8 @@ class _Reader:
         inner = replace(way, depth=way.depth + 1)
         if isinstance(node, Branch) and node.inside and node.place.text.startswith(("if", "elif")):
             condition = seen.at(node.inside[0])
+            if condition.node.place.text.strip("( )").lower() == "false":
+                return
             inner = replace(inner, conditions=(*way.conditions, condition))
         self._several(node.parts, seen, inner)
         if isinstance(node, Call):
@@ -223,11 +230,15 @@ class _Reader:
         parts = self._triggers.parts(seen.at(call.target.owner))
         keys = sorted({part.key for part in parts if part.asks is not Asks.NOTHING})
         unknown = any(part.asks is Asks.UNKNOWN for part in parts)
+        hold = HOLDS[java_spelling(last_name(call.target))]
+        kinds = {part.asks for part in parts}
+        if Asks.RELEASED in kinds and Asks.BUTTON not in kinds:
+            hold = Hold.RELEASED
         controllers = (part.controller for part in parts if part.controller)
         self._bindings.append(
             Binding(
                 runs.tests,
-                HOLDS[java_spelling(last_name(call.target))],
+                hold,
                 "" if unknown else " + ".join(keys),
                 tuple(dict.fromkeys(controllers)),
                 self._guards(parts, runs, way),

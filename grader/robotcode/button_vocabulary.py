@@ -34,6 +34,10 @@ CONDITIONED = {
     "either": 2,
     "ConditionalCommand": 2,
 }
+DISCARDS = frozenset(  # what runs a function each time, and makes nothing of what it returns
+    {"runOnce", "run", "runEnd", "startEnd", "startRun", "InstantCommand", "RunCommand",
+     "StartEndCommand", "FunctionalCommand"}
+)  # fmt: skip
 ENDED = frozenset({"until", "onlyWhile"})  # ... that end it, too
 EXCEPT = frozenset({"unless", "until"})  # ... and let it run while the condition is false
 CHOOSERS = frozenset({"addOption", "setDefaultOption", "addDefaultOption", "addCmd", "schedule"})

@@ -162,8 +162,10 @@ class CallbackInterpreter(StatementInterpreter):
         }
         inner.locals |= {one.name: arg for one, arg in zip(function.parameters, args, strict=False)}
         inner.locals |= named
+        condition = self.condition
         for statement in function.body:
             self.evaluate(statement, inner)
+        self.condition = condition
         if len(inner.returned) == 1:
             return inner.returned[0]
         return join_values(inner.returned, at=inner.value(function))

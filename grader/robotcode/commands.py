@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from grader.robotcode.binding_facts import KINDS, SysIdTest
-from grader.robotcode.button_vocabulary import CONDITIONED, ENDED, EXCEPT
+from grader.robotcode.button_vocabulary import CONDITIONED, DISCARDS, ENDED, EXCEPT
 from grader.robotcode.closure import (
     BoundNode,
     definitions,
@@ -144,7 +144,10 @@ class Commands:
         parts = [*owner, *args]
         if asked is not None:
             parts = [*owner, *args[:asked]]
-        found = join_runs(self.of(seen.at(part), depth=depth) for part in parts)
+        several = [self.of(seen.at(part), depth=depth) for part in parts]
+        if name in DISCARDS:  # a function that only makes a command starts nothing
+            several = [one for one in several if one.scheduled]
+        found = join_runs(several)
         if not found.tests:
             return None
         if asked is not None:

@@ -17,6 +17,7 @@ from grader.robotcode.vocabulary import (
     GROUPS,
     MODES,
     SILENT,
+    STOPS,
     WITHOUT_MODE,
     enum_constant,
     is_motor,
@@ -31,10 +32,14 @@ class DriveTrace(CallbackInterpreter):
     Args:
         names: the names of the program.
         measures: its constants.
+        only_sure: whether commands are left out that may not be reached.
     """
 
-    def __init__(self, names: SymbolTable, measures: ConstantFolder) -> None:
+    def __init__(
+        self, names: SymbolTable, measures: ConstantFolder, *, only_sure: bool = False
+    ) -> None:
         super().__init__(names, measures)
+        self._only_sure = only_sure
         self.calls: list[DriveCall] = []
 
     def entries(self) -> int:
@@ -57,11 +62,15 @@ class DriveTrace(CallbackInterpreter):
             return None
         values = [arg for arg in args if _mode(arg) is None]
         sent = join_values(values[:1] if method in BY_MODE else values, at=at)
+        if method in STOPS and receiver is not None and self._is_motor(receiver):
+            if self.sure:  # under a condition it is a limit that ends the test early
+                self._note(call, receiver, Output.VOLTAGE, sent)
+            return at
         named = method in COMMANDS or method in BY_MODE or method in BY_REQUEST
         if not named and (sent.carries is False or SILENT.fullmatch(method)):
             return None
         output = self._output(method, args)
-        if output is not None:
+        if output is not None and (self.sure or not self._only_sure):
             self._note(call, receiver, output, sent)
         return at
 
@@ -89,6 +98,7 @@ class DriveTrace(CallbackInterpreter):
                     text=call.place.text,
                     line=self.line_of(call),
                     negative=sent.factor is not None and sent.factor < 0,
+                    condition=self.condition,
                 )
             )
 

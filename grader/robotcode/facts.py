@@ -60,6 +60,8 @@ class DriveCall:
         negative: whether its sign is changed on its way.
         text: the call's source text.
         line: line in the source, from 1; 0 if it stands in another file.
+        condition: the code that decides by the voltage, or by nothing, whether the call is reached;
+            empty if none does.
     """
 
     motor: str
@@ -70,6 +72,7 @@ class DriveCall:
     text: str
     line: int
     negative: bool = False
+    condition: str = ""
 
 
 class Source(Enum):
@@ -98,6 +101,8 @@ class LoggedSignal:
         native: the unit in which the device reports it, as ``readings.native_unit`` says.
         scale: what the device's number is multiplied with before the log gets it, the factor
             included that the device is set to; None if it cannot be told.
+        unsigned: whether its sign is lost on its way, as by ``Math.abs``.
+        condition: as of a DriveCall.
     """
 
     motor: str
@@ -112,6 +117,8 @@ class LoggedSignal:
     quantity: str = ""
     native: str = ""
     scale: float | None = None
+    unsigned: bool = False
+    condition: str = ""
 
 
 @dataclass(frozen=True)
@@ -155,6 +162,7 @@ class RoutineFacts:
         devices: the class of every motor controller and encoder the class owns, by its name.
         constants: the numbers among the class's fields, by their name.
         compile_errors: what keeps the file from being compiled, as far as text can tell.
+        in_periodic: the commands that periodic() gives in every loop, besides the callback's.
         unread: where the callbacks lead to code that is not in these files, or too deep to
             follow: what is missing in ``drive`` or ``logged`` may be there.
     """
@@ -180,6 +188,7 @@ class RoutineFacts:
     problems: tuple[ParseProblem, ...] = ()
     unread: tuple[ParseProblem, ...] = ()
     compile_errors: tuple[ParseProblem, ...] = ()
+    in_periodic: tuple[DriveCall, ...] = ()
     inverted: frozenset[str] = frozenset()
     geared: frozenset[str] = frozenset()
     impossible_numbers: tuple[tuple[str, float], ...] = ()

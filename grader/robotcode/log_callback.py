@@ -126,6 +126,8 @@ class LogTrace(CallbackInterpreter):
                 quantity=reading.quantity,
                 native=native,
                 scale=scale if native else value.scale if told else None,
+                unsigned=Mark.UNSIGNED in value.marks,
+                condition=self.condition,
             )
         )
 

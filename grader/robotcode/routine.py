@@ -7,7 +7,13 @@ from grader.robotcode.abstract_value import MotorLog, Value
 from grader.robotcode.compiling import compile_errors
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.drive_callback import DriveTrace
-from grader.robotcode.facts import Certainty, ConfigQuantity, ParseProblem, RoutineFacts
+from grader.robotcode.facts import (
+    Certainty,
+    ConfigQuantity,
+    DriveCall,
+    ParseProblem,
+    RoutineFacts,
+)
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Function, Member, Node, Null, Number, Self, Text
 from grader.robotcode.log_callback import LogTrace
@@ -36,6 +42,7 @@ from grader.robotcode.vocabulary import (
     DEFAULTS,
     MECHANISM,
     ROUTINE,
+    STOPS,
     SUBSYSTEMS,
     java_spelling,
 )
@@ -223,6 +230,7 @@ def _with_mechanism(
             drive_line=drive.line_of(callback),
         )
         _in_periodic(drive, scope, names)
+        facts = replace(facts, in_periodic=_besides(drive, scope, names, measures))
     commanded = {key for key, value in drive.stored.items() if value.carries is not False}
     settings = settings_of(scope.home, names, measures)
     log = LogTrace(names, measures, commanded=commanded, settings=settings)
@@ -253,6 +261,18 @@ def _passed(node: Node | None, call: Call, scope: Scope, names: SymbolTable) -> 
         return None if _may_hide(call, MECHANISM) else False
     value, _ = resolve(node, scope, names)
     return True if isinstance(value, Self) else False if isinstance(value, Null) else None
+
+
+def _besides(
+    drive: DriveTrace, scope: Scope, names: SymbolTable, measures: ConstantFolder
+) -> tuple[DriveCall, ...]:
+    """What periodic() commands in every loop, where the callback itself moves the motors."""
+    loop = DriveTrace(names, measures, only_sure=True)
+    driven = {call.motor for call in drive.calls if call.method not in STOPS}
+    for method in methods("periodic", scope.home, names)[:1] if scope.classes else ():
+        loop.then(method)
+    followed = any(call.text == other.text for call in drive.calls for other in loop.calls)
+    return () if followed else tuple(call for call in loop.calls if call.motor in driven)
 
 
 def _in_periodic(drive: DriveTrace, scope: Scope, names: SymbolTable) -> None:

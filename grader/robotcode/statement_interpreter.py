@@ -1,12 +1,13 @@
 """What single statements and expressions do to values; calls are for ``trace``."""
 
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import ClassVar
 
-from grader.robotcode.abstract_value import Value, join_values
+from grader.robotcode.abstract_value import CHANGED, Value, join_values
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import (
@@ -35,6 +36,9 @@ from grader.robotcode.transfer_functions import TransferFunctions
 
 MOST_STEPS = 20_000  # expressions looked at in all; a whole subsystem has some hundred
 DEEPEST = 60  # expressions and statements inside one another
+DECIDES = re.compile(r"(if|elif|while)\b")  # how a statement begins whose first part is a condition
+CONSTANT = re.compile(r"\(?\s*(true|false|0|1)\s*\)?", re.IGNORECASE)
+LEAVES = re.compile(r"\b(return|break|continue|throw|raise)\b")
 
 
 @dataclass
@@ -74,6 +78,8 @@ class StatementInterpreter(ABC):
         self.names = names
         self.stored: dict[str, Value] = {}  # fields, by what they were given on the way
         self.unread: dict[str, ParseProblem] = {}
+        self.condition = ""  # what decides, by the parameter or by nothing, if the code is reached
+        self.sure = True  # whether the code at hand is reached each time
         self.flow = TransferFunctions(names, measures)
         self._steps = 0
         self._depth = 0
@@ -166,7 +172,9 @@ class StatementInterpreter(ABC):
     def _choice(self, node: Choice, frame: Frame) -> Value:
         self.evaluate(node.condition, frame)
         several = [self.evaluate(node.one, frame), self.evaluate(node.other, frame)]
-        return join_values(several, at=frame.value(node))
+        made = join_values(several, at=frame.value(node))
+        alike = {one.carries for one in several} != {True, False}
+        return made if alike else replace(made, factor=CHANGED)
 
     def _cast(self, node: Cast, frame: Frame) -> Value:
         value = self.evaluate(node.value, frame)
@@ -200,9 +208,19 @@ class StatementInterpreter(ABC):
         return frame.returned[-1]
 
     def _branch(self, node: Branch, frame: Frame) -> Value:
+        before, sure = self.condition, self.sure
         frame.branches += 1
-        self._parts(node, frame)
+        self.sure = False
+        for number, part in enumerate(node.parts):
+            value = self.evaluate(part, frame)
+            text = part.place.text
+            decides = number == 0 and DECIDES.match(node.place.text)
+            if decides and (value.carries is not False or CONSTANT.fullmatch(text)):
+                self.condition = self.condition or f"{decides[0]} {text}"
         frame.branches -= 1
+        self.sure = sure
+        if not LEAVES.search(node.place.text):
+            self.condition = before
         return frame.value(node)
 
     def _loop(self, node: Loop, frame: Frame) -> Value:

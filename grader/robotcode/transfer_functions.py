@@ -19,7 +19,9 @@ from grader.robotcode.vocabulary import (
     BUS_VOLTAGE,
     CALCULATES,
     CONTROLLERS,
+    LIMITS,
     MEASURED,
+    NEVER_REACHED,
     OPPOSITE,
     OVER,
     PULSES,
@@ -27,6 +29,7 @@ from grader.robotcode.vocabulary import (
     SAME,
     TIMES,
     UNITS,
+    UNSIGNED,
     is_motor,
     java_spelling,
 )
@@ -128,7 +131,7 @@ class TransferFunctions:
             return made.times(FACTORS[name]).scale
         if name == "in" and first is not None:
             return made.times(_turns(made.unit) / _turns(last_name(first))).scale
-        kept = name in SAME | ARGUMENT | AMOUNTS | REPLACES or name.startswith("with")
+        kept = name in SAME | ARGUMENT | LIMITS | AMOUNTS | REPLACES or name.startswith("with")
         return made.scale if kept or name[:1].isupper() else None
 
     def _factor_of_call(self, call: Call, name: str, made: Value, scope: Scope) -> float | None:
@@ -141,8 +144,16 @@ class TransferFunctions:
             return made.times(self._size((call.target.owner,), scope)).factor
         if name in REPLACES:
             return made.times(self._size(call.args[1:2], scope)).factor
+        if name in LIMITS:
+            return made.times(self._limit(call.args, scope)).factor
         kept = name in SAME or name in ARGUMENT or name.startswith("with")
         return made.factor if kept or name[:1].isupper() else None  # upper: a constructor
+
+    def _limit(self, args: tuple[Node, ...], scope: Scope) -> float:
+        """What bounds do to the voltage: 1 where no test comes near any that is known."""
+        bounds = (self._measures.of(one, scope) for one in args)
+        near = any(bound is not None and abs(bound.value) < NEVER_REACHED for bound in bounds)
+        return CHANGED if near else 1.0
 
     def _size(
         self, units: tuple[Node, ...], scope: Scope, *, inverse: bool = False
@@ -177,6 +188,8 @@ class TransferFunctions:
             found.add(Mark.APPLIED)
         if name in BUS_VOLTAGE:
             found.add(Mark.BUS)
+        if name in UNSIGNED:
+            found.add(Mark.UNSIGNED)
         motor = receiver is not None and is_motor(
             type_of(receiver.origin, receiver.scope, self._names)
         )

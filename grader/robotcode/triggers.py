@@ -308,9 +308,19 @@ class Triggers:
             return (TriggerPart(Asks.TEST_MODE, f"test mode{by}"),)
         if mode and OTHER_MODE.fullmatch(word):
             return (TriggerPart(Asks.OTHER_MODE, word),)
-        if isinstance(node, Name) and self._is_open(seen, node):
-            return (TriggerPart(Asks.UNKNOWN, ""),)
+        if isinstance(node, Name) and not text:
+            return (self._variable(seen, node, depth),)
         return (TriggerPart(Asks.SWITCH, text or node.place.text),)
+
+    def _variable(self, seen: BoundNode, node: Name, depth: int) -> TriggerPart:
+        """A variable: a parameter, or one that was given several values and may hold any."""
+        if self._is_open(seen, node):
+            return TriggerPart(Asks.UNKNOWN, "")
+        given = self._names.local(node.name, seen.scope)
+        several = [one.value for one in given if one.value is not None]
+        if len(several) > 1 and depth < DEEPEST:
+            return self._mixed(seen, several, "or", depth + 1)
+        return TriggerPart(Asks.SWITCH, node.place.text)
 
     def _is_open(self, seen: BoundNode, node: Name) -> bool:
         found = self._names.local(node.name, seen.scope)

@@ -137,6 +137,7 @@ COMMANDS = {
     "driveCartesian": Output.DUTY,
 }
 BY_MODE = frozenset({"set", "setReference", "setSetpoint"})  # ... where a further argument decides
+STOPS = frozenset({"stopMotor", "disable", "neutralOutput"})  # ... that leave it without voltage
 BY_REQUEST = frozenset({"setControl"})  # ... where the request that is handed over decides
 
 # That further argument: ControlType of REV, ControlMode of Phoenix 5. Without one, WITHOUT_MODE.
@@ -197,9 +198,10 @@ SAME = frozenset(  # the call gives back what it was called on
         "stream",
     }
 )
-ARGUMENT = frozenset(  # the call gives back its argument, at most limited
-    {"float", "double", "valueOf", "clamp", "min", "max", "volts"}
-)
+ARGUMENT = frozenset({"float", "double", "valueOf", "volts"})  # the call gives back its argument
+LIMITS = frozenset({"clamp", "min", "max"})  # ... unless it is beyond a bound
+NEVER_REACHED = 6.0  # [V] 0.5 V/s for 10 s ends at 5 V, and a step is lower
+UNSIGNED = frozenset({"abs", "fabs"})
 OPPOSITE = frozenset({"unaryMinus", "negate"})
 TIMES = frozenset({"times", "mutTimes"})
 OVER = frozenset({"div", "divide", "mutDivide"})

@@ -16,10 +16,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from grader.course import update_progress
-from grader.variant import folder_name, same
+from grader.variant import make_folder_name, normalize_name
 from sim.bench.dataset.roster_file import read_roster
 from sim.core.errors import BadRequest
-from sim.report.page_file import write_whole
+from sim.report.page_file import write_page_file
 
 CODES = "codes.csv"
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ23456789"  # without those that look like others
@@ -39,13 +39,13 @@ def login_codes(folder: Path, students: Iterable[str]) -> dict[str, str]:
     known: dict[str, str] = {}
     if path.exists():
         roster = read_roster(path, advice="Remove it: new codes are made.")
-        known = {same(row[0]): row[1] for _, row in roster.rows if len(row) > 1}
-    found = {name: known.get(same(name)) or _code() for name in students}
-    if {same(name): code for name, code in found.items()} != known:
+        known = {normalize_name(row[0]): row[1] for _, row in roster.rows if len(row) > 1}
+    found = {name: known.get(normalize_name(name)) or _code() for name in students}
+    if {normalize_name(name): code for name, code in found.items()} != known:
         stream = io.StringIO(newline="")
         csv.writer(stream).writerows([("student", "code"), *found.items()])
         folder.mkdir(parents=True, exist_ok=True)
-        write_whole(stream.getvalue(), path, private=True)
+        write_page_file(stream.getvalue(), path, private=True)
     if path.exists():
         path.chmod(0o600)  # one that was made before
     return found
@@ -149,7 +149,7 @@ def student_folder(folder: Path, student: str, *, packages: Iterable[bytes]) -> 
     Raises:
         BadRequest: it cannot be written.
     """
-    place = folder / folder_name(student)
+    place = folder / make_folder_name(student)
     course = place / "course"
     if course.is_dir():
         return course

@@ -53,7 +53,7 @@ def simulate_duty_cycle(
     unlimited = replace(mechanism, battery=battery, stator=math.inf, supply=math.inf, brownout=0.0)
     log = simulate(unlimited, routine, rng=rng, period=period, duty_cycle=True, electrical=True)
     lowest = min(float(np.min(run.bus_voltage)) for run in log.runs if run.bus_voltage is not None)
-    return log.with_doubts(_brownout(lowest)) if lowest < LOWEST else log
+    return log.add_doubts(_brownout(lowest)) if lowest < LOWEST else log
 
 
 def _brownout(lowest: float) -> Doubt:

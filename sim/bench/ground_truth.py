@@ -8,8 +8,8 @@ from pathlib import Path
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.core.errors import BadRequest
-from sim.core.units import gains_per, unit
-from sim.inspect.fault import Stretch
+from sim.core.units import find_unit, gains_per
+from sim.inspect.fault import LogInterval
 
 
 def write_ground_truth(
@@ -17,7 +17,7 @@ def write_ground_truth(
     routine: Routine,
     *,
     path: Path,
-    faults: Iterable[tuple[str, float, Stretch]] = (),
+    faults: Iterable[tuple[str, float, LogInterval]] = (),
 ) -> None:
     """Write the true gains, per unit of the mechanism's own logs, and what is hidden, as JSON.
 
@@ -30,7 +30,7 @@ def write_ground_truth(
     Raises:
         BadRequest: the file cannot be written.
     """
-    per = unit(mechanism.units)
+    per = find_unit(mechanism.units)
     content = {
         "mechanism": mechanism.name,
         "type": mechanism.type,
@@ -38,7 +38,7 @@ def write_ground_truth(
         "gains": gains_per(mechanism.gains, factor=per.si),
         "routine": asdict(routine),
         "hidden": [
-            {"effect": part.effect, "parameters": part.said(per)} for part in mechanism.hidden
+            {"effect": part.effect, "parameters": part.to_json(per)} for part in mechanism.hidden
         ],
         "faults": [
             {"fault": name, "severity": severity, "run": where.run, "test": where.test,

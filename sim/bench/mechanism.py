@@ -15,10 +15,10 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from sim.core.errors import BadRequest
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.physics.battery import CONTROLLERS, Battery
 from sim.physics.effect import Scale
-from sim.physics.effects import effect as find
+from sim.physics.effects import find_effect as find
 from sim.physics.model import Model, Part
 from sim.physics.motors import Motor
 
@@ -146,7 +146,7 @@ class Mechanism:
             gains["kA"],
             ORDINARY_STEP,
             self.travel or 10.0 * speed,
-            angular=unit(self.units).angular,
+            angular=find_unit(self.units).angular,
             bounded=self.travel is not None,
         )
 
@@ -155,7 +155,7 @@ class Mechanism:
         drawn = {name: float(rng.uniform(*bounds)) for name, bounds in self.spread.items()}
         return replace(self, **drawn)  # type: ignore[arg-type]  # spread names float fields only
 
-    def hiding(self, effect: str, size: float = 1.0) -> "Mechanism":
+    def hide(self, effect: str, size: float = 1.0) -> "Mechanism":
         """The same mechanism with an effect that its team does not know of.
 
         Args:
@@ -174,7 +174,7 @@ class Mechanism:
             )
         if any(part.effect == effect for part in self.hidden):
             raise BadRequest(f"{effect} is hidden twice", advice="Name each effect once.")
-        if why := known.cannot(self.scale):
+        if why := known.reason_against(self.scale):
             raise BadRequest(f"a {self.name} cannot have {effect}: {why}", advice=OTHER)
         if size == 0.0:
             return self

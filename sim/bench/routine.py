@@ -69,11 +69,11 @@ class Routine:
         """The tests it runs, in the order one binds them."""
         return tuple(f"{kind}-{way}" for kind in self.kinds for way in DIRECTIONS)
 
-    def lasts(self, _test: str, /) -> float:
+    def longest_duration(self, _test: str, /) -> float:
         """[s] until a test (one of ``tests``) ends, if it comes to no end of the travel before."""
         return self.timeout
 
-    def voltage(self, test: str, time: float) -> float:
+    def command_voltage(self, test: str, time: float) -> float:
         """The voltage of a test.
 
         Args:

@@ -20,10 +20,10 @@ from sim.bench.sensor_model import read_sensor
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
-from sim.physics.engine import State, Track, move
+from sim.physics.engine import State, Track, simulate_run
 from sim.physics.engine.one_body import OFF_UNTIL
 from sim.physics.model import Model
-from sim.physics.replay import let_cool
+from sim.physics.replay import cool_down
 
 __all__ = ["move_gains_only", "read_sensor", "simulate"]
 
@@ -54,43 +54,57 @@ def simulate(
         electrical: record one motor's current and the battery's voltage, too.
 
     Returns:
-        The log, in the unit the mechanism's team thinks in, with the voltage that reached the
-        motors.
+        The log, in its team's unit, with the voltage that reached the motors.
 
     Raises:
         BadRequest: a period no robot has, or a test that is over before it has moved.
+
+    Examples:
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> log = simulate(MECHANISMS["elevator"], Routine(), rng=np.random.default_rng(0))
+        >>> [run.test for run in log.runs][:2]
+        ['quasistatic-forward', 'quasistatic-reverse']
     """
     _check_period(period)
     model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)
     runs: list[Run] = []
     state, start, last, cut = State(), PAUSE, 0.0, False
     for test in routine.tests:
-        time = _loops(routine.lasts(test), period=period, jitter=mechanism.sensor.jitter, rng=rng)
-        voltage = np.array([routine.voltage(test, t) for t in time.tolist()])
+        time = _loop_times(mechanism, routine, test, period=period, rng=rng)
+        voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = state.body[OFF_UNTIL] > 0.0 or cut
         began = runs[0].time[0] if runs else start + time[0]
         state.clock = float(start + time[0] - began)  # what the log's own times say
-        begun = replace(state, memory=state.memory.copy())
-        begun.body = State.at(_begin(mechanism, test, last)).body
+        body = State.cold_at(_begin(mechanism, test, last)).body
+        begun = replace(state, body=body, memory=state.memory.copy())
         state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
-        track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+        track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
         end = _end(track, mechanism, test=test)
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
             if state.memory.any():  # nothing that someone ended goes on to warm a motor
                 state = begun
-                track = move(model, time=time, voltage=voltage, state=state, wires=wires)
+                track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
             else:
-                track = track.until(end)
-        seen = read_sensor(
-            mechanism.sensor, position=track.position, velocity=track.seen, time=time, rng=rng
-        )
-        extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
-        runs.append(Run(test, start + time, track.applied, *seen, **extra))
-        let_cool(state, model, PAUSE)
+                track = track.truncate(end)
+        run = _record_run(mechanism, test, time, track, rng=rng, electrical=electrical)
+        runs.append(replace(run, time=start + time))
+        cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
-    return log.with_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
+    return log.add_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
+
+
+def _record_run(
+    mechanism: Mechanism, test: str, time: Array, track: Track,
+    *, rng: np.random.Generator, electrical: bool,
+) -> Run:  # fmt: skip
+    """The run as the robot program logs it."""
+    seen = read_sensor(
+        mechanism.sensor, position=track.position, velocity=track.seen, time=time, rng=rng
+    )
+    extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
+    return Run(test, time, track.applied, *seen, **extra)
 
 
 def _check_period(period: float) -> None:
@@ -139,12 +153,15 @@ def move_gains_only(
     Returns:
         Position (n,) and velocity (n,), before the sensor.
     """
-    track = move(Model("simple", gains), time=time, voltage=voltage, state=State())
+    track = simulate_run(Model("simple", gains), time=time, voltage=voltage, state=State())
     return track.position, track.velocity
 
 
-def _loops(timeout: float, *, period: float, jitter: float, rng: np.random.Generator) -> Array:
+def _loop_times(
+    mechanism: Mechanism, routine: Routine, test: str, *, period: float, rng: np.random.Generator
+) -> Array:
     """[s] when a test drives: loops from the second on, each a little early or late."""
+    timeout, jitter = routine.longest_duration(test), mechanism.sensor.jitter
     count = math.floor(timeout / period + 1e-9) - LOOPS_BEFORE_DRIVE + 1
     if count < FEWEST:
         raise BadRequest(

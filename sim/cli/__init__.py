@@ -7,7 +7,7 @@ from pkgutil import iter_modules
 
 import click
 
-from sim.support.command_line import run
+from sim.support.command_line import run_command
 
 __all__ = ["main", "sysid"]
 
@@ -33,7 +33,7 @@ class Commands(click.Group):
 
 def main() -> None:
     """Start ``sysid``."""
-    sys.exit(run(sysid, name="sysid"))
+    sys.exit(run_command(sysid, name="sysid"))
 
 
 @click.command(

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from sim.cli.options import FILE, read_together, reading_options
+from sim.cli.options import FILE, read_logs_together, reading_options
 
 
 @click.command()
@@ -42,7 +42,7 @@ def contaminate(
     from sim.io import write  # noqa: PLC0415
 
     asked = [parse_fault_request(text) for text in faults]
-    log = read_together([file], units=units, type=type_, motor=motor, entries=entries)
+    log = read_logs_together([file], units=units, type=type_, motor=motor, entries=entries)
     rng = np.random.default_rng(seed)
     where = []
     for one in asked:

@@ -7,7 +7,7 @@ import click
 
 from sim.cli.options import FILE
 from sim.core.errors import BadRequest
-from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, complain
+from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, print_error
 
 if TYPE_CHECKING:
     from sim.bench.dataset.plan import LogJob
@@ -50,15 +50,15 @@ def dataset(  # noqa: PLR0917 - click passes options by name
         return _write_example(spec)
     if output is None:
         raise click.UsageError("Missing option '-o': a folder for the logs.")
-    from sim.bench.dataset.key import key_of  # noqa: PLC0415 - as all below: --help must not wait
+    from sim.bench.dataset.key import default_key_path  # noqa: PLC0415 - as all below: --help must not wait
     from sim.bench.dataset.plan import plan_jobs  # noqa: PLC0415
     from sim.bench.dataset.run import DatasetPlace  # noqa: PLC0415
     from sim.bench.dataset.secret import find_secret  # noqa: PLC0415
     from sim.bench.dataset.spec import read_spec  # noqa: PLC0415
 
     asked = read_spec(spec)
-    place = DatasetPlace(output, key or key_of(output))
-    place.keep_apart(spec=spec, secret=asked.secret)
+    place = DatasetPlace(output, key or default_key_path(output))
+    place.check_separation(spec=spec, secret=asked.secret)
     secret = find_secret(asked, make=not check)
     jobs = plan_jobs(asked, secret)
     if check:
@@ -95,7 +95,7 @@ def _make(
     found = check_folder(place, jobs, secret=secret, overwrite=overwrite)
     rehearse_jobs(found.todo)
     if secret.new:
-        secret.keep()
+        secret.save()
         click.echo(f"{secret.new}: a new secret. Keep it, and keep it to yourself.", err=True)
     with (
         progress_bar("logs", len(jobs), done=len(found.kept)) as (step, done),
@@ -128,7 +128,7 @@ def _make(
             stopped = False
     if stopped:
         said = f"stopped with {done()} of {len(jobs)} logs whole. Run the same command to go on."
-        complain(said, name="sysid")
+        print_error(said, name="sysid")
         return INTERRUPTED
     kept = f", {len(found.kept)} of them made earlier" if found.kept else ""
     click.echo(f"{place.folder}: {len(jobs)} logs{kept}. The truth about them: {place.key}")

@@ -37,15 +37,15 @@ def entries(file: Path, *, as_json: bool) -> None:
 
 def _row(entry: "Entry") -> dict[str, object]:
     """An entry as plain data; ``signal`` is empty where it is none of a motor's."""
-    from sim.io.entries.discovery import signal_of  # noqa: PLC0415 - --help must not wait for it
+    from sim.io.entries.discovery import identify_signal  # noqa: PLC0415 - --help must not wait for it
     from sim.io.entries.entry import NUMBERS, STRING  # noqa: PLC0415 - the same
     from sim.io.entries.state import names_tests  # noqa: PLC0415 - the same
-    from sim.io.entries.units import unit_text  # noqa: PLC0415 - the same
+    from sim.io.entries.units import find_unit_text  # noqa: PLC0415 - the same
 
-    device, signal = (signal_of(entry) if entry.type in NUMBERS else None) or ("", "")
+    device, signal = (identify_signal(entry) if entry.type in NUMBERS else None) or ("", "")
     if entry.type == STRING and names_tests(entry):
         signal = "state"
     return {
         "name": entry.name, "type": entry.type, "values": len(entry), "signal": signal,
-        "motor": device, "unit": unit_text(entry, signal),
+        "motor": device, "unit": find_unit_text(entry, signal),
     }  # fmt: skip

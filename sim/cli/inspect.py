@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import FILE, as_json, read_together, reading_options
+from sim.cli.options import FILE, as_json, read_logs_together, reading_options
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
@@ -45,13 +45,13 @@ def inspect(
     """
     from sim.inspect.detect_faults import inspect as look  # noqa: PLC0415 - --help must not wait for it
 
-    log = read_together(files, units=units, type=type_, motor=motor, entries=entries)
+    log = read_logs_together(files, units=units, type=type_, motor=motor, entries=entries)
     found = look(log)
     if as_json:
         click.echo(json.dumps(found.to_json(), allow_nan=False))
     else:
         _show(found, title=", ".join(str(file) for file in files), runs=len(log.runs))
-    return DONE if found.clean else NOT_RIGHT
+    return DONE if found.is_clean else NOT_RIGHT
 
 
 def _show(found: "Inspection", *, title: str, runs: int) -> None:

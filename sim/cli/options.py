@@ -51,7 +51,7 @@ def list_catalogue(rows: Iterable[Mapping[str, Any]], *, as_json: bool) -> None:
         click.echo("\n".join(f"{row['name']:{width}}  {row['summary']}" for row in rows))
 
 
-def read_together(
+def read_logs_together(
     files: Iterable[Path],
     *,
     units: str | None,
@@ -78,5 +78,5 @@ def read_together(
         read(file, units=units, type=type, motor=motor, entries=named) for file in files
     ]
     for log in more:
-        first = first.and_also(log)
+        first = first.join(log)
     return first

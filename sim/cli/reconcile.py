@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.options import FILE, as_json, read_together, reading_options
+from sim.cli.options import FILE, as_json, read_logs_together, reading_options
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
@@ -69,12 +69,12 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     remains unexplained or ambiguous.
     """
     if html is not None:
-        from sim.report.page_file import page_path  # noqa: PLC0415 - draws, as all of its folder
+        from sim.report.page_file import choose_page_path  # noqa: PLC0415 - draws, as all of its folder
 
-        page_path(html)  # a wrong name is told before the work, not after
+        choose_page_path(html)  # a wrong name is told before the work, not after
 
     def read(*some: Path) -> "Log":
-        return read_together(some, units=units, type=type_, motor=motor, entries=entries)
+        return read_logs_together(some, units=units, type=type_, motor=motor, entries=entries)
 
     logs = {"log": read(*files)}
     logs |= {
@@ -102,9 +102,9 @@ def _watched(*, seen: bool) -> "AbstractContextManager[Callable[[str, float], No
     """A progress bar for people; other programs do not wait for it to load."""
     if not seen:
         return nullcontext(lambda _, __: None)
-    from sim.report.story_terminal import progress_bar  # noqa: PLC0415 - only for people
+    from sim.report.story_terminal import show_progress  # noqa: PLC0415 - only for people
 
-    return progress_bar()
+    return show_progress()
 
 
 def _solved(

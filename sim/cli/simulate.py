@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from sim.bench.mechanism import Mechanism
     from sim.core.log import Log
-    from sim.inspect.fault import Stretch
+    from sim.inspect.fault import LogInterval
 
 
 @click.command()
@@ -87,7 +87,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
 
     from sim.bench.ground_truth import write_ground_truth  # noqa: PLC0415
-    from sim.bench.mechanisms import mechanism as find  # noqa: PLC0415
+    from sim.bench.mechanisms import find_mechanism as find  # noqa: PLC0415
     from sim.bench.routine import Routine  # noqa: PLC0415
     from sim.bench.simulate import simulate as record  # noqa: PLC0415
     from sim.io import write  # noqa: PLC0415
@@ -138,7 +138,7 @@ def _hiding(mechanism: "Mechanism", asked: Iterable[str]) -> "Mechanism":
     for text in asked:
         name, colon, size = text.partition(":")
         try:
-            mechanism = mechanism.hiding(name.strip(), float(size) if colon else 1.0)
+            mechanism = mechanism.hide(name.strip(), float(size) if colon else 1.0)
         except ValueError:
             raise BadRequest(
                 f"{text!r}: {size!r} is not a size", advice="Write EFFECT[:SIZE], as drag:0.5."
@@ -148,7 +148,7 @@ def _hiding(mechanism: "Mechanism", asked: Iterable[str]) -> "Mechanism":
 
 def _damaged(
     log: "Log", asked: Iterable[str], rng: "np.random.Generator"
-) -> "tuple[Log, list[tuple[str, float, Stretch]]]":
+) -> "tuple[Log, list[tuple[str, float, LogInterval]]]":
     """The log with the faults that are asked for, and where each is."""
     from sim.inspect.contaminate import contaminate, parse_fault_request  # noqa: PLC0415 - only with --fault
 

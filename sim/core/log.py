@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, BadSample
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.core.vocabulary import DIRECTIONS, FOUR_TESTS, KINDS, TESTS, TYPES
 
 __all__ = [  # the words come along, for those who work on logs
@@ -50,6 +50,12 @@ class Run:
     Raises:
         BadRequest: ``test`` is not the name of a test.
         BadSample: lengths differ, a value is not finite or is absurd, or time stands still.
+
+    Examples:
+        >>> run = Run("dynamic-forward", time=[0.0, 0.02], voltage=[7.0, 7.0],
+        ...           position=[0.0, 0.01], velocity=[0.0, 1.0])
+        >>> run.kind, run.direction, len(run)
+        ('dynamic', 'forward', 2)
     """
 
     test: str
@@ -124,6 +130,12 @@ class Log:
         type: ``simple``, ``elevator`` or ``arm`` where the source says it, else empty.
         source: the file it was read from, for messages; empty if none.
         doubts: what was odd about the source.
+
+    Examples:
+        >>> run = Run("quasistatic-reverse", [0.0], [0.0], [0.0], [0.0])
+        >>> log = Log((run,), units="rotations", type="simple")
+        >>> log.units, len(log.runs_of_test("quasistatic-reverse"))
+        ('rotations', 1)
     """
 
     runs: tuple[Run, ...]
@@ -135,30 +147,30 @@ class Log:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "runs", tuple(self.runs))
-        object.__setattr__(self, "units", unit(self.units).name)
+        object.__setattr__(self, "units", find_unit(self.units).name)
         if self.type and self.type not in TYPES:
             raise BadRequest(
                 f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
             )
 
-    def of(self, test: str) -> tuple[Run, ...]:
+    def runs_of_test(self, test: str) -> tuple[Run, ...]:
         """All runs of one test, in order; empty if it was not recorded."""
         return tuple(run for run in self.runs if run.test == test)
 
-    def and_also(self, other: "Log") -> "Log":
+    def join(self, other: "Log") -> "Log":
         """The runs of two logs of one mechanism together.
 
         Raises:
             BadRequest: one measures a length, the other an angle.
         """
-        if unit(self.units).angular != unit(other.units).angular:
+        if find_unit(self.units).angular != find_unit(other.units).angular:
             raise BadRequest(
                 f"{self.source} is in {self.units}, {other.source} in {other.units}",
                 advice="Fit one mechanism at a time, or say --units if a file is mislabeled.",
             )
         return replace(self, runs=self.runs + other.runs, doubts=self.doubts + other.doubts)
 
-    def with_doubts(self, *doubts: Doubt) -> "Log":
+    def add_doubts(self, *doubts: Doubt) -> "Log":
         """The same log with more doubts."""
         return replace(self, doubts=self.doubts + doubts)
 

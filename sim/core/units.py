@@ -43,17 +43,25 @@ def gains_per(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
     Args:
         gains: gain -> value; only kV and kA depend on the unit of position.
         factor: ``unit("rotations").si`` turns gains per radian into gains per rotation.
+
+    Examples:
+        >>> gains_per({"kS": 0.1, "kV": 0.02}, factor=find_unit("rotations").si)["kV"]  # [V·s/rot]
+        0.12566370614359174
     """
     return {
         name: value * factor if name in {"kV", "kA"} else value for name, value in gains.items()
     }
 
 
-def unit(name: str) -> Unit:
+def find_unit(name: str) -> Unit:
     """Look up a unit by name, in any case.
 
     Raises:
         BadRequest: no such unit; the message lists those there are.
+
+    Examples:
+        >>> find_unit("Degrees").symbol
+        'deg'
     """
     found = UNITS.get(name.strip().lower())
     if found is None:

@@ -23,7 +23,7 @@ LEAST_PERIODS = 0.05  # [sample periods] a shorter timescale leaves hardly a tra
 LEAST_TIMESCALE, MOST_TIMESCALE = 1e-3, 10.0  # [s] of anything on a robot
 
 
-def first_guess(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the field's own word
+def guess_gains(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the field's own word
     """First estimates of kS, kV, kA, and of ``kG`` (elevator) or ``level`` and ``upright`` (arm).
 
     Args:
@@ -37,7 +37,9 @@ def first_guess(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
         Raw: a log whose signs are opposed has a negative kV.
     """
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
-    parts = [_sums(run, standing=STANDING * top, type=type) for run in log.runs if len(run) > 1]
+    parts = [
+        _integral_rows(run, standing=STANDING * top, type=type) for run in log.runs if len(run) > 1
+    ]
     table = np.concatenate(parts) if parts else np.empty((0, 4))
     names = ("kS", "kV", "kA", *{"elevator": ("kG",), "arm": ("level", "upright")}.get(type, ()))
     if top == 0.0 or table.shape[0] < 2 * len(names):
@@ -47,7 +49,7 @@ def first_guess(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
             advice="Run the tests with a higher voltage, or hold the button longer.",
         )
     paid, columns = table[:, 0], table[:, 1:]
-    _changes(paid, columns[:, 0], where=log.source)
+    _refuse_constant_voltage(paid, columns[:, 0], where=log.source)
     size = np.linalg.norm(columns, axis=0)
     size[size == 0.0] = 1.0
     found = np.linalg.lstsq(columns / size, paid, rcond=1e-8)[0] / size
@@ -62,20 +64,20 @@ def orient_forward(log: Log, *, type: str) -> tuple[Log, dict[str, float], float
         type: ``simple``, ``elevator`` or ``arm``.
 
     Raises:
-        NotIdentifiable: as ``first_guess``.
+        NotIdentifiable: as ``guess_gains``.
 
     Returns:
         The log, voltages turned round where plus drives it backward; the guess; 1 or, if so, -1.
     """
-    guess = first_guess(log, type=type)
+    guess = guess_gains(log, type=type)
     if not guess["kV"] < 0.0:
         return log, guess, 1.0
     runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
     log = replace(log, runs=runs)
-    return log, first_guess(log, type=type), -1.0
+    return log, guess_gains(log, type=type), -1.0
 
 
-def _changes(paid: Array, ways: Array, *, where: str) -> None:
+def _refuse_constant_voltage(paid: Array, ways: Array, *, where: str) -> None:
     """Refuse a voltage that is always the same: friction might be all there is."""
     share = float(paid @ ways) / max(float(ways @ ways), 1e-300)
     if np.linalg.norm(paid - share * ways) < SAME * np.linalg.norm(paid):
@@ -104,7 +106,7 @@ def clamp_to_physical(gains: Mapping[str, float], *, period: float = 0.0) -> dic
     }
 
 
-def _sums(run: Run, *, standing: float, type: str) -> Array:  # noqa: A002 - as above
+def _integral_rows(run: Run, *, standing: float, type: str) -> Array:  # noqa: A002 - as above
     """(rows, 1 + gains): what was paid, and for what, over whiles that do not overlap by much."""
     dt = np.diff(run.time)
     reach = max(4, round(SHORTEST / float(np.median(dt))))

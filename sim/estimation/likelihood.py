@@ -15,7 +15,7 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
 
@@ -29,7 +29,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.random_friction import friction_prior, friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
-from sim.physics.engine import EXPECTED, NO_TRUST, RunBatch, Track, follow
+from sim.physics.engine import EXPECTED, NO_CORRECTION, RunBatch, Track, filter_runs
 from sim.physics.model import Model
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
@@ -79,27 +79,39 @@ class PredictionErrorProblem:
     Args:
         records: the runs.
         noise: of their samples, estimated without a model.
-        most_q: [unit²/s³] the largest process noise.
+        max_process_noise: [unit²/s³] the largest process noise.
         varying_friction: whether each run has a friction of its own.
-        slack: [unit] by which free play that no model here describes may shift a start.
+        backlash_allowance: [unit] by which free play that no model here describes may shift a
+            start.
+        priors: parameter of an effect -> standard deviation of its normal prior about zero.
     """
 
     records: tuple[RunRecord, ...]
     noise: SensorNoise
-    most_q: float = math.inf
+    max_process_noise: float = math.inf
     varying_friction: bool = True
-    slack: float = 0.0
+    backlash_allowance: float = 0.0
+    priors: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
-    def of(
-        cls, records: Sequence[RunRecord], *, varying_friction: bool = True, slack: float = 0.0
+    def from_records(
+        cls,
+        records: Sequence[RunRecord],
+        *,
+        varying_friction: bool = True,
+        backlash_allowance: float = 0.0,
     ) -> "PredictionErrorProblem":
         """The problem of these runs, with the noise that they show."""
         noise = estimate_noise(tuple(record.measurements for record in records))
-        return cls(tuple(records), noise, varying_friction=varying_friction, slack=slack)
+        return cls(
+            tuple(records),
+            noise,
+            varying_friction=varying_friction,
+            backlash_allowance=backlash_allowance,
+        )
 
     @cached_property
-    def edges(self) -> NDArray[np.intp]:
+    def run_edges(self) -> NDArray[np.intp]:
         """(runs + 1,) where each run begins among all samples."""
         return np.concatenate(
             ([0], np.cumsum([record.measurements.time.size for record in self.records]))
@@ -110,7 +122,7 @@ class PredictionErrorProblem:
         """The runs as the engine follows them."""
         seen = [record.measurements for record in self.records]
         return RunBatch(
-            self.edges.astype(np.float64),
+            self.run_edges.astype(np.float64),
             np.concatenate([one.time for one in seen], dtype=np.float64),
             np.concatenate([one.voltage for one in seen], dtype=np.float64),
             np.ascontiguousarray(self.measured, dtype=np.float64),
@@ -119,7 +131,7 @@ class PredictionErrorProblem:
             np.array([record.low for record in self.records], dtype=np.float64),
             np.array([record.high for record in self.records], dtype=np.float64),
             np.array([record.clock for record in self.records], dtype=np.float64),
-            np.array([record.memory for record in self.records], dtype=np.float64),
+            np.array([record.memory_group for record in self.records], dtype=np.float64),
         )
 
     @cached_property
@@ -128,23 +140,23 @@ class PredictionErrorProblem:
         return np.concatenate([record.measurements.measured for record in self.records])
 
     @cached_property
-    def telling(self) -> NDArray[np.bool_]:
+    def informative(self) -> NDArray[np.bool_]:
         """(n,) samples that are compared: not the first of a run, from which it starts."""
-        telling = np.concatenate([record.measurements.telling for record in self.records])
-        telling[self.edges[:-1]] = False
+        telling = np.concatenate([record.measurements.informative for record in self.records])
+        telling[self.run_edges[:-1]] = False
         return telling & ~np.isnan(self.measured).all(axis=1)
 
     @cached_property
-    def ignored(self) -> NDArray[np.bool_]:
+    def ignored_readings(self) -> NDArray[np.bool_]:
         """(n, 2) readings that are not compared."""
-        ignored = np.isnan(self.measured) | ~self.telling[:, None]
-        ignored[:, 0] |= np.concatenate([record.measurements.resting for record in self.records])
+        ignored = np.isnan(self.measured) | ~self.informative[:, None]
+        ignored[:, 0] |= np.concatenate([record.measurements.at_rest for record in self.records])
         return ignored
 
     @cached_property
-    def compared(self) -> tuple[int, int, int]:
+    def compared_counts(self) -> tuple[int, int, int]:
         """How many positions are compared, how many velocities, and how many pairs; at least 1."""
-        x, v = ~self.ignored.T
+        x, v = ~self.ignored_readings.T
         positions, velocities, both = (int(np.count_nonzero(one)) for one in (x, v, x & v))
         return max(positions, 1), max(velocities, 1), max(both, 1)
 
@@ -154,9 +166,9 @@ class PredictionErrorProblem:
         return np.concatenate([record.measurements.moving for record in self.records])
 
     @cached_property
-    def count(self) -> int:
+    def sample_count(self) -> int:
         """How many samples are compared."""
-        return int(np.count_nonzero(~self.ignored.all(axis=1)))
+        return int(np.count_nonzero(~self.ignored_readings.all(axis=1)))
 
     @cached_property
     def period(self) -> float:
@@ -168,105 +180,125 @@ class PredictionErrorProblem:
         )
 
     @cached_property
-    def top(self) -> float:
+    def top_speed(self) -> float:
         """[unit/s] top speed, a few samples left out."""
-        speeds = np.abs(self.measured[self.telling, 1])
+        speeds = np.abs(self.measured[self.informative, 1])
         speeds = speeds[~np.isnan(speeds)]
         return float(np.quantile(speeds, TOP)) if speeds.size else 0.0
 
     @cached_property
     def start_sd(self) -> float:
         """[unit] standard deviation of a start position."""
-        return max(START_SD * self.noise.position, self.slack)
+        return max(START_SD * self.noise.position, self.backlash_allowance)
 
     @property
-    def start(self) -> RunNuisance:
+    def initial_nuisance(self) -> RunNuisance:
         """The runs as their first samples show them."""
-        return RunNuisance.seen(len(self.records))
+        return RunNuisance.at_first_samples(len(self.records))
+
+    def priors_of(self, structure: ModelStructure) -> dict[str, float]:
+        """The priors of those parameters that a search of this structure moves."""
+        return {name: sd for name, sd in self.priors.items() if name in structure.searched_names}
 
     # -- simulate --------------------------------------------------------------------------------
 
-    def track(self, model: Model, nuisance: RunNuisance, trust: Array = NO_TRUST) -> Track:
+    def simulate(
+        self, model: Model, nuisance: RunNuisance, kalman_gain: Array = NO_CORRECTION
+    ) -> Track:
         """All runs, one after another.
 
         Args:
             model: what moves.
             nuisance: how each run begins.
-            trust: (2, 2) Kalman gain; by default nothing is corrected.
+            kalman_gain: (2, 2) Kalman gain; by default nothing is corrected.
         """
-        return Track.of(self._followed(model, nuisance, trust, self.batch))
+        return Track.from_array(self._filter_runs(model, nuisance, kalman_gain, self.batch))
 
     def predict_errors(
-        self, model: Model, nuisance: RunNuisance, trust: Array, clocks: Array | None = None
+        self, model: Model, nuisance: RunNuisance, kalman_gain: Array, clocks: Array | None = None
     ) -> Array:
         """(n, 2) innovations: measured minus predicted; 0 where nothing is compared.
 
         Args:
             model: what moves.
             nuisance: how each run begins.
-            trust: (2, 2) Kalman gain.
+            kalman_gain: (2, 2) Kalman gain.
             clocks: (runs,) [s] when each run begins, if not when it did.
         """
         batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
-        errors = self.measured - self._followed(model, nuisance, trust, batch)[:, EXPECTED:]
-        np.copyto(errors, 0.0, where=self.ignored)
+        errors = (
+            self.measured - self._filter_runs(model, nuisance, kalman_gain, batch)[:, EXPECTED:]
+        )
+        np.copyto(errors, 0.0, where=self.ignored_readings)
         return np.asarray(errors)
 
-    def _followed(
-        self, model: Model, nuisance: RunNuisance, trust: Array, batch: RunBatch
+    def _filter_runs(
+        self, model: Model, nuisance: RunNuisance, kalman_gain: Array, batch: RunBatch
     ) -> Array:
-        return follow(
-            model, batch, trust=trust,
-            beside=nuisance.position_offset, meshed=nuisance.backlash_phase,
-            rubs=nuisance.friction_offset,
+        return filter_runs(
+            model, batch, kalman_gain=kalman_gain,
+            position_offset=nuisance.position_offset, backlash_phase=nuisance.backlash_phase,
+            friction_offset=nuisance.friction_offset,
         )  # fmt: skip
 
-    def at(
+    def evaluate(
         self,
         structure: ModelStructure,
         values: Mapping[str, float],
         nuisance: RunNuisance,
-        q: float,
+        process_noise: float,
     ) -> Estimate:
         """The estimate at these values; its cost is infinite where they are not physical."""
-        if not structure.plays:
-            nuisance = nuisance.unmeshed
+        if not structure.has_backlash:
+            nuisance = nuisance.without_backlash_phase
         nowhere = Estimate(
-            structure, values, nuisance, q, NO_TRUST, np.empty((0, 2)), np.eye(2), math.inf
+            structure,
+            values,
+            nuisance,
+            process_noise,
+            NO_CORRECTION,
+            np.empty((0, 2)),
+            np.eye(2),
+            math.inf,
         )
         if not (values["kV"] > 0.0 and values["kA"] > SHORTEST * self.period * values["kV"]):
             return nowhere
-        if not self.count:
+        if not self.sample_count:
             return nowhere
         model = structure.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
-            trust = steady_state_gain(model, noise=self.noise, q=q, period=self.period)
+            trust = steady_state_gain(
+                model, noise=self.noise, process_noise=process_noise, period=self.period
+            )
             innovations = self.predict_errors(model, nuisance, trust)
             cov = self.covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
             cost = self._cost(cov) + own + friction_prior(values, nuisance)
+            cost += sum((values[name] / sd) ** 2 for name, sd in self.priors_of(structure).items())
         if not math.isfinite(cost):
             return nowhere
-        return Estimate(structure, values, nuisance, q, trust, innovations, cov, cost)
+        return Estimate(structure, values, nuisance, process_noise, trust, innovations, cov, cost)
 
     # -- compare ---------------------------------------------------------------------------------
 
     def covariance(self, innovations: Array) -> Array:
         """(2, 2) covariance of innovations, never quite zero."""
         x, v = innovations.T.copy()
-        positions, velocities, both = self.compared
+        positions, velocities, both = self.compared_counts
         xx, vv = float(x @ x) / positions, float(v @ v) / velocities
         most = 0.99 * math.sqrt(xx * vv)
         xv = min(max(float(x @ v) / both, -most), most)
-        fine, finer = self.noise.grain
+        fine, finer = self.noise.resolution
         return np.array([[xx + fine**2, xv], [xv, vv + finer**2]])
 
     def _cost(self, cov: Array) -> float:
         (xx, xv), (_, vv) = cov.tolist()
         size = xx * vv - xv * xv
-        return self.count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
+        return (
+            self.sample_count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
+        )
 
-    def white(self, point: Estimate, table: Array) -> Array:
+    def whiten(self, point: Estimate, table: Array) -> Array:
         """(2 n,) innovations or their changes (n, 2), whitened with an estimate's covariance.
 
         What flies off is large, and its squares can still be summed.
@@ -292,28 +324,30 @@ class PredictionErrorProblem:
             ValueError: the cost of the estimate is infinite.
         """
         structure = point.structure
-        sides = [self._sides(point, name, fine=fine) for name in structure.searched]
-        moved = point.nuisance.moved(np.full(len(self.records), self.noise.position))
+        sides = [
+            self._difference_points(point, name, fine=fine) for name in structure.searched_names
+        ]
+        moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
         tried = [
             (structure.model({**point.values, name: value}), point.nuisance)
-            for name, pair in zip(structure.searched, sides, strict=True)
+            for name, pair in zip(structure.searched_names, sides, strict=True)
             for value in pair
             if value != point.values[name]
         ]
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
             results = iter(
-                self._side_by_side(
+                self._simulate_in_parallel(
                     [*tried, (structure.model(point.values), moved)], point.kalman_gain
                 )
             )
             columns = []
-            for name, (low, high) in zip(structure.searched, sides, strict=True):
+            for name, (low, high) in zip(structure.searched_names, sides, strict=True):
                 own = point.values[name]
                 below = next(results) if low != own else point.innovations
                 above = next(results) if high != own else point.innovations
-                columns.append(self.white(point, (above - below) / (high - low)))
+                columns.append(self.whiten(point, (above - below) / (high - low)))
         starts = (next(results) - point.innovations) / self.noise.position
-        columns.append(self._by_run(self.white(point, starts)))
+        columns.append(self._one_column_per_run(self.whiten(point, starts)))
         if self.varying_friction:
             columns.append(self.friction_jacobian(point))
         return np.column_stack(columns)
@@ -322,40 +356,41 @@ class PredictionErrorProblem:
         """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
         by = np.full(len(self.records), friction_sd(point.values))
         model = point.structure.model(point.values)
-        more, less = self._side_by_side(
-            [(model, point.nuisance.rubbing(one)) for one in (by, -by)], point.kalman_gain
+        more, less = self._simulate_in_parallel(
+            [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_gain
         )
-        return self._by_run(self.white(point, (more - less) / (2.0 * by[0])))
+        return self._one_column_per_run(self.whiten(point, (more - less) / (2.0 * by[0])))
 
-    def _sides(self, point: Estimate, name: str, *, fine: bool) -> tuple[float, float]:
+    def _difference_points(self, point: Estimate, name: str, *, fine: bool) -> tuple[float, float]:
         """Two values of a parameter whose simulations give the derivative by it."""
         structure, value = point.structure, point.values[name]
         coarse = name.partition(".")[2] in STEPWISE
-        step = (COARSE_STEP if coarse else STEP) * structure.size(name, value)
+        size = max(structure.parameter_scale(name, value), self.priors.get(name, 0.0))
+        step = (COARSE_STEP if coarse else STEP) * size
         above, below = value + step, value - step
-        may_rise = structure.within(name, above) == above
-        may_fall = structure.within(name, below) == below
+        may_rise = structure.clamp_value(name, above) == above
+        may_fall = structure.clamp_value(name, below) == below
         return value if may_rise and not (
             fine and may_fall
         ) else below, above if may_rise else value
 
-    def _side_by_side(
-        self, tried: Sequence[tuple[Model, RunNuisance]], trust: Array
+    def _simulate_in_parallel(
+        self, tried: Sequence[tuple[Model, RunNuisance]], kalman_gain: Array
     ) -> list[Array]:
         """The innovations of several simulations; compiled code runs beside other."""
 
         def one(each: tuple[Model, RunNuisance]) -> Array:
-            return self.predict_errors(*each, trust)
+            return self.predict_errors(*each, kalman_gain)
 
         return list((_threads().map if len(self.measured) > PARALLEL else map)(one, tried))
 
-    def _by_run(self, change: Array) -> Array:
+    def _one_column_per_run(self, change: Array) -> Array:
         """(2 n, runs): all runs are moved at once, and each has a column of its own.
 
         A run is not moved without those before it, which may have heated what it found warm.
         """
         table = np.zeros((change.size, len(self.records)))
-        for number, (first, last) in enumerate(pairwise((2 * self.edges).tolist())):
+        for number, (first, last) in enumerate(pairwise((2 * self.run_edges).tolist())):
             table[first:last, number] = change[first:last]
         return table
 

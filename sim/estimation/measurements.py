@@ -25,6 +25,8 @@ GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] h
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
 AROUND = 5  # samples before a motion and after it that say when it began and ended
 MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
+TREMBLES = 0.3  # [of that speed] a velocity with more noise cannot tell a slow motion from a rest
+SURELY = 4.0  # [standard deviations] noise hardly ever goes so far
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +38,9 @@ class RunMeasurements:
         voltage: (n,) [V].
         measured: (n, 2) position and velocity, nan where they are not fresh.
         moving: (n,) where it moves.
-        telling: (n,) where it moves, or is about to: what is compared. That must not depend on a
-            model, or a model could gain by looking away.
-        resting: (n,) where a position is the one read at rest, and its error of rounding, too: so
+        informative: (n,) where it moves, or is about to: what is compared. That must not depend on
+            a model, or a model could gain by looking away.
+        at_rest: (n,) where a position is the one read at rest, and its error of rounding, too: so
             often repeated it would pass for knowledge.
         velocity: [m/s or rad/s] it begins with.
         position: [m or rad] it begins at.
@@ -48,8 +50,8 @@ class RunMeasurements:
     voltage: Array
     measured: Array
     moving: NDArray[np.bool_]
-    telling: NDArray[np.bool_]
-    resting: NDArray[np.bool_]
+    informative: NDArray[np.bool_]
+    at_rest: NDArray[np.bool_]
     position: float
     velocity: float
 
@@ -61,12 +63,12 @@ class SensorNoise:
     Args:
         position: [m or rad].
         velocity: [m/s or rad/s].
-        grain: of both, what no number of a log is better than.
+        resolution: of both, what no number of a log is better than.
     """
 
     position: float
     velocity: float
-    grain: tuple[float, float]
+    resolution: tuple[float, float]
 
 
 def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, ...]:
@@ -78,7 +80,12 @@ def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, 
             moves: then a run begins where friction alone would hold it. None keeps all.
     """
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
-    return tuple(_seen(run, top=top, friction=friction) for run in log.runs if len(run) > 3)  # noqa: PLR2004 - fewer have no third difference
+    runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
+    seen = tuple(_measure_run(run, top=top, friction=friction) for run in runs)
+    noise = estimate_noise(seen) if seen else None
+    if noise is None or noise.velocity <= TREMBLES * MOVING * top:
+        return seen
+    return tuple(_measure_run(run, top=top, friction=friction, noise=noise) for run in runs)
 
 
 def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
@@ -120,30 +127,49 @@ def third_differences(time: Array, values: Array) -> Array:
     return np.asarray(np.sum(weights * np.lib.stride_tricks.sliding_window_view(values, 4), axis=1))
 
 
-def _seen(run: Run, *, top: float, friction: float | None) -> RunMeasurements:
+def _measure_run(
+    run: Run, *, top: float, friction: float | None, noise: SensorNoise | None = None
+) -> RunMeasurements:
+    """The measurements of a run; ``noise`` is that of a velocity which trembles at rest."""
     measured = np.column_stack([run.position, run.velocity])
     fast = np.abs(run.velocity) > FAST * float(np.max(np.abs(run.velocity), initial=0.0))
     for column in (0, 1):
-        measured[~_fresh(measured[:, column], fast=fast), column] = np.nan
+        measured[~_find_fresh_readings(measured[:, column], fast=fast), column] = np.nan
     moving = np.abs(run.velocity) > MOVING * top
+    least = MOVING * top
+    if noise is not None:
+        least += SURELY * noise.velocity
+        progress = _find_progress(run, speed=MOVING * top, noise=noise)
+        moving = (np.abs(run.velocity) > least) | progress
     first = 0
     if friction is not None and moving.any() and not moving[0]:
-        go = _leaves(run, moving)
-        if _yields(run, go):
-            first = _gone(run)
+        go = _find_departure(run, moving)
+        if _creeps_before_leaving(run, go):
+            first = _find_far_sample(run)
         else:
             near = np.abs(run.voltage[: go + 1] - run.voltage[go]) <= friction
             first = go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0
             first = min(first, max(go - 1, 0))
     cut = slice(first, None)
-    start = float(run.velocity[first]) if moving[first] else 0.0
+    start = float(run.velocity[first])
+    start = start if abs(start) > least else 0.0
     return RunMeasurements(
         run.time[cut], run.voltage[cut], np.ascontiguousarray(measured[cut]), moving[cut],
-        _telling(run, moving)[cut], _resting(run, moving)[cut], float(run.position[first]), start,
+        _find_informative(run, moving)[cut], _find_rest_readings(run, moving)[cut],
+        float(run.position[first]), start,
     )  # fmt: skip
 
 
-def _fresh(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _find_progress(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:
+    """(n,) where the position goes on at that speed or faster, over two samples to each side."""
+    index = np.arange(len(run))
+    before, after = np.maximum(index - 2, 0), np.minimum(index + 2, len(run) - 1)
+    way = np.abs(run.position[after] - run.position[before])
+    least = speed * (run.time[after] - run.time[before]) + SURELY * noise.position
+    return np.asarray(way > least)
+
+
+def _find_fresh_readings(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(n,) where a reading is new: where it changes, and once per frame where it stays.
 
     A coarse reading may say the same in the next frame, and that is as good as another; one that
@@ -162,19 +188,19 @@ def _fresh(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return np.asarray(new | (whole & (ends - index > 0.5 * frame)))
 
 
-def _leaves(run: Run, moving: NDArray[np.bool_]) -> int:
+def _find_departure(run: Run, moving: NDArray[np.bool_]) -> int:
     """The sample at which it leaves for good; leaning on a stop a mechanism only gives a little."""
-    rests = np.flatnonzero(~moving[: _gone(run) + 1])
+    rests = np.flatnonzero(~moving[: _find_far_sample(run) + 1])
     return int(rests[-1]) + 1 if rests.size else 0
 
 
-def _gone(run: Run) -> int:
+def _find_far_sample(run: Run) -> int:
     """The sample at which it is farther from where it began than any stop would give."""
     far = np.abs(run.position - run.position[0]) > GIVES * float(np.ptp(run.position))
     return int(np.argmax(far))
 
 
-def _yields(run: Run, go: int) -> bool:
+def _creeps_before_leaving(run: Run, go: int) -> bool:
     """Whether it creeps before it leaves: pressed onto a stop of rubber, or a chain that gives.
 
     Such a stop holds it back longer than friction and weight would, so what the voltage was when it
@@ -185,25 +211,27 @@ def _yields(run: Run, go: int) -> bool:
     return bool(way[-1] > GIVEN * float(np.ptp(run.position)) and creeps > CREEPS)
 
 
-def _stirs(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _find_sensor_activity(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(n,) where a sensor that is quiet at rest is not; if it trembles, where it moves."""
     stirs = np.abs(run.velocity) > 0.0
     return np.asarray(stirs if stirs.mean() < MOSTLY else moving)
 
 
-def _telling(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _find_informative(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(n,) where it moves, and a little around where the sensor stirs."""
-    wide = np.convolve(_stirs(run, moving), np.ones(2 * AROUND + 1), mode="same") > 0.0
+    wide = (
+        np.convolve(_find_sensor_activity(run, moving), np.ones(2 * AROUND + 1), mode="same") > 0.0
+    )
     return np.asarray(wide[: len(run)] | moving)
 
 
-def _resting(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _find_rest_readings(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(n,) where a position is what is read at rest, creeping within one step of it included.
 
     A motion through a whole step of the sensor is read too low as often as too high. From rest it
     only goes through a part of one, and all readings of that part err the same way.
     """
     step = np.cumsum(np.diff(run.position, prepend=run.position[:1]) != 0.0)
-    rests = np.bincount(step, weights=~_stirs(run, moving)) > 0.0
+    rests = np.bincount(step, weights=~_find_sensor_activity(run, moving)) > 0.0
     repeats = np.bincount(step) > 1  # a reading with noise of its own is a measurement
     return np.asarray((rests & repeats)[step])

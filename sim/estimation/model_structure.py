@@ -27,12 +27,12 @@ class ModelStructure:
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
         effects: their names, in the order in which they were found.
-        held: values that a search leaves alone.
+        fixed: values that a search leaves alone.
     """
 
     type: str
     effects: tuple[str, ...] = ()
-    held: tuple[str, ...] = ()
+    fixed: tuple[str, ...] = ()
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -47,25 +47,25 @@ class ModelStructure:
         }
 
     @cached_property
-    def searched(self) -> tuple[str, ...]:
+    def searched_names(self) -> tuple[str, ...]:
         """The values that a search moves; the others are chosen by its start."""
         known = self.parameters
         return tuple(
             name
             for name in self.names
-            if name not in self.held and (name not in known or known[name].searched)
+            if name not in self.fixed and (name not in known or known[name].searched)
         )
 
     @cached_property
-    def free(self) -> int:
+    def free_count(self) -> int:
         """How many values the data decide on, those of a start among them."""
         known = self.parameters
         return sum(1 for name in self.names if name not in known or known[name].counts)
 
     @cached_property
-    def slacks(self) -> tuple[str, ...]:
+    def backlash_names(self) -> tuple[str, ...]:
         """The values that are free play between motor and load."""
-        acts = {name: EFFECTS[name].acts.get("slack") for name in self.effects}
+        acts = {name: EFFECTS[name].hooks.get("backlash_gap") for name in self.effects}
         return tuple(
             f"{name}.{one}"
             for name, act in acts.items()
@@ -74,9 +74,9 @@ class ModelStructure:
         )
 
     @property
-    def plays(self) -> bool:
+    def has_backlash(self) -> bool:
         """Whether motor and load have free play."""
-        return bool(self.slacks)
+        return bool(self.backlash_names)
 
     def __add__(self, effect: str) -> "ModelStructure":
         return ModelStructure(self.type, (*self.effects, effect))
@@ -95,7 +95,7 @@ class ModelStructure:
             model += Part(name, {p: values[f"{name}.{p}"] for p in EFFECTS[name].names})
         return model
 
-    def size(self, name: str, value: float) -> float:
+    def parameter_scale(self, name: str, value: float) -> float:
         """By how much a value must change to matter: its own size, or what is ordinary."""
         if name in POSITIVE:
             return abs(value)
@@ -104,19 +104,19 @@ class ModelStructure:
             return max(abs(value), ORDINARY["V"])
         return max(abs(value), ORDINARY.get(known.unit, 0.0), 1e-12)
 
-    def within(self, name: str, value: float) -> float:
+    def clamp_value(self, name: str, value: float) -> float:
         """The value, kept where it is physics."""
         known = self.parameters.get(name)
         if known is not None:
             return min(max(value, known.least), known.most)
         return max(value, 0.0) if name == "kS" else value
 
-    def stepped(self, name: str, value: float, by: float) -> float:
+    def step_value(self, name: str, value: float, by: float) -> float:
         """The value after a step, which changes what cannot be negative by a factor at most."""
         if name in POSITIVE:
             return value * min(max(1.0 + by / value, 1.0 / 3.0), 3.0)
         known = self.parameters.get(name)
         if known is not None and known.least >= 0.0 and math.isfinite(by):
-            size = self.size(name, value)
+            size = self.parameter_scale(name, value)
             by = min(max(by, -0.7 * size), 2.0 * size)
-        return self.within(name, value + by)
+        return self.clamp_value(name, value + by)

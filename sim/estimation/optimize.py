@@ -35,23 +35,23 @@ class JointJacobian:
     basis: Array
     prior: Array
 
-    def taken(self, white: Array) -> Array:
+    def project(self, white: Array) -> Array:
         """(k,) what of whitened innovations (2 n,) the parameters take up."""
         return np.asarray(self.basis.T @ white + self.prior)
 
-    def square(self, white: Array) -> float:
+    def residual_square(self, white: Array) -> float:
         """Sum of squares that is left once they have, up to a constant."""
-        taken = self.taken(white)
+        taken = self.project(white)
         return float(white @ white - taken @ taken)
 
-    def along(self, change: Array, white: Array) -> tuple[float, float]:
+    def residual_products(self, change: Array, white: Array) -> tuple[float, float]:
         """What is left of a change's product with innovations, and with itself."""
         taken = self.basis.T @ change
-        product = float(change @ white - taken @ self.taken(white))
+        product = float(change @ white - taken @ self.project(white))
         return product, float(change @ change - taken @ taken)
 
 
-def joint_jacobian(
+def make_joint_jacobian(
     problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
 ) -> JointJacobian:
     """The joint Jacobian at an estimate; ``fine`` takes central differences."""
@@ -67,7 +67,7 @@ def append_prior_rows(
     problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
 ) -> tuple[Array, Array]:
     """Jacobian and whitened innovations, with a row for the prior of each nuisance parameter."""
-    table, rest = problem.jacobian(point, fine=fine), problem.white(point, point.innovations)
+    table, rest = problem.jacobian(point, fine=fine), problem.whiten(point, point.innovations)
     runs = len(problem.records)
     sds, offsets = [problem.start_sd], [point.nuisance.position_offset]
     if problem.varying_friction:
@@ -77,7 +77,12 @@ def append_prior_rows(
     prior = np.zeros((count, table.shape[1]))
     prior[:, -count:] = np.diag(np.repeat([1.0 / sd for sd in sds], runs))
     own = [offset / sd for offset, sd in zip(offsets, sds, strict=True)]
-    return np.vstack([table, prior]), np.concatenate([rest, *own])
+    known = problem.priors_of(point.structure)
+    rows = np.zeros((len(known), table.shape[1]))
+    for row, (name, sd) in enumerate(known.items()):
+        rows[row, point.structure.searched_names.index(name)] = 1.0 / sd
+    values = [point.values[name] / sd for name, sd in known.items()]
+    return np.vstack([table, prior, rows]), np.concatenate([rest, *own, values])
 
 
 def levenberg_marquardt(
@@ -100,7 +105,7 @@ def levenberg_marquardt(
             size = np.linalg.norm(table, axis=0)
         size[size == 0.0] = 1.0
         slope = table.T @ rest / size
-        free = _free(point, slope)
+        free = _movable_columns(point, slope)
         table, slope = table[:, free] / size[free], slope[free]
         square, found = table.T @ table, point
         for _ in range(TRIES):
@@ -109,7 +114,7 @@ def levenberg_marquardt(
                 break
             by = np.zeros(free.size)
             by[free] = way / size[free]
-            moved = _step(problem, point, by)
+            moved = _take_step(problem, point, by)
             if moved.cost < point.cost:
                 found, damping = moved, max(damping / 10.0, LEAST_DAMPING)
                 break
@@ -120,32 +125,32 @@ def levenberg_marquardt(
     return point
 
 
-def _free(point: Estimate, slope: Array) -> NDArray[np.bool_]:
+def _movable_columns(point: Estimate, slope: Array) -> NDArray[np.bool_]:
     """(columns,) which may move: not a parameter at a limit beyond which the cost would fall."""
     free = np.ones(slope.size, dtype=bool)
     structure = point.structure
-    for column, name in enumerate(structure.searched):
+    for column, name in enumerate(structure.searched_names):
         value = point.values[name]
-        by = TINY * structure.size(name, value) * np.sign(slope[column])
-        free[column] = structure.within(name, value - by) != value
+        by = TINY * structure.parameter_scale(name, value) * np.sign(slope[column])
+        free[column] = structure.clamp_value(name, value - by) != value
     return free
 
 
-def _step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Estimate:
+def _take_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> Estimate:
     """The estimate after a step."""
     structure, values = point.structure, dict(point.values)
-    searched = structure.searched
+    searched = structure.searched_names
     for name, step in zip(searched, by.tolist(), strict=False):
-        values[name] = structure.stepped(name, values[name], step)
+        values[name] = structure.step_value(name, values[name], step)
     starts, *frictions = by[len(searched) :].reshape(-1, len(problem.records))
-    nuisance = point.nuisance.moved(starts)
+    nuisance = point.nuisance.shift_positions(starts)
     for rubs in frictions:
-        nuisance = nuisance.rubbing(rubs)
+        nuisance = nuisance.add_friction(rubs)
         # what all runs have is kS: only the price tells, hardly
         common = float(np.mean(nuisance.friction_offset))
         values["kS"] = max(values["kS"] + common, 0.0)
-        nuisance = nuisance.rubbing(np.full_like(nuisance.friction_offset, -common))
-    return problem.at(structure, values, nuisance, point.process_noise)
+        nuisance = nuisance.add_friction(np.full_like(nuisance.friction_offset, -common))
+    return problem.evaluate(structure, values, nuisance, point.process_noise)
 
 
 def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -153,27 +158,31 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
     least = LEAST_Q * problem.noise.velocity**2
 
     def at(part: float) -> Estimate:
-        return problem.at(point.structure, point.values, point.nuisance, point.process_noise * part)
+        return problem.evaluate(
+            point.structure, point.values, point.nuisance, point.process_noise * part
+        )
 
     beside = {way: at(way) for way in (FACTOR, 1.0 / FACTOR)}
     for way in (FACTOR, 1.0 / FACTOR):
         while (
             beside[way].cost < point.cost - 0.1
-            and least < beside[way].process_noise < problem.most_q
+            and least < beside[way].process_noise < problem.max_process_noise
         ):
             beside[1.0 / way], point = point, beside[way]
             beside[way] = at(way)
     more, less = beside[FACTOR].cost, beside[1.0 / FACTOR].cost
     bend = more + less - 2.0 * point.cost
-    if not (math.isfinite(bend) and bend > 0.0 and beside[FACTOR].process_noise < problem.most_q):
+    if not (
+        math.isfinite(bend)
+        and bend > 0.0
+        and beside[FACTOR].process_noise < problem.max_process_noise
+    ):
         return point
     other = at(FACTOR ** (0.5 * (less - more) / bend))
     return min(point, other, key=lambda one: one.cost)
 
 
-def parameter_covariance(
-    problem: PredictionErrorProblem, point: Estimate, *, nuisance: bool = False
-) -> Array:
+def parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(searched, searched) covariance of the parameters, the nuisance parameters marginalized.
 
     A combination of parameters that the log says nothing about has a huge error, not none.
@@ -181,13 +190,17 @@ def parameter_covariance(
     Args:
         problem: the measurements.
         point: the best estimate.
-        nuisance: whether to keep rows and columns of the nuisance parameters.
     """
     table, _ = append_prior_rows(problem, point, fine=True)
+    inverse = invert_information(table)
+    count = len(point.structure.searched_names)
+    return np.asarray(inverse[:count, :count])
+
+
+def invert_information(table: Array) -> Array:
+    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), with huge errors where it is singular."""
     square = table.T @ table
     size = np.sqrt(np.maximum(np.diag(square), 1e-100))
     told, ways = np.linalg.eigh(square / np.outer(size, size))
     share = np.where(told > UNKNOWN, told, NO_INFORMATION)
-    inverse = (ways / share) @ ways.T / np.outer(size, size)
-    count = None if nuisance else len(point.structure.searched)
-    return np.asarray(inverse[:count, :count])
+    return np.asarray((ways / share) @ ways.T / np.outer(size, size))

@@ -25,40 +25,40 @@ class RunNuisance:
     friction_offset: Array
 
     @classmethod
-    def seen(cls, runs: int) -> "RunNuisance":
+    def at_first_samples(cls, runs: int) -> "RunNuisance":
         """Just as the first samples say."""
         return cls(np.zeros(runs), np.full(runs, np.nan), np.zeros(runs))
 
-    def of(self, chosen: Sequence[int]) -> "RunNuisance":
+    def select_runs(self, chosen: Sequence[int]) -> "RunNuisance":
         """That of some runs."""
         places = list(chosen)
         return RunNuisance(
             self.position_offset[places], self.backlash_phase[places], self.friction_offset[places]
         )
 
-    def moved(self, by: Array) -> "RunNuisance":
+    def shift_positions(self, by: Array) -> "RunNuisance":
         """The same; ``by`` (runs,) [unit] further."""
         return replace(self, position_offset=self.position_offset + by)
 
-    def rubbing(self, by: Array) -> "RunNuisance":
+    def add_friction(self, by: Array) -> "RunNuisance":
         """The same; each run with ``by`` (runs,) [V] more friction."""
         return replace(self, friction_offset=self.friction_offset + by)
 
     @property
-    def alike(self) -> "RunNuisance":
+    def with_common_friction(self) -> "RunNuisance":
         """The same, all runs with one friction."""
         return replace(self, friction_offset=np.zeros_like(self.friction_offset))
 
-    def meshing(self, meshed: Array) -> "RunNuisance":
+    def with_backlash_phase(self, meshed: Array) -> "RunNuisance":
         """The same, with ``meshed`` (runs,)."""
         return replace(self, backlash_phase=meshed)
 
     @property
-    def unmeshed(self) -> "RunNuisance":
+    def without_backlash_phase(self) -> "RunNuisance":
         """The same; where in free play a run begins is left to the load's weight."""
-        return self.meshing(np.full_like(self.backlash_phase, np.nan))
+        return self.with_backlash_phase(np.full_like(self.backlash_phase, np.nan))
 
     @property
-    def is_meshed(self) -> bool:
+    def has_backlash_phase(self) -> bool:
         """Whether it is told of any run where in free play that begins."""
         return not bool(np.isnan(self.backlash_phase).all())

@@ -7,9 +7,9 @@ import numpy as np
 
 from sim.core.log import Array, Log
 from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs
-from sim.physics.voltage_residual import run_start_times, share_a_clock
+from sim.physics.voltage_residual import run_start_times, shares_clock
 
-FEWEST = 4  # samples of a run that can be compared, as ``see`` has it
+FEWEST = 4  # samples of a run that can be compared, as ``measure_runs`` takes them
 AT_REST = 0.05  # [share of the top speed] that a position may creep in one sample of a rest
 SAME_PLACE = 0.01  # [share of a run's way] within which a place is the place it began at
 SANK = 5.0  # [1] times the roughness of its position, by which a run sank below where it began
@@ -26,13 +26,13 @@ class ExcludedInterval:
         run: which one, from 0.
         start: [s] on the run's own clock.
         end: [s].
-        for_good: nothing after it is believed, unless the run begins so: it leans on a stop.
+        to_the_end: nothing after it is believed, unless the run begins so: it leans on a stop.
     """
 
     run: int
     start: float
     end: float
-    for_good: bool = False
+    to_the_end: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,13 +40,13 @@ class RunRecord:
     """One run, prepared for fitting.
 
     Args:
-        seen: its measurements.
+        measurements: what was measured.
         test: its name.
         low: [unit] the stop on which it lay when it began; minus infinity if none shows.
         high: [unit] the same above.
         clock: [s] when it began, since its log did.
         session: which log it is from.
-        memory: runs of one number followed one another: what one heated, the next found warm.
+        memory_group: runs of one number followed one another: what one heated, the next found warm.
     """
 
     measurements: RunMeasurements
@@ -55,17 +55,17 @@ class RunRecord:
     high: float
     clock: float
     session: int
-    memory: int
+    memory_group: int
 
-    def without(self, aside: ExcludedInterval) -> "RunRecord":
+    def exclude_interval(self, aside: ExcludedInterval) -> "RunRecord":
         """The same, and that stretch says nothing."""
         time = self.measurements.time
         begins = aside.start <= time[0] + AROUND  # on the stop: it leaves it, and all is well
-        end = np.inf if aside.for_good and not begins else aside.end + AROUND
+        end = np.inf if aside.to_the_end and not begins else aside.end + AROUND
         out = (time >= aside.start - AROUND) & (time <= end)
         seen = replace(
             self.measurements,
-            telling=self.measurements.telling & ~out,
+            informative=self.measurements.informative & ~out,
             moving=self.measurements.moving & ~out,
         )
         return replace(self, measurements=seen)
@@ -85,18 +85,18 @@ def run_records(
     places = [number for number, run in enumerate(log.runs) if len(run) >= FEWEST]
     runs = [log.runs[number] for number in places]
     began = run_start_times(log)
-    together = share_a_clock(log)
+    together = shares_clock(log)
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in runs), default=0.0)
     found = {}
     for number, run, one in zip(places, runs, measure_runs(log, friction=None), strict=True):
         # readings at rest count here: how a mechanism leaves its rest tells effects apart
-        seen = replace(_rested(one, top=top), resting=np.zeros_like(one.resting))
+        seen = replace(_start_at_rest(one, top=top), at_rest=np.zeros_like(one.at_rest))
         memory = session * MOST_RUNS + (0 if together else number)
         clock = since + float(began[number])
-        found[number] = RunRecord(seen, run.test, *_stops(seen), clock, session, memory)
+        found[number] = RunRecord(seen, run.test, *_find_stops(seen), clock, session, memory)
     for part in aside:
         if part.run in found:
-            found[part.run] = found[part.run].without(part)
+            found[part.run] = found[part.run].exclude_interval(part)
     return tuple(found.values())
 
 
@@ -125,13 +125,13 @@ def session_length(*logs: Log) -> float:
 def join_records(log: Log, later: Log) -> Log:
     """The runs of two logs, on one clock where both have one."""
     runs = later.runs
-    if share_a_clock(log) and share_a_clock(later):
+    if shares_clock(log) and shares_clock(later):
         by = log.runs[0].time[0] + session_length(log) + AFTER - later.runs[0].time[0]
         runs = tuple(replace(run, time=run.time + by) for run in runs)
     return replace(log, runs=(*log.runs, *runs))
 
 
-def _rested(seen: RunMeasurements, *, top: float) -> RunMeasurements:
+def _start_at_rest(seen: RunMeasurements, *, top: float) -> RunMeasurements:
     """The same, beginning at rest if its position says so: a noisy velocity alone cannot tell."""
     x = seen.measured[:, 0]
     fresh = np.flatnonzero(~np.isnan(x))[:2]
@@ -141,7 +141,7 @@ def _rested(seen: RunMeasurements, *, top: float) -> RunMeasurements:
     return replace(seen, velocity=0.0) if rate < AT_REST * top else seen
 
 
-def _stops(seen: RunMeasurements) -> tuple[float, float]:
+def _find_stops(seen: RunMeasurements) -> tuple[float, float]:
     """What lies beneath a run that began at rest and was never far beyond where it began.
 
     Arms and elevators begin on a stop, and stay there whatever gravity does until the voltage
@@ -157,14 +157,14 @@ def _stops(seen: RunMeasurements) -> tuple[float, float]:
     high = x.max() < seen.position + near
     if low == high:
         return -np.inf, np.inf
-    rough = SANK * _roughness(x)
+    rough = SANK * _position_roughness(x)
     lowest, highest = float(x.min()), float(x.max())
     if low:
         return (lowest if lowest < seen.position - rough else seen.position), np.inf
     return -np.inf, (highest if highest > seen.position + rough else seen.position)
 
 
-def _roughness(x: Array) -> float:
+def _position_roughness(x: Array) -> float:
     """[unit] of positions, from how far each is off the line between its neighbours."""
     bends = np.diff(x, 2)
     return float(np.median(np.abs(bends))) * ROBUST / 6.0**0.5 if bends.size else 0.0

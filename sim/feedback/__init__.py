@@ -11,10 +11,10 @@ from sim.feedback.regulator import (
     Feedback,
     Preset,
     allowed_velocity_error,
-    position_loop,
-    velocity_loop,
+    design_position_loop,
+    design_velocity_loop,
 )
-from sim.feedback.response import Plant, StepResponse, step_response
+from sim.feedback.response import Plant, StepResponse, simulate_step_response
 from sim.feedback.verdict import Verdict, judge_step_response
 
 __all__ = [
@@ -25,8 +25,8 @@ __all__ = [
     "StepResponse",
     "Verdict",
     "allowed_velocity_error",
+    "design_position_loop",
+    "design_velocity_loop",
     "judge_step_response",
-    "position_loop",
-    "step_response",
-    "velocity_loop",
+    "simulate_step_response",
 ]

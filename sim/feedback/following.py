@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 
 from sim.feedback.profile import STEP, Profile
-from sim.feedback.response import BATTERY, Moving, Plant
+from sim.feedback.response import BATTERY, MovingPlant, Plant
 
 SEEN = 0.02  # [share] of a way or a speed: a smaller miss is none worth a word
 CLEAR = 0.25  # [share] of a speed: from here on the speed itself says more than the difference
@@ -27,7 +27,7 @@ class FollowedProfile:
     Args:
         name: of the mechanism: ``elevator``.
         symbol: of its unit of position.
-        wanted: what was asked for.
+        target: what was asked for.
         position: (n,) [unit].
         velocity: (n,) [unit/s].
         place: what its position is called, ``height``; empty where only its speed matters.
@@ -36,14 +36,14 @@ class FollowedProfile:
 
     name: str
     symbol: str
-    wanted: Profile
+    target: Profile
     position: tuple[float, ...]
     velocity: tuple[float, ...]
     place: str = "way"
     stops: tuple[float, float] = INFINITE
 
     @property
-    def words(self) -> str:
+    def description(self) -> str:
         """What happens, in short sentences with rounded numbers."""
         parts = [part for part in (self._held(), self._went(), self._stands()) if part]
         told = " ".join(parts) or "It does nearly what is asked of it here."
@@ -53,23 +53,23 @@ class FollowedProfile:
         return f"{'The' if it == 'It' else 'the'} {self.name}"
 
     def _way(self) -> float:
-        return max(self.wanted.position) - min(self.wanted.position)
+        return max(self.target.position) - min(self.target.position)
 
     def _held(self) -> str:
         """What it does while it shall stand still, before it moves."""
-        end = self.wanted.rest
+        end = self.target.rest_end
         drift = self.position[end] - self.position[0]
         if abs(drift) <= SEEN * self._way():
             return ""
         told = f"Told to stand still, it {'sinks' if drift < 0.0 else 'climbs'} {self._size(drift)}"
         if self.position[end] in self.stops:
             return f"{told}, to its stop."
-        return f"{told} in {self.wanted.time[end]:.1g} s."
+        return f"{told} in {self.target.time[end]:.1g} s."
 
     def _went(self) -> str:
         """How fast it is when it should be steady."""
-        place = self.wanted.cruise
-        wanted, found = self.wanted.velocity[place], self.velocity[place]
+        place = self.target.cruise_end
+        wanted, found = self.target.velocity[place], self.velocity[place]
         told = f"Told to do {wanted:.2g} {self.symbol}/s, it"
         if self.position[place] in self.stops:
             return f"{told} is at its stop."
@@ -86,19 +86,19 @@ class FollowedProfile:
 
     def _gets_there(self) -> str:
         """How far it is off while it gets faster, where it is right once it is."""
-        wanted = self.wanted.velocity
-        rising = range(self.wanted.rest, self.wanted.cruise)
+        wanted = self.target.velocity
+        rising = range(self.target.rest_end, self.target.cruise_end)
         off = max((self.velocity[k] - wanted[k] for k in rising), key=abs, default=0.0)
         if abs(off) <= SEEN * max(map(abs, wanted)):
             return ""
-        ahead = off * wanted[self.wanted.cruise] > 0.0
+        ahead = off * wanted[self.target.cruise_end] > 0.0
         return (
             f"While it gets faster, it is up to {self._size(off)}/s {'ahead' if ahead else 'late'}."
         )
 
     def _stands(self) -> str:
         """How far it is off in the end."""
-        off = self.position[-1] - self.wanted.position[-1]
+        off = self.position[-1] - self.target.position[-1]
         if not self.place or abs(off) <= SEEN * self._way():
             return ""
         more, less = BESIDE.get(self.place, ("ahead of", "behind"))
@@ -130,14 +130,14 @@ def follow_profile(
         place: what its position is called; empty where only its speed matters.
         stops: [unit] between which it can move.
     """
-    moving = Moving(plant, step=STEP, start=wanted.position[0])
+    moving = MovingPlant(plant, step=STEP, start=wanted.position[0])
     low, high = stops
     for k, push in enumerate(wanted.acceleration[:-1]):  # for the middle of each step
         at, speed = (
             (values[k] + values[k + 1]) / 2.0 for values in (wanted.position, wanted.velocity)
         )
         asked = _volts(believed, at, speed, push)
-        moving.on(min(max(asked, -BATTERY), BATTERY))
+        moving.apply_voltage(min(max(asked, -BATTERY), BATTERY))
         if not low < moving.path[-1] < high:
             moving.path[-1], moving.speed[-1] = min(max(moving.path[-1], low), high), 0.0
     return FollowedProfile(
@@ -149,4 +149,4 @@ def _volts(believed: Plant, at: float, speed: float, push: float) -> float:
     """[V] that WPILib's feedforward classes ask for; none for friction where it shall stand."""
     gains, way = believed.gains, (speed > 0.0) - (speed < 0.0)
     moves = gains["kS"] * way + gains["kV"] * speed + gains["kA"] * push
-    return moves + believed.weight(at)
+    return moves + believed.gravity_voltage(at)

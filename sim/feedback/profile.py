@@ -33,27 +33,27 @@ class Profile:
         position: (n,) [unit].
         velocity: (n,) [unit/s].
         acceleration: (n,) [unit/s²].
-        begins: index at which each leg begins; the last is the end.
+        leg_starts: index at which each leg begins; the last is the end.
     """
 
     time: tuple[float, ...]
     position: tuple[float, ...]
     velocity: tuple[float, ...]
     acceleration: tuple[float, ...]
-    begins: tuple[int, ...]
+    leg_starts: tuple[int, ...]
 
     @property
-    def cruise(self) -> int:
+    def cruise_end(self) -> int:
         """The last point before the first leg that moves steadily ends; 0 if none does."""
-        for first, last in zip(self.begins, self.begins[1:], strict=False):
+        for first, last in zip(self.leg_starts, self.leg_starts[1:], strict=False):
             if self.velocity[first] and not self.acceleration[first]:
                 return last - 1
         return 0
 
     @property
-    def rest(self) -> int:
+    def rest_end(self) -> int:
         """The last point of standing still before it moves; 0 if it moves at once."""
-        return 0 if self.acceleration[0] else self.begins[1] - 1
+        return 0 if self.acceleration[0] else self.leg_starts[1] - 1
 
 
 def join_legs(legs: Sequence[Leg], *, start: float = 0.0) -> Profile:
@@ -85,7 +85,7 @@ def join_legs(legs: Sequence[Leg], *, start: float = 0.0) -> Profile:
     return Profile(time, position, velocity, acceleration, tuple(begins))
 
 
-def there_and_back(
+def make_return_profile(
     speed: float, *, rising: float, steady: float, still: float, start: float = 0.0
 ) -> Profile:
     """Stand, go there, stand, come back, stand.
@@ -103,7 +103,7 @@ def there_and_back(
     return join_legs([*way, *back], start=start)
 
 
-def brisk_profile(plant: Plant) -> Profile:
+def make_brisk_profile(plant: Plant) -> Profile:
     """One way, worth looking at, of something that gravity leaves alone; its numbers are round."""
     gains = plant.gains
     speed = float(f"{BRISK * (12.0 - gains['kS']) / gains['kV']:.0e}")

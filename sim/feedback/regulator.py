@@ -65,11 +65,16 @@ class Feedback:
 
 
 def allowed_velocity_error(*, ks: float, kv: float) -> float:
-    """SysId's default allowed velocity error, a quarter of the free speed at 12 V [unit/s]."""
+    """SysId's default allowed velocity error, a quarter of the free speed at 12 V [unit/s].
+
+    Args:
+        ks: [V].
+        kv: [V·s/unit].
+    """
     return SPEED_SHARE * (12.0 - ks) / kv if kv else VELOCITY_ERROR
 
 
-def velocity_loop(
+def design_velocity_loop(
     *,
     kv: float,
     ka: float,
@@ -92,6 +97,10 @@ def velocity_loop(
 
     Raises:
         BadRequest: kV is negative, kA negative, or an allowance is not positive.
+
+    Examples:
+        >>> round(design_velocity_loop(kv=2.5, ka=0.4).kp, 2)
+        2.44
     """
     _check(kv=kv, ka=ka, errors=(velocity_error, volts))
     if ka < MASSLESS:
@@ -104,7 +113,7 @@ def velocity_loop(
     return Feedback(k * preset.output / (preset.velocity_time * encoder_factor), 0.0)
 
 
-def position_loop(
+def design_position_loop(
     *,
     kv: float,
     ka: float,
@@ -126,7 +135,7 @@ def position_loop(
         delay: [s] of the measurement; None takes the preset's.
 
     Raises:
-        BadRequest: as for ``velocity_loop``.
+        BadRequest: as for ``design_velocity_loop``.
     """
     _check(kv=kv, ka=ka, errors=(position_error, velocity_error, volts))
     loops = _wait(preset, delay) / preset.period

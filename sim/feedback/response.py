@@ -40,7 +40,7 @@ class Plant:
     gains: Mapping[str, float]
     angle: float = 1.0
 
-    def weight(self, position: float) -> float:
+    def gravity_voltage(self, position: float) -> float:
         """[V] that gravity takes at a position."""
         held = self.gains.get("kG", 0.0)
         if self.type != "arm":
@@ -48,11 +48,11 @@ class Plant:
         return held * math.cos(position * self.angle + self.gains.get("offset_rad", 0.0))
 
     @property
-    def level(self) -> float:
+    def level_position(self) -> float:
         """[unit] where an arm is horizontal, which is where it is heaviest; zero of all others."""
         return -self.gains.get("offset_rad", 0.0) / self.angle if self.type == "arm" else 0.0
 
-    def step(self, loop: str) -> float:
+    def target_step(self, loop: str) -> float:
         """[unit/s or unit] a jump of the target worth looking at, rounded to one digit.
 
         Half of the free speed, or the way it goes in a tenth of a second at all of it: far enough
@@ -86,7 +86,7 @@ class StepResponse:
     voltage: tuple[float, ...]
 
 
-def step_response(
+def simulate_step_response(
     plant: Plant,
     *,
     loop: str,
@@ -112,18 +112,25 @@ def step_response(
 
     Raises:
         BadRequest: an unknown loop, or numbers that nothing can be simulated with.
+
+    Examples:
+        >>> plant = Plant("simple", {"kS": 0.1, "kV": 2.5, "kA": 0.4})
+        >>> own = Feedback(2.0, 0.0)
+        >>> took = simulate_step_response(plant, loop="velocity", feedback=own, target=2.0)
+        >>> round(took.value[-1], 2)  # [m/s]
+        2.0
     """
     wait = preset.delay if delay is None else max(0.0, delay)
     _check(plant, loop=loop, numbers=(feedback.kp, feedback.kd, target, wait))
     points = max(1, math.ceil(preset.period / FINE - 1e-9))
-    moving = Moving(plant, step=preset.period / points)
+    moving = MovingPlant(plant, step=preset.period / points)
     controller = _Controller(plant, loop, feedback, preset, target=target)
     seen = moving.path if loop == "position" else moving.speed
     first, behind, voltage = seen[0], wait / moving.step, [0.0]
     for _ in range(math.ceil((seconds or _watched(plant, wait, preset)) / preset.period)):
         volts = controller.volts(_past(seen, behind), position=moving.path[-1])
         for _ in range(points):
-            moving.on(volts)
+            moving.apply_voltage(volts)
         voltage += [volts] * points
         if abs(seen[-1] - first) > FARTHEST * abs(target):
             break
@@ -131,7 +138,7 @@ def step_response(
     return StepResponse(loop, target, time, tuple(v - first for v in seen), tuple(voltage))
 
 
-class Moving:
+class MovingPlant:
     """A mechanism on its way, in equal steps.
 
     Args:
@@ -148,12 +155,12 @@ class Moving:
         self.plant, self.step = plant, step
         self.keep = math.exp(-kv / ka * step)
         self.gain = -math.expm1(-kv / ka * step) / kv if kv else step / ka
-        self.path, self.speed = [plant.level if start is None else start], [speed]
+        self.path, self.speed = [plant.level_position if start is None else start], [speed]
 
-    def on(self, volts: float) -> None:
+    def apply_voltage(self, volts: float) -> None:
         """One step under a voltage."""
         x, v = self.path[-1], self.speed[-1]
-        free, ks = volts - self.plant.weight(x), self.plant.gains["kS"]
+        free, ks = volts - self.plant.gravity_voltage(x), self.plant.gains["kS"]
         after = 0.0
         if v != 0.0 or abs(free) > ks:
             way = math.copysign(1.0, v or free)
@@ -175,7 +182,7 @@ class _Controller:
         per_loop = preset.period if not preset.normalized else 1.0
         self.kd = feedback.kd * counts * per_loop / preset.output / preset.period
         self.plant, self.loop = plant, loop
-        self.target = target + (plant.level if loop == "position" else 0.0)
+        self.target = target + (plant.level_position if loop == "position" else 0.0)
         self.last: float | None = None
 
     def volts(self, measured: float, *, position: float) -> float:
@@ -187,10 +194,10 @@ class _Controller:
 
     def _forward(self, position: float) -> float:
         if self.loop == "position":
-            return self.plant.weight(self.target)
+            return self.plant.gravity_voltage(self.target)
         gains = self.plant.gains
         friction = math.copysign(gains["kS"], self.target) if self.target else 0.0
-        return friction + gains["kV"] * self.target + self.plant.weight(position)
+        return friction + gains["kV"] * self.target + self.plant.gravity_voltage(position)
 
 
 def _past(values: Sequence[float], behind: float) -> float:

@@ -25,7 +25,7 @@ class Verdict:
         settled: [s] until it stays within a twentieth of the step; None if not while watched.
         left: [of the step] how far from the target it ended; below zero is past it.
         swing: [of the step] how far it still went to and fro at the end.
-        watched: [s].
+        duration: [s].
     """
 
     kind: str
@@ -34,15 +34,15 @@ class Verdict:
     settled: float | None
     left: float
     swing: float
-    watched: float
+    duration: float
 
     @property
-    def good(self) -> bool:
+    def is_good(self) -> bool:
         """Whether these gains are fit to begin with."""
         return self.kind == "settles"
 
     @property
-    def words(self) -> str:
+    def description(self) -> str:
         """A clause: what it does."""
         match self.kind:
             case "settles" | "rings":
@@ -56,7 +56,7 @@ class Verdict:
             case "oscillates":
                 return (
                     f"swings to and fro and does not settle: still by {self.swing:.0%} of the step "
-                    f"after {_time(self.watched)}"
+                    f"after {_time(self.duration)}"
                 )
             case "stays-short":
                 return f"stops {self.left:.0%} of the step before the target"
@@ -65,7 +65,7 @@ class Verdict:
             case _:
                 return (
                     f"is slow: still {abs(self.left):.0%} of the step from the target after "
-                    f"{_time(self.watched)}"
+                    f"{_time(self.duration)}"
                 )
 
     def to_json(self) -> dict[str, object]:

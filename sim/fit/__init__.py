@@ -33,6 +33,16 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
     Raises:
         BadRequest: an unknown type or method, or an arm whose position is no angle.
         NotIdentifiable: the log cannot tell these gains; the message says what would.
+
+    Examples:
+        >>> import numpy as np
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> from sim.bench.routine import Routine
+        >>> from sim.bench.simulate import simulate
+        >>> log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(0))
+        >>> found = fit(log)
+        >>> round(found.gains["kV"], 2)  # [V·s/m]
+        2.52
     """
     chosen = type or log.type or "simple"
     if chosen not in TYPES:
@@ -42,7 +52,7 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
             f"unknown method {method!r}", advice=f"Choose one of: {', '.join(METHODS)}."
         )
     if not type and chosen != "simple" and chosen in log.mechanism.lower():
-        log = log.with_doubts(_type_from_name(log))
+        log = log.add_doubts(_type_from_name(log))
     if method == "sysid":
         from sim.fit.wpilib_sysid import fit_wpilib_sysid  # noqa: PLC0415 - one method does not wait for the other
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from sim.core.doubt import Doubt
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.feedback import (
     PRESETS,
     Feedback,
@@ -19,10 +19,10 @@ from sim.feedback import (
     StepResponse,
     Verdict,
     allowed_velocity_error,
+    design_position_loop,
+    design_velocity_loop,
     judge_step_response,
-    position_loop,
-    step_response,
-    velocity_loop,
+    simulate_step_response,
 )
 from sim.feedback.regulator import POSITION_ERROR
 from sim.fit import Fit
@@ -47,7 +47,7 @@ class FeedbackTrial:
     """Feedback gains and the step response that they give.
 
     Args:
-        whose: ``suggested`` or ``your own``.
+        owner: ``suggested`` or ``your own``.
         loop: ``velocity`` or ``position``.
         gains: in the output units of the preset.
         preset: the motor controller.
@@ -56,7 +56,7 @@ class FeedbackTrial:
         verdict: of that response.
     """
 
-    whose: str
+    owner: str
     loop: str
     gains: Feedback
     preset: Preset
@@ -65,9 +65,9 @@ class FeedbackTrial:
     verdict: Verdict
 
     @property
-    def good(self) -> bool:
+    def is_good(self) -> bool:
         """Whether these gains are fit to begin with: of one sign, and they settle."""
-        return self.verdict.good and min(self.gains.kp, self.gains.kd) >= 0.0
+        return self.verdict.is_good and min(self.gains.kp, self.gains.kd) >= 0.0
 
 
 def try_feedback_gains(
@@ -84,26 +84,27 @@ def try_feedback_gains(
     if own is not None and tried:
         tried.append((OWN, own.loop, own.gains))
     done = (
-        _tried(found, preset, whose=whose, loop=loop, gains=gains) for whose, loop, gains in tried
+        _try_loop(found, preset, whose=whose, loop=loop, gains=gains)
+        for whose, loop, gains in tried
     )
     return tuple(trial for trial in done if trial is not None)
 
 
-def _tried(
+def _try_loop(
     found: Fit, preset: Preset, *, whose: str, loop: str, gains: Feedback
 ) -> FeedbackTrial | None:
     held = {**found.gains, "kS": max(found.gains["kS"], 0.0)}  # friction below zero would push
-    plant = Plant(found.type, held, angle=unit(found.units).si)
-    target, delay = plant.step(loop), delay_of(found, preset, loop=loop)
+    plant = Plant(found.type, held, angle=find_unit(found.units).si)
+    target, delay = plant.target_step(loop), feedback_delay(found, preset, loop=loop)
     if not target > 0.0:
         return None
-    response = step_response(
+    response = simulate_step_response(
         plant, loop=loop, feedback=gains, target=target, preset=preset, delay=delay
     )
     return FeedbackTrial(whose, loop, gains, preset, delay, response, judge_step_response(response))
 
 
-def delay_of(found: Fit, preset: Preset, *, loop: str) -> float:
+def feedback_delay(found: Fit, preset: Preset, *, loop: str) -> float:
     """[s] the delay that gains are computed for: the log's with the default, else the preset's."""
     if preset is not PRESETS["default"]:
         return preset.delay
@@ -118,15 +119,15 @@ def trial_doubts(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tuple[Doubt, .
         tried: what ``trials`` gave of it.
     """
     return tuple(
-        _doubt(found, trial) for trial in tried if trial.whose == SUGGESTED and not trial.good
+        _doubt(found, trial) for trial in tried if trial.owner == SUGGESTED and not trial.is_good
     )
 
 
 def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
     late = f" with {1000 * trial.delay:.3g} ms of delay" if trial.delay > LEAST_DELAY else ""
-    other = next((one for one in _others(found, trial) if one.good), None)
+    other = next((one for one in _suggest_others(found, trial) if one.is_good), None)
     cure = (
-        f"Start from {format_gain_pair(other.gains)} instead: it {other.verdict.words}."
+        f"Start from {format_gain_pair(other.gains)} instead: it {other.verdict.description}."
         if other
         else "Nor does any other choice of its allowed error settle: move the target along a "
         "profile, so that the feedforward does the work, and use a signal with less delay."
@@ -134,11 +135,11 @@ def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
     return Doubt(
         "unsettled-feedback",
         f"SysId's recipe suggests {format_gain_pair(trial.gains)} for the {trial.loop} loop "
-        f"({trial.preset.name}); simulated{late}, that loop {trial.verdict.words}. {cure}",
+        f"({trial.preset.name}); simulated{late}, that loop {trial.verdict.description}. {cure}",
     )
 
 
-def _others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
+def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
     """What the same recipe suggests for other allowed errors; what is too weak, for smaller."""
     kv, ka, preset, delay = found.gains["kV"], found.gains["kA"], trial.preset, trial.delay
     allowed = allowed_velocity_error(ks=found.gains["kS"], kv=kv)
@@ -146,15 +147,15 @@ def _others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
     for times in STIFFER if weak else GENTLER:
         least = max(times, 1.0) * allowed
         if trial.loop == "velocity":
-            gains = velocity_loop(
+            gains = design_velocity_loop(
                 kv=kv, ka=ka, preset=preset, velocity_error=times * allowed, delay=delay
             )
         else:
-            gains = position_loop(
+            gains = design_position_loop(
                 kv=kv, ka=ka, preset=preset, position_error=times * POSITION_ERROR,
                 velocity_error=least, delay=delay,
             )  # fmt: skip
-        other = _tried(found, preset, whose=trial.whose, loop=trial.loop, gains=gains)
+        other = _try_loop(found, preset, whose=trial.owner, loop=trial.loop, gains=gains)
         if other is not None:
             yield other
 

@@ -1,9 +1,17 @@
 """Warnings about an output-error fit: opposed signs, lags, and a model that does not fit."""
 
+import math
+from collections.abc import Mapping, Sequence
+
 from sim.core.doubt import Doubt
+from sim.core.units import Unit
 from sim.fit.open_loop_fallback import OpenLoopReplay
+from sim.physics.effects import EFFECTS
+from sim.physics.model import Part
 
 FAR = 0.1  # [share of the top speed] error from which the gains cannot be right
+NOTICED = 0.06  # [share of the top speed] error beyond noise that a controller has to make up for
+STRONG = 2.5  # [standard deviations of what is ordinary] from which an effect is no longer small
 SOON = 0.004  # [s] a later answer is worth a word
 
 
@@ -44,38 +52,65 @@ def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
     return tuple(said)
 
 
-def doubt_misfit(followed: OpenLoopReplay, *, hint: str = "") -> tuple[Doubt, ...]:
-    """A warning if the simulation differs from the log by more than noise.
+def doubt_misfit(
+    followed: OpenLoopReplay, alone: OpenLoopReplay, *, per: Unit, hint: str = ""
+) -> tuple[Doubt, ...]:
+    """A warning if a simulation differs from the log by more than noise.
 
     Args:
-        followed: how it follows.
+        followed: how the fitted model follows, its small effects included.
+        alone: how the gains alone follow, which is what a feedforward has.
+        per: the unit of position of the log's owner.
         hint: which type would do better, if one does.
     """
-    if not followed.strays:
-        return ()
-    times, share = followed.rmse / followed.noise, followed.rmse / followed.top
-    return (
-        Doubt(
-            "model-strays",
-            f"The simulation leaves the log by {times:.1f} times the velocity's own noise, "
-            f"{share:.1%} of its top speed: this mechanism does something that kS, kV and kA do "
-            "not say. The gains are those that come closest, and the errors above do not cover "
-            f"what is missing. {hint}{' Otherwise i' if hint else 'I'}nspect the log, then ask "
-            "`sysid reconcile` what that is.",
-            grave=share > FAR,
-        ),
-    )
-
-
-def doubt_small_misfit(misfit: bool) -> tuple[Doubt, ...]:  # noqa: FBT001 - the one thing it tells
-    """A warning if a small effect is hidden in the noise."""
-    if not misfit:
+    share = alone.excess / alone.top_speed if alone.top_speed > 0.0 else 0.0
+    size = f"{alone.excess / per.si:.2g} {per.symbol}/s (RMS), {share:.1%} of its top speed"
+    if share > NOTICED:
+        return (
+            Doubt(
+                "model-strays",
+                f"A simulation with these gains misses the measured velocity by {size}. A "
+                "controller would notice that. The errors above allow for it, but kS, kV and kA "
+                f"do not describe this log well. {hint}{' Otherwise r' if hint else 'R'}un `sysid "
+                "inspect`, then `sysid reconcile` to find what is missing.",
+                grave=share > FAR,
+            ),
+        )
+    if not followed.has_misfit:
         return ()
     return (
         Doubt(
             "small-misfit",
-            "Beneath the noise this mechanism does something small that its gains do not say. The "
-            "errors are widened by what shows of it; where that matters, ask `sysid reconcile` "
-            "what it is.",
+            f"A simulation with these gains misses the measured velocity by {size}. That is "
+            "little, but more than sensor noise. The errors above allow for it. `sysid reconcile` "
+            "looks for the cause.",
+        ),
+    )
+
+
+def doubt_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -> tuple[Doubt, ...]:
+    """A warning if an effect is larger than on a robot in good order.
+
+    Args:
+        parts: the small effects of a fit.
+        priors: ``effect.parameter`` -> standard deviation of what is ordinary.
+    """
+    strong = [
+        EFFECTS[part.effect].summary
+        for part in parts
+        if any(
+            abs(value) > STRONG * priors.get(f"{part.effect}.{name}", math.inf)
+            for name, value in part.parameters.items()
+            if EFFECTS[part.effect].neutral[name] == 0.0
+        )
+    ]
+    if not strong:
+        return ()
+    return (
+        Doubt(
+            "strong-effect",
+            f"This log shows more than kS, kV and kA: {'; '.join(strong)}. It is larger than on a "
+            "robot in good order. The gains leave it out, so a feedforward does not correct it. "
+            "`sysid reconcile` checks what it is.",
         ),
     )

@@ -2,7 +2,7 @@
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.measurements import measure_runs
@@ -35,17 +35,21 @@ def hint_gravity_type(
     Returns:
         A sentence that names the type to try; empty if there is none.
     """
-    if type != "simple" or not followed.strays:
+    if type != "simple" or not followed.has_misfit:
         return ""
-    angular = unit(log.units).angular
-    left = {name: _left(log, problem, name) for name in ACTS if angular or name != "arm"}
+    angular = find_unit(log.units).angular
+    left = {
+        name: _typical_velocity_error(log, problem, name)
+        for name in ACTS
+        if angular or name != "arm"
+    }
     best = min(left, key=lambda name: left[name])
     if not left[best] < PLAINLY * followed.rmse:
         return ""
     return f"Fit it as of --type {best} if gravity acts on it: {ACTS[best]}."
 
 
-def _left(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word
+def _typical_velocity_error(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word
     """[unit/s] by which a quick fit as of another type strays."""
     try:
         log, guess, _ = orient_forward(log, type=type)  # weight may hide which way is forward

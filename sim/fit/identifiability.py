@@ -88,7 +88,7 @@ def refuse_unrelated(followed: OpenLoopReplay, *, log: Log, hint: str = "") -> N
         return
     raise NotIdentifiable(
         f"no gains follow this log: the closest simulation leaves it by {_size(followed.rmse)} "
-        f"where its top speed is {_size(followed.top)}",
+        f"where its top speed is {_size(followed.top_speed)}",
         where=log.source,
         advice=hint
         or "Inspect the log for damage, check its type and units, then ask `sysid reconcile` "

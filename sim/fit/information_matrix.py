@@ -49,7 +49,7 @@ class InformationMatrix:
             for name, gone, square, one in zip(self.names, lost, squares, scale, strict=True)
         }
 
-    def about(self, first: str, second: str) -> Array:
+    def information_on_pair(self, first: str, second: str) -> Array:
         """(2, 2) what the rows tell of two gains, the others being unknown, too.
 
         Raises:
@@ -67,7 +67,7 @@ class InformationMatrix:
         return np.asarray(mine - mixed @ others @ mixed.T)
 
 
-def information_matrix(rows: Mapping[str, Rows], *, type: str, noise: float) -> InformationMatrix:  # noqa: A002 - the field's word
+def compute_information(rows: Mapping[str, Rows], *, type: str, noise: float) -> InformationMatrix:  # noqa: A002 - the field's word
     """Information of rows about kS, kV, kA, and about kG where there is gravity.
 
     Args:
@@ -77,6 +77,14 @@ def information_matrix(rows: Mapping[str, Rows], *, type: str, noise: float) -> 
 
     Raises:
         BadRequest: no rows, an unknown type, or a noise that is not above zero.
+
+    Examples:
+        >>> from sim.fit.sysid_rows import Rows
+        >>> one = np.ones(3)
+        >>> rows = Rows(one, one, one, one, np.arange(3.0), np.array([2.0, 0.0, 1.0]))
+        >>> found = compute_information({"dynamic-forward": rows}, type="simple", noise=0.1)
+        >>> found.information.shape
+        (3, 3)
     """
     if type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")

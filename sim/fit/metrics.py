@@ -52,9 +52,9 @@ def score_simulated_velocity(
     for part in rows:
         decay, gain = _discretize(np.diff(part.time), gains)
         if type == "arm":
-            model = _swing(part, decay, gain, gains)
+            model = _simulate_arm(part, decay, gain, gains)
         else:
-            model = _slide(part, decay, gain, gains)
+            model = _simulate_without_gravity_angle(part, decay, gain, gains)
         with np.errstate(over="ignore", invalid="ignore"):  # gains of nonsense may run away
             error = part.velocity - model
             missed += float(error @ error)
@@ -75,7 +75,9 @@ def _discretize(period: Array, gains: Mapping[str, float]) -> tuple[list[float],
     return decay.tolist(), gain.tolist()
 
 
-def _slide(part: Rows, decay: list[float], gain: list[float], gains: Mapping[str, float]) -> Array:
+def _simulate_without_gravity_angle(
+    part: Rows, decay: list[float], gain: list[float], gains: Mapping[str, float]
+) -> Array:
     """Velocities of a simple mechanism or an elevator. Plain floats: one step needs the last."""
     ks, kg = gains["kS"], gains.get("kG", 0.0)
     v = float(part.velocity[0])
@@ -87,7 +89,9 @@ def _slide(part: Rows, decay: list[float], gain: list[float], gains: Mapping[str
     return np.array(model)
 
 
-def _swing(part: Rows, decay: list[float], gain: list[float], gains: Mapping[str, float]) -> Array:
+def _simulate_arm(
+    part: Rows, decay: list[float], gain: list[float], gains: Mapping[str, float]
+) -> Array:
     """Velocities of an arm."""
     ks, kg, offset = gains["kS"], gains["kG"], gains["offset_rad"]
     x, v = float(part.position[0]), float(part.velocity[0])

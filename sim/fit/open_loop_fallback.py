@@ -6,7 +6,6 @@ What gains are for is to say a velocity ahead, so then the velocities of whole r
 """
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,16 +13,14 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.optimize import levenberg_marquardt, parameter_covariance
-from sim.fit.search import OPEN_LOOP, TRACKING
+from sim.estimation.optimize import levenberg_marquardt
+from sim.fit.search import TRACKING
 
 STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
 SMALL = 0.0125  # [share of the top speed] error that is small whatever the noise
 HOLDS = 0.05  # [1/s] q over the variance of a velocity: a model that needs more lacks something
-EXACT = 1e-5  # [1/s] the same, that noise alone never asks for: more, and errors come in whiles
 STEPS = 30  # of the search
 LAGS = ("velocity-filter.window", "delay.lag")
-TOGETHER = 0.5  # [s] for which what is missing errs one way
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,23 +32,28 @@ class OpenLoopReplay:
         error: (n,) measured less simulated.
         moving: (n,) where either moves.
         noise: of the velocity, measured without a model.
-        astray: whether the likeliest gains strayed, and these only hide it better.
+        velocity_only: whether the likeliest gains strayed, and these only hide it better.
         change: (m,) [unit/s²] between two measured velocities, as long as it moves.
-        told: (m,) the same of the simulated ones.
+        simulated_change: (m,) the same of the simulated ones.
     """
 
     velocity: Array
     error: Array
     moving: NDArray[np.bool_]
     noise: float
-    astray: bool = False
+    velocity_only: bool = False
     change: Array = field(default_factory=lambda: np.empty(0))
-    told: Array = field(default_factory=lambda: np.empty(0))
+    simulated_change: Array = field(default_factory=lambda: np.empty(0))
 
     @property
     def rmse(self) -> float:
         """[m/s or rad/s] of what moves."""
         return float(np.sqrt(np.mean(self.error[self.moving] ** 2))) if self.moving.any() else 0.0
+
+    @property
+    def excess(self) -> float:
+        """[m/s or rad/s] of the error, what noise does not explain."""
+        return math.sqrt(max(self.rmse**2 - self.noise**2, 0.0))
 
     @property
     def r2(self) -> float:
@@ -61,27 +63,27 @@ class OpenLoopReplay:
         return 1.0 - float(np.sum(self.error[self.moving] ** 2)) / max(spread, 1e-300)
 
     @property
-    def acceleration(self) -> tuple[float, float]:
+    def acceleration_scores(self) -> tuple[float, float]:
         """R² and RMSE [unit/s²] of the changes of velocity."""
         if not self.change.size:
             return 0.0, 0.0
-        left = float(np.mean((self.change - self.told) ** 2))
+        left = float(np.mean((self.change - self.simulated_change) ** 2))
         return 1.0 - left / max(float(np.var(self.change)), 1e-300), math.sqrt(left)
 
     @property
-    def top(self) -> float:
+    def top_speed(self) -> float:
         """[m/s or rad/s] speed that hardly any sample exceeds."""
         return float(np.quantile(np.abs(self.velocity), 0.98)) if self.velocity.size else 0.0
 
     @property
-    def strays(self) -> bool:
+    def has_misfit(self) -> bool:
         """Whether it leaves the log by more than noise, and by more than a little."""
-        small = 0.0 if self.astray else SMALL * self.top
+        small = 0.0 if self.velocity_only else SMALL * self.top_speed
         return self.rmse > max(STRAYS * self.noise, small)
 
 
 def replay_open_loop(
-    problem: PredictionErrorProblem, point: Estimate, *, astray: bool = False
+    problem: PredictionErrorProblem, point: Estimate, *, velocity_only: bool = False
 ) -> OpenLoopReplay:
     """Simulate every run from its first sample, without correction.
 
@@ -90,13 +92,13 @@ def replay_open_loop(
     Args:
         problem: measurements.
         point: the values.
-        astray: as of ``OpenLoopReplay``.
+        velocity_only: as of ``OpenLoopReplay``.
     """
-    track = problem.track(point.structure.model(point.values), problem.start)
+    track = problem.simulate(point.structure.model(point.values), problem.initial_nuisance)
     both = np.column_stack([problem.measured[:, 1], track.seen])
     fresh = ~np.isnan(both[:, 0])
     changes = []
-    for record, first in zip(problem.records, problem.edges, strict=False):
+    for record, first in zip(problem.records, problem.run_edges, strict=False):
         run = record.measurements
         going = np.flatnonzero(fresh[first : first + run.time.size] & run.moving)
         times = run.time[going]
@@ -105,7 +107,8 @@ def replay_open_loop(
     measured, simulated = both[fresh].T
     return OpenLoopReplay(
         measured, measured - simulated, (problem.moving | (track.velocity != 0.0))[fresh],
-        noise=problem.noise.velocity, astray=astray, change=change, told=told,
+        noise=problem.noise.velocity, velocity_only=velocity_only, change=change,
+        simulated_change=told,
     )  # fmt: skip
 
 
@@ -125,7 +128,7 @@ def fit_velocity_only(
         All as they were if the model holds, or if nothing comes closer; and if the likeliest point
         is pardoned next to nothing, for then it is a simulation already, of the position too.
     """
-    if point.process_noise <= TRACKING * problem.noise.velocity**2 or not before.strays:
+    if point.process_noise <= TRACKING * problem.noise.velocity**2 or not before.has_misfit:
         return problem, point, before
     records = []
     for record in problem.records:
@@ -134,64 +137,13 @@ def fit_velocity_only(
         run = replace(record.measurements, measured=measured)
         records.append(replace(record, measurements=run))
     blind = replace(problem, records=tuple(records))
-    structure = replace(point.structure, held=LAGS)
+    structure = replace(point.structure, fixed=LAGS)
     found = levenberg_marquardt(
-        blind, blind.at(structure, point.values, blind.start, 0.0), steps=STEPS, enough=0.01
+        blind,
+        blind.evaluate(structure, point.values, blind.initial_nuisance, 0.0),
+        steps=STEPS,
+        enough=0.01,
     )
-    after = replay_open_loop(problem, found, astray=True)
+    after = replay_open_loop(problem, found, velocity_only=True)
     # samples that were left out may weigh more than all that was gained
     return (blind, found, after) if after.rmse < before.rmse else (problem, point, before)
-
-
-def needs_large_process_noise(
-    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
-) -> bool:
-    """Whether a fit needs more process noise than a model that holds."""
-    return not followed.strays and point.process_noise > HOLDS * problem.noise.velocity**2
-
-
-def correlated_error_covariance(
-    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
-) -> Iterator[Array]:
-    """(values, values) covariance when errors are correlated in time.
-
-    None where a model holds. What it lacks may be too small to be seen beside noise, and still be
-    more than the errors that noise leaves: then it shows in what is pardoned, and in what a
-    simulation left to itself makes of it.
-
-    Args:
-        problem: what was searched.
-        point: the best estimate.
-        followed: how it follows.
-    """
-    lacks = point.process_noise > EXACT * problem.noise.velocity**2
-    if followed.strays or lacks:
-        yield _by_whiles(problem, point)
-    if lacks and not followed.strays:
-        q = OPEN_LOOP * problem.noise.velocity**2
-        yield _by_whiles(problem, problem.at(point.structure, point.values, point.nuisance, q))
-
-
-def _by_whiles(problem: PredictionErrorProblem, point: Estimate) -> Array:
-    """(values, values) covariance with scores summed over ``TOGETHER``.
-
-    Source: the sandwich of White (1980).
-    """
-    count = len(point.structure.searched)
-    table = problem.jacobian(point, fine=True)
-    rest = problem.white(point, point.innovations)
-    whiles = np.repeat(_whiles(problem), 2)  # two measurements to a sample
-    scores = np.zeros((int(whiles.max()) + 1, table.shape[1]))
-    np.add.at(scores, whiles, table * rest[:, None])
-    bread = parameter_covariance(problem, point, nuisance=True)
-    return np.asarray((bread @ (scores.T @ scores) @ bread)[:count, :count])
-
-
-def _whiles(problem: PredictionErrorProblem) -> NDArray[np.int_]:
-    """(n,) which while a sample lies in, counted through all runs."""
-    parts, first = [], 0
-    for record in problem.records:
-        time = record.measurements.time
-        parts.append(first + ((time - time[0]) // TOGETHER).astype(int))
-        first = int(parts[-1][-1]) + 1
-    return np.concatenate(parts)

@@ -6,37 +6,49 @@ whole mechanism answers late, that is fitted along and told.
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from itertools import product
 
 import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import RunMeasurements, measure_runs
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import joint_jacobian, parameter_covariance
-from sim.fit.fit_doubts import doubt_lags, doubt_misfit, doubt_opposed_signs, doubt_small_misfit
+from sim.estimation.optimize import make_joint_jacobian, parameter_covariance
+from sim.fit.everyday_effects import (
+    everyday_parts,
+    fit_everyday_effects,
+    without_everyday_effects,
+)
+from sim.fit.fit_doubts import (
+    doubt_lags,
+    doubt_misfit,
+    doubt_opposed_signs,
+    doubt_strong_effects,
+)
+from sim.fit.gain_covariance import gain_covariances
 from sim.fit.gravity_type_hint import hint_gravity_type
 from sim.fit.identifiability import moves_both_ways, refuse_unidentifiable, refuse_unrelated
 from sim.fit.open_loop_fallback import (
+    HOLDS,
     LAGS,
     OpenLoopReplay,
-    correlated_error_covariance,
     fit_velocity_only,
-    needs_large_process_noise,
     replay_open_loop,
 )
 from sim.fit.result import Fit
 from sim.fit.search import (
+    TRACKING,
+    drop_outliers,
     fit_open_loop,
     fit_problem,
     fit_tracking,
     predicted_improvement,
     refine,
-    without_outliers,
 )
 from sim.fit.sysid_doubts import uncertain_gains
 
@@ -48,6 +60,8 @@ SHORT_LAGS = {"delay.lag": (0.05, 0.2)}
 
 An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
 """
+PAIRS = {"velocity-filter.window": (0.0, 1.0, 2.5, 5.0), "delay.lag": (0.3, 1.0, 2.0)}
+"""[sample periods] from which a search of both begins."""
 FASTEST, SLOWEST = 1e-4, 0.5  # [s] between samples; other clocks do not tell seconds
 HOLE = 10.0  # [s] in which anything might have happened
 
@@ -63,32 +77,32 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
         BadRequest: an arm whose position is no angle.
         NotIdentifiable: the log cannot tell these gains; the message says what would.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     if type == "arm" and not per.angular:
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {per.name}",
             where=log.source,
             advice="Say --units radians, rotations or degrees, or --type elevator.",
         )
-    _timed(log)
+    _check_times(log)
     try:
         with np.errstate(all="ignore"):  # what overflows is refused
-            found = _found(log, type=type)
+            found = _fit_problem(log, type=type)
     except np.linalg.LinAlgError:
         found = None
     if found is None or not all(
         map(math.isfinite, (*found.gains.values(), *found.errors.values()))
     ):
-        raise _nonsense(log)
+        raise _refuse_motion(log)
     return found
 
 
-def _timed(log: Log) -> None:
+def _check_times(log: Log) -> None:
     """Refuse times that are no seconds, and a run with a hole in it."""
     steps = [(run.test, np.diff(run.time)) for run in log.runs if len(run) > 1]
     if not steps:
         return
-    period = _period(log.runs)
+    period = _sample_period(log.runs)
     if not FASTEST <= period <= SLOWEST:
         raise NotIdentifiable(
             f"the samples are {period:.3g} s apart, where a robot logs every 0.001 to 0.1 s",
@@ -104,7 +118,7 @@ def _timed(log: Log) -> None:
             )
 
 
-def _nonsense(log: Log) -> NotIdentifiable:
+def _refuse_motion(log: Log) -> NotIdentifiable:
     return NotIdentifiable(
         "its motion does not go with its voltage",
         where=log.source,
@@ -112,19 +126,19 @@ def _nonsense(log: Log) -> NotIdentifiable:
     )
 
 
-def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
+def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     log, guess, way = orient_forward(
         log, type=type
     )  # fitted as if the leads were swapped, and told
-    begin = clamp_to_physical(guess, period=_period(log.runs))
+    begin = clamp_to_physical(guess, period=_sample_period(log.runs))
     seen = measure_runs(log, friction=None if type == "simple" else begin["kS"])
     problem = fit_problem(log, seen)
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
-        raise _nonsense(log)
-    problem, likeliest, followed = _best(problem, plain)
+        raise _refuse_motion(log)
+    problem, likeliest, followed = _add_everyday_effects(*_choose_lags(problem, plain))
     searched, point, followed = fit_velocity_only(problem, likeliest, followed)
-    gains, errors = _gains(point, parameter_covariance(searched, point), type=type)
+    gains, errors = _gains_with_errors(point, parameter_covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
     # unknown is refused
     share = searched.noise.velocity / float(np.sqrt(point.innovation_cov[1, 1]))
@@ -136,29 +150,32 @@ def _found(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     hint = hint_gravity_type(log, problem, followed, type=type)
     refuse_unidentifiable(gains, least, log=log, type=type, hint=hint)
     refuse_unrelated(followed, log=log, hint=hint)
-    for spread in correlated_error_covariance(searched, point, followed):
-        others = _gains(point, spread, type=type)[1]
+    for wide, spread in gain_covariances(searched, point, followed):
+        others = _gains_with_errors(wide, spread, type=type)[1]
         errors = {name: max(error, others[name]) for name, error in errors.items()}
+    alone = followed
+    if everyday_parts(point):
+        alone = replay_open_loop(searched, without_everyday_effects(point))
     said = (
-        *doubt_misfit(followed, hint=hint),
-        *doubt_small_misfit(needs_large_process_noise(searched, point, followed)),
+        *doubt_misfit(followed, alone, per=find_unit(log.units), hint=hint),
+        *doubt_strong_effects(everyday_parts(point), searched.priors),
     )
-    return _fit(
+    return _make_result(
         log, problem, point, way=way, gains=gains, errors=errors, followed=followed, said=said
     )
 
 
-def _period(seen: Sequence[RunMeasurements | Run]) -> float:
+def _sample_period(seen: Sequence[RunMeasurements | Run]) -> float:
     """[s] between two samples."""
     return float(np.median(np.concatenate([np.diff(run.time) for run in seen])))
 
 
-def _best(
+def _choose_lags(
     problem: PredictionErrorProblem, plain: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
     """The best point, with a velocity that is averaged, a late answer, or both, if worth it."""
-    point = _with_lags(problem, plain, FIRST_LAGS, settle=fit_tracking)
-    everything, problem = problem, without_outliers(problem, point)
+    point = _add_lags(problem, plain, FIRST_LAGS, settle=fit_tracking)
+    everything, problem = problem, drop_outliers(problem, point)
 
     def open_loop(first: Estimate) -> Estimate:
         if problem is not everything:
@@ -170,20 +187,59 @@ def _best(
         without = open_loop(plain)
         found = found if found.cost < without.cost - WORTH else without
     followed = replay_open_loop(problem, found)
-    if followed.strays:  # a millisecond is not what is wrong
+    if followed.has_misfit or found.process_noise > HOLDS * problem.noise.velocity**2:
+        other = open_loop(_fit_both_lags(problem, plain))
+        more = len(other.structure.effects) - len(found.structure.effects)
+        if other.cost < found.cost - WORTH * max(more, 0):
+            found, followed = other, replay_open_loop(problem, other)
+    if followed.has_misfit:  # a millisecond is not what is wrong
         return problem, found, followed
 
     def settle(
         problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
     ) -> Estimate:
-        first = problem.at(structure, values, found.nuisance, found.process_noise)
+        first = problem.evaluate(structure, values, found.nuisance, found.process_noise)
         return fit_open_loop(problem, refine(problem, first))
 
-    best = _with_lags(problem, found, SHORT_LAGS, settle=settle)
+    best = _add_lags(problem, found, SHORT_LAGS, settle=settle)
     return problem, best, followed if best is found else replay_open_loop(problem, best)
 
 
-def _with_lags(
+def _add_everyday_effects(
+    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
+) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
+    """The same with the small effects of every mechanism, where they make the model hold."""
+    extended, found = fit_everyday_effects(problem, point)
+    if found is point:
+        return problem, point, followed
+    after = replay_open_loop(extended, found)
+    if after.has_misfit and found.process_noise > TRACKING * problem.noise.velocity**2:
+        return problem, point, followed  # something else is missing, and they stand in for it
+    return extended, found, after
+
+
+def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate:
+    """The best point of those that begin with a window and a lag at once.
+
+    Where both act, the gains of a model that has neither are so far off that what one of them alone
+    promises is worth little.
+
+    Args:
+        problem: what is searched.
+        plain: the best estimate without either.
+    """
+    points = []
+    for window, lag in product(*PAIRS.values()):
+        structure, values = plain.structure, dict(plain.values)
+        for name, size in zip(PAIRS, (window, lag), strict=True):
+            if size > 0.0:
+                structure += name.partition(".")[0]
+                values[name] = size * problem.period
+        points.append(fit_tracking(problem, structure, values))
+    return min(points, key=lambda one: one.cost)
+
+
+def _add_lags(
     problem: PredictionErrorProblem,
     point: Estimate,
     lags: Mapping[str, Sequence[float]],
@@ -202,7 +258,7 @@ def _with_lags(
     while left:
         firsts = [(name, sizes[0] * problem.period) for name, sizes in left.items()]
         # a lag of any size shows in what a short one promises
-        kept = joint_jacobian(problem, point, fine=True)
+        kept = make_joint_jacobian(problem, point, fine=True)
         if not predicted_improvement(problem, point, firsts, kept=kept).max() > HINT:
             break
         tried = [(name, size * problem.period) for name, sizes in left.items() for size in sizes]
@@ -219,7 +275,7 @@ def _with_lags(
     return point
 
 
-def _gains(
+def _gains_with_errors(
     point: Estimate,
     spread: Array,
     *,
@@ -227,7 +283,7 @@ def _gains(
 ) -> tuple[dict[str, float], dict[str, float]]:
     """The gains and their standard errors; an arm's gravity as kG and an angle."""
     values, errors = dict(point.values), np.sqrt(np.maximum(np.diag(spread), 0.0))
-    names = list(point.structure.searched)
+    names = list(point.structure.searched_names)
     sizes = dict(zip(names, errors.tolist(), strict=True))
     gains = {name: values[name] for name in ("kS", "kV", "kA")}
     if type == "elevator":
@@ -245,31 +301,32 @@ def _gains(
     return gains, {name: sizes[name] for name in gains}
 
 
-def _fit(
+def _make_result(
     log: Log, problem: PredictionErrorProblem, point: Estimate, *, way: float,
     gains: Mapping[str, float], errors: Mapping[str, float], followed: OpenLoopReplay,
     said: tuple[Doubt, ...],
 ) -> Fit:  # fmt: skip
     """The result: gains, how well they follow, and what to doubt."""
-    change = followed.acceleration
+    change = followed.acceleration_scores
     window, lag = (point.values.get(name, 0.0) for name in LAGS)
     signed = {name: value if name == "offset_rad" else way * value for name, value in gains.items()}
     return Fit(
         type=point.structure.type,
         method="output-error",
-        units="radians" if unit(log.units).angular else "meters",
-        log_units=unit(log.units).name,
+        units="radians" if find_unit(log.units).angular else "meters",
+        log_units=find_unit(log.units).name,
         gains=signed,
         errors=errors,
         acceleration_r2=change[0],
         acceleration_rmse=change[1],
         simulated_velocity_r2=followed.r2,
         simulated_velocity_rmse=followed.rmse,
-        samples_used=_used(log, problem),
+        samples_used=_count_samples(log, problem),
         position_delay=lag,
         velocity_delay=lag + 0.5 * window,
         velocity_threshold=0.0,
         step_duration=0.0,
+        parts=everyday_parts(point),
         doubts=(
             *log.doubts,
             *doubt_opposed_signs(way),
@@ -280,7 +337,7 @@ def _fit(
     )
 
 
-def _used(log: Log, problem: PredictionErrorProblem) -> dict[str, int]:
+def _count_samples(log: Log, problem: PredictionErrorProblem) -> dict[str, int]:
     """Test -> samples in motion that were compared."""
     counts: dict[str, int] = {}
     long = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - as ``see`` has it

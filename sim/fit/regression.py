@@ -38,7 +38,7 @@ class Regression:
     rmse: float
 
 
-def regress(rows: Mapping[str, Rows], *, type: str) -> Regression:  # noqa: A002 - SysId's word
+def regress_acceleration(rows: Mapping[str, Rows], *, type: str) -> Regression:  # noqa: A002 - SysId's word
     """Fit the gains of one type of mechanism.
 
     Args:

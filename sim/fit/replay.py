@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.measurements import ROBUST, THIRD, RunMeasurements, estimate_noise, measure_runs
 from sim.fit import Fit
-from sim.physics.engine import State, Track, move
+from sim.physics.engine import State, Track, simulate_run
 from sim.physics.model import Model, Part
 
 FEWEST = 4  # samples of a run: shorter ones are no test
@@ -64,7 +64,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     Raises:
         BadRequest: one measures a length, the other an angle, or nothing moves with these gains.
     """
-    fitted = found.in_units("radians" if unit(log.units).angular else "meters")
+    fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
     way, model = _model(fitted)
     runs = [run for run in log.runs if len(run) >= FEWEST]
     friction = None if fitted.type == "simple" else model.gains["kS"]
@@ -72,16 +72,16 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     if not seen:
         return ()
     tracks = [
-        move(
+        simulate_run(
             model, time=part.time, voltage=way * part.voltage,
-            state=State.at(part.position, part.velocity),
+            state=State.cold_at(part.position, part.velocity),
         )
         for part in seen
     ]  # fmt: skip
     position_noise, velocity_noise = _position_noise(seen, tracks), estimate_noise(seen).velocity
     return tuple(
         RunReplay(
-            _last(run, part.time.size),
+            _last_samples(run, part.time.size),
             track.position,
             track.seen,
             part.moving,
@@ -105,10 +105,10 @@ def _model(found: Fit) -> tuple[float, Model]:
             f"kA = {found.gains['kA']:.3g}",
             advice="Settle first why the fit finds a gain below zero.",
         )
-    return way, Model(found.type, gains, tuple(_lags(found)))
+    return way, Model(found.type, gains, (*_sensor_lags(found), *found.parts))
 
 
-def _lags(found: Fit) -> list[Part]:
+def _sensor_lags(found: Fit) -> list[Part]:
     """The lag and the averaging of the velocity that the fit found; the recipe's are no model's."""
     if found.method != "output-error":
         return []
@@ -134,7 +134,7 @@ def _position_noise(seen: Sequence[RunMeasurements], tracks: Sequence[Track]) ->
     return ROBUST * float(np.median(every)) / math.sqrt(THIRD) if every.size else 0.0
 
 
-def _last(run: Run, count: int) -> Run:
+def _last_samples(run: Run, count: int) -> Run:
     """The last samples of a run."""
     cut = slice(len(run) - count, None)
     return Run(run.test, run.time[cut], run.voltage[cut], run.position[cut], run.velocity[cut])

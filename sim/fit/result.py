@@ -6,15 +6,16 @@ from dataclasses import dataclass, field, replace
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
-from sim.core.units import Unit, gains_per, unit
+from sim.core.units import Unit, find_unit, gains_per
 from sim.feedback import (
     PRESETS,
     Feedback,
     Preset,
     allowed_velocity_error,
-    position_loop,
-    velocity_loop,
+    design_position_loop,
+    design_velocity_loop,
 )
+from sim.physics.model import Part
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,8 @@ class Fit:
         velocity_delay: [s] the same, seen in the velocity.
         velocity_threshold: [unit/s] slower quasistatic samples were taken for standstill.
         step_duration: [s] how much of each dynamic test was used.
+        parts: small effects that were fitted beside the gains, in SI; a simulation needs them, a
+            feedforward leaves them out.
         doubts: what to know before trusting the numbers.
     """
 
@@ -55,6 +58,7 @@ class Fit:
     velocity_delay: float
     velocity_threshold: float
     step_duration: float
+    parts: tuple[Part, ...] = field(default=())
     doubts: tuple[Doubt, ...] = field(default=())
 
     def in_units(self, name: str) -> "Fit":
@@ -63,7 +67,7 @@ class Fit:
         Raises:
             BadRequest: an unknown unit, or an angle for a length.
         """
-        old, new = unit(self.units), unit(name)
+        old, new = find_unit(self.units), find_unit(name)
         if old.angular != new.angular:
             raise BadRequest(
                 f"{self.units} cannot be turned into {name}",
@@ -98,14 +102,14 @@ class Fit:
             return {}
         seen = preset is PRESETS["default"]
         return {
-            "velocity": velocity_loop(
+            "velocity": design_velocity_loop(
                 kv=kv,
                 ka=ka,
                 preset=preset,
                 velocity_error=allowed,
                 delay=self.velocity_delay if seen else None,
             ),
-            "position": position_loop(
+            "position": design_position_loop(
                 kv=kv,
                 ka=ka,
                 preset=preset,
@@ -148,11 +152,14 @@ class Fit:
                 for loop, gains in self.feedback(preset).items()
             },
             "warnings": [{"code": d.code, "message": d.message} for d in self.all_doubts(preset)],
+            "small_effects": {
+                part.effect: part.to_json(find_unit(self.units)) for part in self.parts
+            },
         }
 
     def gain_unit(self, gain: str) -> str:
         """The unit of a gain, as printed: ``V·s/m``."""
-        return gain_unit(gain, unit(self.units))
+        return gain_unit(gain, find_unit(self.units))
 
 
 def gain_unit(gain: str, per: Unit) -> str:

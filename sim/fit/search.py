@@ -38,7 +38,9 @@ def fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErro
         measured: of those with enough samples, the measurements.
     """
     records = separate_records(log, measured)
-    return PredictionErrorProblem.of(records, varying_friction=False, slack=SLACK)
+    return PredictionErrorProblem.from_records(
+        records, varying_friction=False, backlash_allowance=SLACK
+    )
 
 
 def fit_tracking(
@@ -50,7 +52,7 @@ def fit_tracking(
         The estimate; where nothing can be simulated from the guess, the guess, at an infinite cost.
     """
     q = TRACKING * problem.noise.velocity**2
-    point = problem.at(structure, values, problem.start, q)
+    point = problem.evaluate(structure, values, problem.initial_nuisance, q)
     return levenberg_marquardt(problem, point, steps=STEPS, enough=ROUGHLY)
 
 
@@ -96,17 +98,17 @@ def predicted_improvement(
         more: ``effect.parameter`` and its value.
         kept: the joint Jacobian at the estimate.
     """
-    now = kept.square(problem.white(point, point.innovations))
+    now = kept.residual_square(problem.whiten(point, point.innovations))
     gains = []
     for name, value in more:
         structure = point.structure + name.partition(".")[0]
         values = {**point.values, name: value}
-        other = problem.at(structure, values, point.nuisance, point.process_noise)
-        gains.append(now - kept.square(problem.white(point, other.innovations)))
+        other = problem.evaluate(structure, values, point.nuisance, point.process_noise)
+        gains.append(now - kept.residual_square(problem.whiten(point, other.innovations)))
     return np.array(gains)
 
 
-def without_outliers(problem: PredictionErrorProblem, point: Estimate) -> PredictionErrorProblem:
+def drop_outliers(problem: PredictionErrorProblem, point: Estimate) -> PredictionErrorProblem:
     """The same without the samples that no noise explains, and those around them.
 
     A stop that was hit, a tooth that slipped, a voltage that was not applied: one such moment may
@@ -115,25 +117,25 @@ def without_outliers(problem: PredictionErrorProblem, point: Estimate) -> Predic
     size = np.array(
         [
             ROBUST * float(np.median(np.abs(errors[~ignored]))) if not ignored.all() else np.inf
-            for errors, ignored in zip(point.innovations.T, problem.ignored.T, strict=True)
+            for errors, ignored in zip(point.innovations.T, problem.ignored_readings.T, strict=True)
         ]
     )
-    outlying = np.abs(point.innovations) > OUTLIER * np.maximum(size, problem.noise.grain)
+    outlying = np.abs(point.innovations) > OUTLIER * np.maximum(size, problem.noise.resolution)
     far = outlying.any(axis=1)
     kept = []
-    for record, first in zip(problem.records, problem.edges, strict=False):
+    for record, first in zip(problem.records, problem.run_edges, strict=False):
         run = record.measurements
         own = far[first : first + run.time.size].copy()
         # a start is what shows inertia: there an outlier is more likely the model's
         own[run.time < run.time[int(np.argmax(run.moving))] + START] = False
         wide = np.convolve(own, np.ones(2 * AROUND + 1), mode="same")[: run.time.size] > 0.0
-        kept.append(replace(record, measurements=replace(run, telling=run.telling & ~wide)))
+        kept.append(replace(record, measurements=replace(run, informative=run.informative & ~wide)))
     same = all(
-        np.array_equal(one.measurements.telling, other.measurements.telling)
+        np.array_equal(one.measurements.informative, other.measurements.informative)
         for one, other in zip(kept, problem.records, strict=True)
     )
     return problem if same else replace(problem, records=tuple(kept))
 
 
 def _with_noise(problem: PredictionErrorProblem, point: Estimate, q: float) -> Estimate:
-    return problem.at(point.structure, point.values, point.nuisance, q)
+    return problem.evaluate(point.structure, point.values, point.nuisance, q)

@@ -8,7 +8,7 @@ from sim.core.doubt import Doubt
 from sim.core.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
 from sim.fit.metrics import SimulationScore
 from sim.fit.regression import Regression
-from sim.fit.sysid_rows import NEAR_TOP, Prepared
+from sim.fit.sysid_rows import NEAR_TOP, PreparedRows
 
 DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA dubious
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
@@ -18,7 +18,7 @@ UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its si
 
 
 def sysid_doubts(
-    log: Log, prepared: Prepared, found: Regression, simulated: tuple[SimulationScore, ...]
+    log: Log, prepared: PreparedRows, found: Regression, simulated: tuple[SimulationScore, ...]
 ) -> tuple[Doubt, ...]:
     """Everything to know before trusting a fit.
 
@@ -29,17 +29,21 @@ def sysid_doubts(
         simulated: how well they reproduce the forward and the reverse tests.
     """
     return (
-        *_repeats(log),
-        *_stale(log),
-        *_signs(found.gains, found.errors),
+        *_doubt_repeats(log),
+        *_doubt_stale_velocities(log),
+        *_doubt_signs(found.gains, found.errors),
         *uncertain_gains(found.gains, found.errors),
-        *_poor(found.r2, simulated),
-        *_slow(prepared.velocity_delay, found.gains),
+        *_doubt_uncertain_gains(found.r2, simulated),
+        *_doubt_slow_steps(prepared.velocity_delay, found.gains),
     )
 
 
-def _repeats(log: Log) -> list[Doubt]:
-    again = [f"{test} ({len(log.of(test))} runs)" for test in FOUR_TESTS if len(log.of(test)) > 1]
+def _doubt_repeats(log: Log) -> list[Doubt]:
+    again = [
+        f"{test} ({len(log.runs_of_test(test))} runs)"
+        for test in FOUR_TESTS
+        if len(log.runs_of_test(test)) > 1
+    ]
     other = sorted({run.test for run in log.runs} - set(FOUR_TESTS))
     doubts = []
     if again:
@@ -55,13 +59,17 @@ def _repeats(log: Log) -> list[Doubt]:
     return doubts
 
 
-def _stale(log: Log) -> list[Doubt]:
+def _doubt_stale_velocities(log: Log) -> list[Doubt]:
     """Velocities that were logged more often than they were measured.
 
     Of a velocity held for n samples SysId keeps the two next to each jump and spreads the jump over
     two periods instead of n, so kA comes out as 2/n, or 2·(1 - share repeated), of its size.
     """
-    steps = [_rise(log.of(test)[0]) for test in FOUR_TESTS if test.startswith("dynamic")]
+    steps = [
+        _rise_changes(log.runs_of_test(test)[0])
+        for test in FOUR_TESTS
+        if test.startswith("dynamic")
+    ]
     repeated = np.concatenate(steps) == 0.0
     share = float(repeated.mean()) if repeated.size else 0.0
     if share < STALE:
@@ -77,7 +85,7 @@ def _stale(log: Log) -> list[Doubt]:
     ]
 
 
-def _rise(run: Run) -> Array:
+def _rise_changes(run: Run) -> Array:
     """The changes of velocity from the first motion until near the top speed."""
     speed = np.abs(run.velocity)
     moving = int(np.argmax(speed > 0.0))
@@ -85,7 +93,7 @@ def _rise(run: Run) -> Array:
     return np.asarray(np.diff(run.velocity[moving : top + 1]))
 
 
-def _signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
+def _doubt_signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
     if gains["kV"] < 0 and gains["kA"] < 0:
         return [
             Doubt(
@@ -128,7 +136,7 @@ def uncertain_gains(gains: Mapping[str, float], errors: Mapping[str, float]) -> 
     ]
 
 
-def _poor(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Doubt]:
+def _doubt_uncertain_gains(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Doubt]:
     doubts = [
         Doubt(
             "low-simulated-r2",
@@ -150,7 +158,7 @@ def _poor(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Doubt]:
     return doubts
 
 
-def _slow(delay: float, gains: Mapping[str, float]) -> list[Doubt]:
+def _doubt_slow_steps(delay: float, gains: Mapping[str, float]) -> list[Doubt]:
     timescale = gains["kA"] / gains["kV"] if gains["kV"] else 0.0
     if not 0.0 < timescale < delay:
         return []

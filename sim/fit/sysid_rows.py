@@ -43,7 +43,7 @@ class Rows:
     def __len__(self) -> int:
         return int(self.time.size)
 
-    def where(self, keep: "np.ndarray[tuple[int], np.dtype[np.bool_]] | slice") -> "Rows":
+    def select(self, keep: "np.ndarray[tuple[int], np.dtype[np.bool_]] | slice") -> "Rows":
         """The rows that a mask or a slice keeps."""
         return Rows(
             self.time[keep],
@@ -56,7 +56,7 @@ class Rows:
 
 
 @dataclass(frozen=True, eq=False)
-class Prepared:
+class PreparedRows:
     """What the regression and the metrics work on.
 
     Args:
@@ -76,7 +76,7 @@ class Prepared:
     velocity_delay: float
 
 
-def prepare_rows(log: Log, *, median: int = 1) -> Prepared:
+def prepare_rows(log: Log, *, median: int = 1) -> PreparedRows:
     """Trim, filter and differentiate the four tests of a log.
 
     Args:
@@ -92,16 +92,18 @@ def prepare_rows(log: Log, *, median: int = 1) -> Prepared:
             f"a median window of {median} samples",
             advice=f"Choose {MEDIAN_WINDOWS[0]} (no filter) to {MEDIAN_WINDOWS[-1]}.",
         )
-    raw = {test: _recorded(run) for test, run in _four(log).items()}
-    threshold = min(noise_floor(raw[t].velocity) for t in FOUR_TESTS if t.startswith("quasi"))
+    raw = {test: _rows_of_run(run) for test, run in _first_runs(log).items()}
+    threshold = min(
+        estimate_noise_floor(raw[t].velocity) for t in FOUR_TESTS if t.startswith("quasi")
+    )
     rows: dict[str, Rows] = {}
     duration, delays = 0.0, []
-    longest = max(_length(raw[test]) for test in FOUR_TESTS if test.startswith("dyn"))
+    longest = max(_duration(raw[test]) for test in FOUR_TESTS if test.startswith("dyn"))
     for test in sorted(raw):  # SysId's order: the forward step sets the duration for both
         if test.startswith("quasi"):
-            raw[test] = _moving(raw[test], threshold=threshold, test=test)
-        rows[test] = _differentiated(raw[test], median=median, test=test)
-        raw[test] = rows[test] if median == 1 else _differentiated(raw[test], median=1, test=test)
+            raw[test] = _drop_standstill(raw[test], threshold=threshold, test=test)
+        rows[test] = _differentiate(raw[test], median=median, test=test)
+        raw[test] = rows[test] if median == 1 else _differentiate(raw[test], median=1, test=test)
         if test.startswith("dyn"):
             step = trim_step(
                 rows[test], threshold=threshold, duration=duration, longest=longest, test=test
@@ -109,9 +111,9 @@ def prepare_rows(log: Log, *, median: int = 1) -> Prepared:
             rows[test], duration = step.rows, step.duration
             delays.append((step.position_delay, step.velocity_delay))
     position_delay, velocity_delay = np.mean(delays, axis=0)
-    return Prepared(
-        {test: _accelerating(rows[test], test=test) for test in FOUR_TESTS},
-        {test: _accelerating(raw[test], test=test) for test in FOUR_TESTS},
+    return PreparedRows(
+        {test: _drop_zero_acceleration(rows[test], test=test) for test in FOUR_TESTS},
+        {test: _drop_zero_acceleration(raw[test], test=test) for test in FOUR_TESTS},
         threshold,
         duration,
         float(position_delay),
@@ -119,7 +121,7 @@ def prepare_rows(log: Log, *, median: int = 1) -> Prepared:
     )
 
 
-def noise_floor(velocity: Array, *, window: int = NOISE_WINDOW) -> float:
+def estimate_noise_floor(velocity: Array, *, window: int = NOISE_WINDOW) -> float:
     """How far a velocity strays from its own moving mean [m/s or rad/s].
 
         sqrt( Σ (v[i - step] - mean(v[i - window + 1 … i]))² / (n - step) ),  step = window // 2
@@ -155,7 +157,7 @@ def median_filter(values: Array, *, window: int) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class TrimmedStep:
     """A dynamic test cut to the part that tells the acceleration gain.
 
     Args:
@@ -173,7 +175,7 @@ class Step:
 
 def trim_step(
     rows: Rows, *, threshold: float, duration: float, longest: float, test: str = "dynamic"
-) -> Step:
+) -> TrimmedStep:
     """Cut a dynamic test to the stretch from its peak acceleration to 90 % of its top speed.
 
     Args:
@@ -201,18 +203,18 @@ def trim_step(
     if duration == 0.0:
         near_top = rows.time[peak + int(np.argmax(speed > NEAR_TOP * speed.max()))]
         duration = float(min(near_top - rows.time[peak] + min(rows.time[peak] - begin, 0), longest))
-    cut = rows.where(slice(peak, None))
-    return Step(
-        cut.where(cut.time - cut.time[0] <= duration),
+    cut = rows.select(slice(peak, None))
+    return TrimmedStep(
+        cut.select(cut.time - cut.time[0] <= duration),
         duration,
         float(rows.time[int(np.argmax(moved))] - begin) if moved.any() else 0.0,
         float(rows.time[rising] - begin),
     )
 
 
-def _four(log: Log) -> dict[str, Run]:
+def _first_runs(log: Log) -> dict[str, Run]:
     """The first run of each of the four tests."""
-    missing = [test for test in FOUR_TESTS if not log.of(test)]
+    missing = [test for test in FOUR_TESTS if not log.runs_of_test(test)]
     if missing:
         raise NotIdentifiable(
             f"no {' and no '.join(missing)} test in this log",
@@ -220,10 +222,10 @@ def _four(log: Log) -> dict[str, Run]:
             advice="SysId's recipe needs all four: quasistatic and dynamic, forward and reverse. "
             "Run the missing one, or hold the button longer so that it is logged.",
         )
-    return {test: log.of(test)[0] for test in FOUR_TESTS}
+    return {test: log.runs_of_test(test)[0] for test in FOUR_TESTS}
 
 
-def _recorded(run: Run) -> Rows:
+def _rows_of_run(run: Run) -> Rows:
     """A run as SysId takes it in: every sample with the time to the next, so the last one goes."""
     if len(run) <= NOISE_WINDOW:
         raise NotIdentifiable(
@@ -246,13 +248,13 @@ def _recorded(run: Run) -> Rows:
     )
 
 
-def _length(rows: Rows) -> float:
+def _duration(rows: Rows) -> float:
     return float(rows.time[-1] - rows.time[0])
 
 
-def _moving(rows: Rows, *, threshold: float, test: str) -> Rows:
+def _drop_standstill(rows: Rows, *, threshold: float, test: str) -> Rows:
     """A quasistatic test without the samples that stand still or have no voltage."""
-    left = rows.where((np.abs(rows.voltage) > 0) & (np.abs(rows.velocity) >= threshold))
+    left = rows.select((np.abs(rows.voltage) > 0) & (np.abs(rows.velocity) >= threshold))
     if not len(left):
         raise NotIdentifiable(
             f"{test} never moves: no sample has a voltage and a speed above {threshold:.3g}, the "
@@ -263,7 +265,7 @@ def _moving(rows: Rows, *, threshold: float, test: str) -> Rows:
     return left
 
 
-def _differentiated(rows: Rows, *, median: int, test: str) -> Rows:
+def _differentiate(rows: Rows, *, median: int, test: str) -> Rows:
     """Rows with a median-filtered velocity and its central difference over the mean period.
 
     SysId divides by the mean period of the test, not by each sample's own, and its first value is
@@ -289,9 +291,9 @@ def _differentiated(rows: Rows, *, median: int, test: str) -> Rows:
     return Rows(rows.time, rows.period, rows.voltage, rows.position, velocity, acceleration)
 
 
-def _accelerating(rows: Rows, *, test: str) -> Rows:
+def _drop_zero_acceleration(rows: Rows, *, test: str) -> Rows:
     """Rows without those whose acceleration is exactly zero, which SysId takes for no data."""
-    left = rows.where(rows.acceleration != 0.0)
+    left = rows.select(rows.acceleration != 0.0)
     if not len(left):
         raise NotIdentifiable(
             f"the velocity of {test} never changes",

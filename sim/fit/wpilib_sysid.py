@@ -2,9 +2,9 @@
 
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, FOUR_TESTS, Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit.metrics import score_simulated_velocity
-from sim.fit.regression import regress
+from sim.fit.regression import regress_acceleration
 from sim.fit.result import Fit
 from sim.fit.sysid_doubts import sysid_doubts
 from sim.fit.sysid_rows import prepare_rows
@@ -22,7 +22,7 @@ def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A
         BadRequest: an arm whose position is no angle.
         NotIdentifiable: the log cannot tell these gains.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     if type == "arm" and not per.angular:
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {per.name}",
@@ -30,7 +30,7 @@ def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A
             advice="Say --units radians, rotations or degrees, or --type elevator.",
         )
     prepared = prepare_rows(log, median=median)
-    found = regress(prepared.rows, type=type)
+    found = regress_acceleration(prepared.rows, type=type)
     forward, reverse = (
         score_simulated_velocity(
             [prepared.raw[f"{kind}-{way}"] for kind in ("quasistatic", "dynamic")],

@@ -19,7 +19,7 @@ from sim.gap.place import Place
 from sim.gap.repeats import Repeat, compare_repeats
 from sim.gap.residuals import Residuals
 
-__all__ = ["BinnedResiduals", "GapMap", "Place", "Repeat", "Residuals", "gap_map"]
+__all__ = ["BinnedResiduals", "GapMap", "Place", "Repeat", "Residuals", "map_gap"]
 
 OF_A_KIND = 2  # places of one kind among the first that are told: the others say the same again
 
@@ -45,11 +45,11 @@ class GapMap:
     repeats: tuple[Repeat, ...]
 
     @property
-    def maps(self) -> tuple[BinnedResiduals, ...]:
+    def all_maps(self) -> tuple[BinnedResiduals, ...]:
         """All of them."""
         return (self.by_run, self.by_speed, self.by_position, self.after_steps, self.at_rest)
 
-    def places(self, most: int, *, signal: str = "") -> tuple[Place, ...]:
+    def find_places(self, most: int, *, signal: str = "") -> tuple[Place, ...]:
         """Where it is beyond doubt that they disagree, the surest first; empty if nowhere is.
 
         Args:
@@ -57,13 +57,13 @@ class GapMap:
             signal: ``position`` or ``velocity``; empty looks at both.
         """
         kept = []
-        for cells in self.maps:
-            mine = [one for one in cells.places() if signal in {"", one.signal}]
+        for cells in self.all_maps:
+            mine = [one for one in cells.find_places() if signal in {"", one.signal}]
             kept += sorted(mine, key=lambda one: -one.sure)[:OF_A_KIND]
         return tuple(sorted(kept, key=lambda one: -one.sure)[:most])
 
 
-def gap_map(runs: Sequence[Residuals], *, noise: SensorNoise) -> GapMap:
+def map_gap(runs: Sequence[Residuals], *, noise: SensorNoise) -> GapMap:
     """Sort residuals by run, speed, position, time after a step, and voltage at rest.
 
     Args:
@@ -80,10 +80,10 @@ def gap_map(runs: Sequence[Residuals], *, noise: SensorNoise) -> GapMap:
         )
     samples = ResidualBins(runs, noise=noise)
     return GapMap(
-        samples.by_run(),
-        samples.by_speed(),
-        samples.by_position(),
-        samples.after_steps(),
-        samples.at_rest(),
+        samples.bin_by_run(),
+        samples.bin_by_speed(),
+        samples.bin_by_position(),
+        samples.bin_after_steps(),
+        samples.bin_at_rest(),
         compare_repeats(runs, noise=noise.velocity),
     )

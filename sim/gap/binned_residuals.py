@@ -28,7 +28,8 @@ class BinnedResiduals:
         what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps``, ``at-rest``.
         rows: the name of each row.
         edges: (rows, columns + 1) [s, unit/s, unit or V] between the columns.
-        shares: whether edges are told as shares of the largest, for they have the log's unit.
+        edges_as_shares: whether edges are told as shares of the largest, for they have the log's
+            unit.
         mean: (2, rows, columns) [noises] of positions and velocities; nan where too few.
         error: the same, one standard error.
         count: (2, rows, columns) samples.
@@ -37,19 +38,19 @@ class BinnedResiduals:
     what: str
     rows: tuple[str, ...]
     edges: Array
-    shares: bool
+    edges_as_shares: bool
     mean: Array
     error: Array
     count: NDArray[np.intp]
 
     @property
-    def sure(self) -> Array:
+    def significance(self) -> Array:
         """(2, rows, columns) [standard errors] from nothing; 0 where too few samples are."""
         return np.nan_to_num(self.mean / self.error)
 
-    def places(self) -> Iterator[Place]:
+    def find_places(self) -> Iterator[Place]:
         """Where it is beyond doubt; neighbors that agree in their sign are one place."""
-        sure = self.sure
+        sure = self.significance
         way = np.where(np.abs(sure) >= SURE, np.sign(sure), 0.0)
         for signal, row in zip(*np.nonzero(np.any(way, axis=2)), strict=True):
             ways = way[signal, row]
@@ -64,10 +65,10 @@ class BinnedResiduals:
         weight /= weight.sum()
         together = float(weight @ mean)
         spread = float(np.sqrt(np.sum((weight * error) ** 2)))
-        where = self.where(row, part)
+        where = self.describe_bin(row, part)
         return Place(self.what, where, together, abs(together) / spread, SIGNALS[signal])
 
-    def where(self, row: int, part: slice) -> str:
+    def describe_bin(self, row: int, part: slice) -> str:
         """A stretch of a row in words.
 
         Args:
@@ -76,7 +77,7 @@ class BinnedResiduals:
         """
         edges = self.edges[row]
         low, high = float(edges[part.start]), float(edges[part.stop])
-        if not self.shares:
+        if not self.edges_as_shares:
             return f"{self.rows[row]}, {_pair(low, high)} {_UNITS[self.what]}"
         least, most = float(self.edges.min()), float(self.edges.max())
         low, high = (100.0 * (edge - least) / ((most - least) or 1.0) for edge in (low, high))
@@ -105,7 +106,7 @@ class SampleTable:
     table: Array
     run: NDArray[np.intp]
 
-    def into(
+    def bin_samples(
         self, what: str, rows: tuple[str, ...], edges: Array, *, row: NDArray[np.intp],
         value: Array, way: Array, shares: bool = False,
     ) -> BinnedResiduals:  # fmt: skip

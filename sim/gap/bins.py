@@ -33,7 +33,7 @@ class ResidualBins:
         self.predicted = np.concatenate([run.predicted for run in runs])
         self.voltage = np.concatenate([run.voltage for run in runs])
         self.number = np.repeat(np.arange(len(runs)), [run.time.size for run in runs])
-        missed = np.concatenate([run.missed for run in runs])
+        missed = np.concatenate([run.error for run in runs])
         self.kept = ~np.isnan(missed).all(axis=1)
         self.sorted = SampleTable(missed / np.array([noise.position, noise.velocity]), self.number)
         self.speed = np.abs(self.predicted[:, 1])
@@ -41,65 +41,79 @@ class ResidualBins:
         self.rests = self.speed <= STILL * self.top
 
     @cached_property
-    def way(self) -> Array:
+    def direction(self) -> Array:
         """(n,) ±1 which way it moves, or is pushed while it rests."""
         way = np.sign(np.where(self.rests, self.voltage, self.predicted[:, 1]))
         way[way == 0.0] = 1.0
         return np.asarray(way)
 
     @cached_property
-    def side(self) -> NDArray[np.intp]:
+    def direction_row(self) -> NDArray[np.intp]:
         """(n,) the row of that direction."""
-        return np.where(self.way > 0.0, 0, 1)
+        return np.where(self.direction > 0.0, 0, 1)
 
     @cached_property
-    def moves(self) -> NDArray[np.intp]:
+    def moving_row(self) -> NDArray[np.intp]:
         """(n,) the same where it moves; none where it rests."""
-        return np.where(self.rests, -1, self.side)
+        return np.where(self.rests, -1, self.direction_row)
 
-    def by_run(self) -> BinnedResiduals:
+    def bin_by_run(self) -> BinnedResiduals:
         """Run × time."""
-        ends = [run.since[run.compared][[0, -1]] for run in self.runs]
+        ends = [run.run_time[run.compared][[0, -1]] for run in self.runs]
         shortest = min(int(np.count_nonzero(run.compared)) for run in self.runs)
         columns = min(max(shortest // FEWEST, LEAST_TIMES), TIMES)
         edges = np.stack([np.linspace(start, end, columns + 1) for start, end in ends])
-        since = np.concatenate([run.since for run in self.runs])
+        since = np.concatenate([run.run_time for run in self.runs])
         names = _names([run.test for run in self.runs])
-        return self.sorted.into(RUN, names, edges, row=self.number, value=since, way=self.way)
-
-    def by_speed(self) -> BinnedResiduals:
-        """Direction × speed."""
-        edges = _even(0.0, self.top, SPEEDS)
-        return self.sorted.into(
-            SPEED, WAYS, edges, row=self.moves, value=self.speed, way=self.way, shares=True
+        return self.sorted.bin_samples(
+            RUN, names, edges, row=self.number, value=since, way=self.direction
         )
 
-    def by_position(self) -> BinnedResiduals:
+    def bin_by_speed(self) -> BinnedResiduals:
+        """Direction × speed."""
+        edges = _even(0.0, self.top, SPEEDS)
+        return self.sorted.bin_samples(
+            SPEED,
+            WAYS,
+            edges,
+            row=self.moving_row,
+            value=self.speed,
+            way=self.direction,
+            shares=True,
+        )
+
+    def bin_by_position(self) -> BinnedResiduals:
         """Direction × position."""
         position = self.predicted[:, 0]
         kept = position[self.kept]
         edges = _even(float(kept.min()), float(kept.max()), POSITIONS)
-        return self.sorted.into(
-            POSITION, WAYS, edges, row=self.moves, value=position, way=self.way, shares=True
+        return self.sorted.bin_samples(
+            POSITION,
+            WAYS,
+            edges,
+            row=self.moving_row,
+            value=position,
+            way=self.direction,
+            shares=True,
         )
 
-    def after_steps(self) -> BinnedResiduals:
+    def bin_after_steps(self) -> BinnedResiduals:
         """Direction of a jump of the voltage × time since it; ahead is where the jump goes."""
         largest = float(np.abs(self.voltage).max())
-        found = [run.steps(largest=largest, still=STILL * self.top) for run in self.runs]
+        found = [run.find_steps(largest=largest, still=STILL * self.top) for run in self.runs]
         since, jump = (np.concatenate([one[part] for one in found]) for part in (0, 1))
         row = np.where(jump > 0.0, 0, 1)
-        return self.sorted.into(
+        return self.sorted.bin_samples(
             STEPS, JUMPS, np.tile(AFTER, (2, 1)), row=row, value=since, way=jump
         )
 
-    def at_rest(self) -> BinnedResiduals:
+    def bin_at_rest(self) -> BinnedResiduals:
         """Direction × voltage that does not move it."""
         held = np.where(self.rests & self.kept, np.abs(self.voltage), np.nan)
         most = float(np.max(held, initial=0.0, where=~np.isnan(held)))
-        row = np.where(self.rests, self.side, -1)
-        return self.sorted.into(
-            REST, HELD, _even(0.0, most, VOLTS), row=row, value=held, way=self.way
+        row = np.where(self.rests, self.direction_row, -1)
+        return self.sorted.bin_samples(
+            REST, HELD, _even(0.0, most, VOLTS), row=row, value=held, way=self.direction
         )
 
 

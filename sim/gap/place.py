@@ -6,7 +6,10 @@ RUN, SPEED, POSITION = "run", "direction-speed", "direction-position"
 STEPS, REST = "after-steps", "at-rest"
 SIGNALS = ("position", "velocity")  # the columns of what is measured and simulated
 MANY = 99.5  # [noises] from which on no digit is left out
-FASTER = {"position": ("ahead of", "behind"), "velocity": ("faster than", "slower than")}
+FASTER = {
+    "position": ("ahead of where", "behind where"),
+    "velocity": ("faster than", "slower than"),
+}
 
 
 @dataclass(frozen=True)

@@ -62,7 +62,7 @@ def _same(one: Residuals, other: Residuals) -> bool:
     n = min(one.time.size, other.time.size)
     if one.test != other.test or n < 2 * LEAST:
         return False
-    across = np.interp(one.since[:n], other.since, other.voltage)
+    across = np.interp(one.run_time[:n], other.run_time, other.voltage)
     apart = math.sqrt(float(np.mean((one.voltage[:n] - across) ** 2)))
     return apart <= SAME * float(np.abs(one.voltage).max())
 
@@ -73,16 +73,16 @@ def _compared(
     one, other = (runs[number] for number in pair)
     n = min(one.time.size, other.time.size)
     ends = np.linspace(
-        0.0, min(one.since[n - 1], other.since[n - 1]), min(STRETCHES, n // LEAST) + 1
+        0.0, min(one.run_time[n - 1], other.run_time[n - 1]), min(STRETCHES, n // LEAST) + 1
     )
-    (a, enough), (b, too) = (_stretches(run, ends, noise=noise) for run in (one, other))
+    (a, enough), (b, too) = (_interval_means(run, ends, noise=noise) for run in (one, other))
     both = (enough >= LEAST - 1) & (too >= LEAST - 1)
     a, b, counts = a[both], b[both], np.minimum(enough, too)[both]
     if a.size < LEAST:
         return
     size = math.sqrt(float(a @ a) * float(b @ b))
     correlation = float(a @ b) / size if size > 0.0 else 0.0
-    alike = _follows(a) * _follows(b)
+    alike = _lag_one_correlation(a) * _lag_one_correlation(b)
     sure = correlation * math.sqrt(a.size * (1.0 - alike) / (1.0 + alike))
     excess = float(np.mean(counts * (a**2 + b**2))) / 2.0
     share = float(np.mean(counts * a * b)) / max(excess - 1.0, 1e-9)
@@ -93,17 +93,17 @@ def _compared(
     yield Repeat(one.test, pair, correlation, sure, excess, share, verdict)
 
 
-def _stretches(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:
+def _interval_means(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:
     """Mean velocity missed in each stretch [noises], and of how many samples."""
-    missed = run.missed[:, 1] / noise
-    there = ~np.isnan(missed) & (run.since < ends[-1])
-    place = np.searchsorted(ends, run.since[there], side="right") - 1
+    missed = run.error[:, 1] / noise
+    there = ~np.isnan(missed) & (run.run_time < ends[-1])
+    place = np.searchsorted(ends, run.run_time[there], side="right") - 1
     count = np.bincount(place, minlength=ends.size - 1).astype(np.float64)
     total = np.bincount(place, missed[there], minlength=ends.size - 1)
     return total / np.maximum(count, 1.0), count
 
 
-def _follows(values: Array) -> float:
+def _lag_one_correlation(values: Array) -> float:
     """Lag-one correlation, from 0."""
     square = float(values @ values)
     return min(max(float(values[1:] @ values[:-1]) / square, 0.0), 0.95) if square > 0.0 else 0.0

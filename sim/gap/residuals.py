@@ -22,26 +22,26 @@ class Residuals:
         voltage: (n,) [V].
         predicted: (n, 2) [unit, unit/s] position and velocity, as the model has them. What is
             measured is sorted by these alone: sorted by its own noise it would show what is not.
-        missed: (n, 2) [the same] measured less predicted; nan where nothing is compared.
+        error: (n, 2) [the same] measured less predicted; nan where nothing is compared.
     """
 
     test: str
     time: Array
     voltage: Array
     predicted: Array
-    missed: Array
+    error: Array
 
     @cached_property
     def compared(self) -> NDArray[np.bool_]:
         """(n,) where a position or a velocity is compared."""
-        return np.asarray(~np.isnan(self.missed).all(axis=1))
+        return np.asarray(~np.isnan(self.error).all(axis=1))
 
     @cached_property
-    def since(self) -> Array:
+    def run_time(self) -> Array:
         """(n,) [s] since the run began."""
         return np.asarray(self.time - self.time[0])
 
-    def steps(self, *, largest: float, still: float) -> tuple[Array, Array]:
+    def find_steps(self, *, largest: float, still: float) -> tuple[Array, Array]:
         """(n,) [s] since the voltage last jumped, nan before it did; and (n,) which way, ±1.
 
         A jump stands alone: beside it the voltage hardly changes, as it would in a chirp.

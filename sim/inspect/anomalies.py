@@ -1,9 +1,9 @@
 """Intervals in which a run does not follow its voltage, and how much of that a hypothesis explains.
 
-A run's voltage is replayed through the balance of the whole log. Where the velocity strays further
-than noise and an ordinary mechanism's own ways can take it, and only for a while, there is a
-surprise. Each fault that could be behind it draws the shape it would leave, and the share of the
-surprise that the shape explains is how much it is believed.
+The baseline model of the whole log predicts a run's velocity from its voltage. Where the measured
+velocity differs from that by more than noise and an ordinary mechanism's deviations, and only for a
+while, there is an anomaly. Each fault that could be its cause gives the shape that it would leave,
+and the share of the anomaly that the shape explains is the confidence in that fault.
 """
 
 from collections.abc import Sequence
@@ -21,8 +21,8 @@ LATE = 0.03  # [s] a reading may be this old, and the mechanism no worse for it
 STARTING = 1.5, 0.06  # [timescales, s] after its first motion a run says little about accidents
 SIGMAS = 3.0  # [standard deviations of the averaged noise]
 AVERAGE = 0.04  # [s] over which noise is averaged, at least two samples
-SHORTEST = 0.03  # [s] a shorter surprise is noise, at least two samples
-LONGEST = 0.6  # [share of the motion] a longer one is no surprise but how this run is
+SHORTEST = 0.03  # [s] a shorter anomaly is noise, at least two samples
+LONGEST = 0.6  # [share of the motion] a longer one is no anomaly but how this run is
 AROUND = 0.15  # [s] before and after that an explanation has to explain as well
 ALIKE = 0.5  # [share of the shorter] two stretches of time or way that share more are one habit
 JOIN = 0.06  # [s] two closer ones are one
@@ -38,11 +38,12 @@ class Anomaly:
         last: its last sample.
         begin: the first sample of the stretch with what is around it.
         end: behind the last sample of that.
-        left: (end - begin,) [m/s or rad/s] seen minus expected, what it strays by anyway taken off.
+        residual: (end - begin,) [m/s or rad/s] seen minus expected, what it strays by anyway taken
+            off.
         expected: (end - begin,) [m/s or rad/s] the velocity as replayed, brought to what was seen
             before and after.
-        starting: it begins with the motion, where delays and limits of current look like accidents.
-        again: another run has one at the same place, or as long after its start: that is how the
+        at_start: it begins with the motion, where delays and limits of current look like accidents.
+        recurs: another run has one at the same place, or as long after its start: that is how the
             mechanism is, and no accident.
     """
 
@@ -51,28 +52,30 @@ class Anomaly:
     last: int
     begin: int
     end: int
-    left: Array
+    residual: Array
     expected: Array
-    starting: bool
-    again: bool = False
+    at_start: bool
+    recurs: bool = False
 
-    def spans(self, *, slack: int) -> list[tuple[int, int]]:
+    def candidate_spans(self, *, margin: int) -> list[tuple[int, int]]:
         """Where it may have begun, and ended: samples within ``begin`` and ``end``.
 
         Args:
-            slack: [samples] how far from its own first and last sample to look.
+            margin: [samples] how far from its own first and last sample to look.
         """
-        stride = max(1, slack // 3)
-        return self._within(self.first, self.last + 1, reach=slack, stride=stride)
+        stride = max(1, margin // 3)
+        return self._span_grid(self.first, self.last + 1, reach=margin, stride=stride)
 
-    def spans_near(self, span: tuple[int, int], *, slack: int) -> list[tuple[int, int]]:
-        """The same, to the sample, about the best of ``spans``."""
+    def refine_spans(self, span: tuple[int, int], *, margin: int) -> list[tuple[int, int]]:
+        """The same, to the sample, about the best of ``candidate_spans``."""
         first, last = span
-        return self._within(
-            self.begin + first, self.begin + last, reach=max(1, slack // 3) - 1, stride=1
+        return self._span_grid(
+            self.begin + first, self.begin + last, reach=max(1, margin // 3) - 1, stride=1
         )
 
-    def _within(self, first: int, last: int, *, reach: int, stride: int) -> list[tuple[int, int]]:
+    def _span_grid(
+        self, first: int, last: int, *, reach: int, stride: int
+    ) -> list[tuple[int, int]]:
         return [
             (begin - self.begin, end - self.begin)
             for begin in range(first - reach, first + reach + 1, stride)
@@ -80,14 +83,14 @@ class Anomaly:
             if self.begin <= begin < end <= self.end
         ]
 
-    def explained(self, shape: Array) -> float:
+    def explained_share(self, shape: Array) -> float:
         """The share of what is left that a shape (end - begin,) explains; below 0 it is worse."""
-        total = float(self.left @ self.left)
-        rest = self.left - shape
+        total = float(self.residual @ self.residual)
+        rest = self.residual - shape
         return 1.0 - float(rest @ rest) / total if total > 0.0 else 0.0
 
 
-def predict_velocity(run: Run, balance: BaselineModel, *, still: float) -> Array:
+def predict_velocity(run: Run, baseline: BaselineModel, *, still: float) -> Array:
     """The velocity (n,) [m/s or rad/s] that the baseline model predicts from a run's voltage.
 
     Before its first motion it is taken to stand: whether a stop or friction holds it there, a log
@@ -96,7 +99,9 @@ def predict_velocity(run: Run, balance: BaselineModel, *, still: float) -> Array
     begin = find_first_motion(run, still=still)
     rest = np.zeros(begin)
     velocity = float(run.velocity[begin]) if abs(run.velocity[begin]) > still else 0.0
-    moving = balance.replay(run, voltage=run.voltage, first=begin, last=len(run), velocity=velocity)
+    moving = baseline.replay(
+        run, voltage=run.voltage, first=begin, last=len(run), velocity=velocity
+    )
     return np.concatenate((rest, moving))
 
 
@@ -110,7 +115,7 @@ def find_first_motion(run: Run, *, still: float) -> int:
 def find_anomalies(
     runs: Sequence[Run],
     expected: Sequence[Array],
-    balance: BaselineModel,
+    baseline: BaselineModel,
     *,
     still: float,
     noise: float,
@@ -121,7 +126,7 @@ def find_anomalies(
     Args:
         runs: of the log.
         expected: per run, (n,) [m/s or rad/s].
-        balance: of the log.
+        baseline: of the log.
         still: [m/s or rad/s] what counts as standing.
         noise: [m/s or rad/s] standard deviation of the velocity in motion.
         period: [s] usual time between samples.
@@ -136,13 +141,13 @@ def find_anomalies(
         since = run.time - run.time[begin]
         early = ONSET * (since < SETTLED)
         late = LATE * np.abs(np.gradient(expected[index], run.time))
-        within = (WITHIN + early) / balance.kv + SHARE * np.abs(expected[index]) + late + sigma
+        within = (WITHIN + early) / baseline.kv + SHARE * np.abs(expected[index]) + late + sigma
         stray = run.velocity - expected[index]
-        stray -= _slow(stray, within)
-        far = np.abs(_average(stray, wide)) > within
+        stray -= _ordinary_residual(stray, within)
+        far = np.abs(_running_mean(stray, wide)) > within
         far[:begin] = False
         longest = LONGEST * (len(run) - begin)
-        for first, last in _stretches(far, join=round(JOIN / period)):
+        for first, last in _find_intervals(far, join=round(JOIN / period)):
             if last - first + 1 < max(2, round(SHORTEST / period)) or last - first > longest:
                 continue
             around = max(3, round(AROUND / period))
@@ -156,16 +161,16 @@ def find_anomalies(
                     part.stop,
                     stray[part],
                     expected[index][part],
-                    starting=bool(since[first] < STARTING[0] * balance.timescale + STARTING[1]),
+                    at_start=bool(since[first] < STARTING[0] * baseline.timescale + STARTING[1]),
                 )
             )
     return tuple(
-        replace(one, again=any(_alike(one, other, runs, still=still) for other in found))
+        replace(one, recurs=any(_recur(one, other, runs, still=still) for other in found))
         for one in found
     )
 
 
-def _alike(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -> bool:
+def _recur(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -> bool:
     """Whether two are one habit: in two runs, as long after the start, or at the same place."""
     if one.run == other.run:
         return False
@@ -183,19 +188,19 @@ def _alike(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -
     return (mine.kind == others.kind and shared(*since)) or shared(*place)
 
 
-def _slow(stray: Array, within: Array) -> Array:
+def _ordinary_residual(stray: Array, within: Array) -> Array:
     """What the run strays by anyway: the median where it is not odd."""
     usual = np.abs(stray) <= 2.0 * within
     return np.full(stray.size, np.median(stray[usual]) if usual.any() else 0.0)
 
 
-def _average(values: Array, wide: int) -> Array:
+def _running_mean(values: Array, wide: int) -> Array:
     """A centered running mean that keeps the length; the ends repeat themselves."""
     fed = np.pad(values, (wide // 2, wide - 1 - wide // 2), mode="edge")
     return np.asarray(np.convolve(fed, np.full(wide, 1.0 / wide), mode="valid"))
 
 
-def _stretches(
+def _find_intervals(
     flags: "np.ndarray[tuple[int], np.dtype[np.bool_]]", *, join: int
 ) -> list[tuple[int, int]]:
     """First and last sample of each stretch of flags, those less than ``join`` apart as one."""

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Run
 
-WINDOW = 0.1  # [s] a row of the balance; at least three samples
+WINDOW = 0.1  # [s] a row of the regression; at least three samples
 ROWS = 150  # per run: more tell no more
 START, FADES = 0.6, 0.15  # [s] after a step of voltage its acceleration tells kA, first of all
 AGREES = 0.5  # [V] a row that is further off than this is not any further off
@@ -35,17 +35,17 @@ class BaselineModel:
         kv: [V·s/m or V·s/rad] positive.
         ka: [V·s²/m or V·s²/rad] positive.
         ks: [V] not negative.
-        load: (3,) [V] of 1, cos x and sin x.
+        gravity_terms: (3,) [V] of 1, cos x and sin x.
         spread: [V] robust standard deviation of the rows about it.
     """
 
     kv: float
     ka: float
     ks: float
-    load: Array
+    gravity_terms: Array
     spread: float
 
-    def top_speed(self, run: Run) -> Array:
+    def steady_speed(self, run: Run) -> Array:
         """(n,) [m/s or rad/s] where each voltage of a run would take it, given time."""
         pull = run.voltage - self.gravity(run.position)
         return np.asarray(np.sign(pull) * np.maximum(np.abs(pull) - self.ks, 0.0) / self.kv)
@@ -87,7 +87,7 @@ class BaselineModel:
 
     def gravity(self, position: Array) -> Array:
         """(n,) [V] what the load takes at these positions (n,) [m or rad]."""
-        k0, kc, ks = self.load
+        k0, kc, ks = self.gravity_terms
         return np.asarray(k0 + kc * np.cos(position) + ks * np.sin(position))
 
 

@@ -12,8 +12,8 @@ import numpy as np
 from sim.core.errors import BadRequest
 from sim.core.log import Log, Run
 from sim.core.vocabulary import TESTS
-from sim.inspect.fault import MOST, Fault, Spoilt, Strike
-from sim.inspect.faults import fault as find
+from sim.inspect.fault import MOST, DamagedLog, Fault, FaultStrike
+from sim.inspect.faults import find_fault as find
 
 FEWEST = 10  # [samples] a shorter run has no room for damage
 MOVING = 0.1  # [share of a run's top speed] from here on it counts as being in motion
@@ -51,15 +51,15 @@ def parse_fault_request(text: str) -> FaultRequest:
     """
     parts = SPEC.fullmatch(text.strip())
     if parts is None:
-        raise _misspelled(text, "it has no name")
+        raise _refuse_syntax(text, "it has no name")
     name, test = parts["name"].strip(), parts["test"]
     if test is not None and not test.strip():
-        raise _misspelled(text, "no test is named after @")
+        raise _refuse_syntax(text, "no test is named after @")
     return FaultRequest(
         name,
-        severity=_number(text, parts["severity"], default=1.0),
+        severity=_parse_number(text, parts["severity"], default=1.0),
         test=None if test is None else test.strip(),
-        at=None if parts["at"] is None else _number(text, parts["at"], default=math.nan),
+        at=None if parts["at"] is None else _parse_number(text, parts["at"], default=math.nan),
     )
 
 
@@ -71,7 +71,7 @@ def contaminate(
     test: str | None = None,
     at: float | None = None,
     rng: np.random.Generator,
-) -> Spoilt:
+) -> DamagedLog:
     """Let a fault strike a log.
 
     Args:
@@ -88,6 +88,15 @@ def contaminate(
     Raises:
         BadRequest: no such fault, test or time; a severity out of range; a test or a mechanism
             this fault cannot strike; a run too short for it, or too still for it to show.
+
+    Examples:
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> from sim.bench.routine import Routine
+        >>> from sim.bench.simulate import simulate
+        >>> rng = np.random.default_rng(0)
+        >>> log = simulate(MECHANISMS["drivetrain"], Routine(), rng=rng)
+        >>> contaminate(log, "encoder-slip", test="dynamic-forward", rng=rng).where[0].test
+        'dynamic-forward'
     """
     fault = find(name)
     if not 0.0 <= severity <= MOST:
@@ -101,21 +110,21 @@ def contaminate(
             where=log.source,
             advice=f"It takes one of type {' or '.join(fault.types)}.",
         )
-    run = _run(log, fault, test=test, rng=rng)
-    start = _start(log.runs[run], fault, at=at, rng=rng)
+    run = _choose_run(log, fault, test=test, rng=rng)
+    start = _choose_start(log.runs[run], fault, at=at, rng=rng)
     if severity == 0.0:
-        return Spoilt(log, ())
-    spoilt = fault.spoil(log, Strike(run, start, severity), rng)
+        return DamagedLog(log, ())
+    spoilt = fault.spoil(log, FaultStrike(run, start, severity), rng)
     if not spoilt.where:
         raise BadRequest(
             f"{name} of severity {severity:g} would not show at {start:.2f} s",
-            where=_place(log, log.runs[run].test),
+            where=_parse_place(log, log.runs[run].test),
             advice="Choose a moment when it moves, a longer test, or a higher severity.",
         )
     return spoilt
 
 
-def _run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Generator) -> int:
+def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Generator) -> int:
     """Which run is struck."""
     kinds = " or ".join(fault.kinds)
     if test is not None:
@@ -149,13 +158,13 @@ def _run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Generator) 
     if len(log.runs[index]) < FEWEST:
         raise BadRequest(
             f"the run has {len(log.runs[index])} samples, too few to damage",
-            where=_place(log, log.runs[index].test),
+            where=_parse_place(log, log.runs[index].test),
             advice=f"Choose a run of at least {FEWEST}.",
         )
     return index
 
 
-def _start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Generator) -> float:
+def _choose_start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Generator) -> float:
     """[s] since the run's first sample; by chance a moment when it is in motion."""
     span = float(run.time[-1] - run.time[0])
     if at is not None:
@@ -172,20 +181,20 @@ def _start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Generator
     return begin + float(rng.uniform(*fault.when)) * (end - begin)
 
 
-def _place(log: Log, test: str) -> str:
+def _parse_place(log: Log, test: str) -> str:
     return f"{log.source}, {test}" if log.source else test
 
 
-def _number(text: str, part: str | None, *, default: float) -> float:
+def _parse_number(text: str, part: str | None, *, default: float) -> float:
     if part is None:
         return default
     try:
         return float(part)
     except ValueError:
-        raise _misspelled(text, f"{part!r} is not a number") from None
+        raise _refuse_syntax(text, f"{part!r} is not a number") from None
 
 
-def _misspelled(text: str, why: str) -> BadRequest:
+def _refuse_syntax(text: str, why: str) -> BadRequest:
     return BadRequest(
         f"{text!r} is no fault to ask for: {why}",
         advice="Write NAME[:SEVERITY][@TEST[+SECONDS]], as encoder-slip:0.5@dynamic-forward+0.4.",

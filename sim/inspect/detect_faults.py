@@ -43,7 +43,7 @@ class Inspection:
         return tuple(damage for damage in self.damages if not damage.ordinary)
 
     @property
-    def clean(self) -> bool:
+    def is_clean(self) -> bool:
         """Whether no fault was found, and nothing that would hide one."""
         return not self.faults and not any(doubt.grave for doubt in self.doubts)
 
@@ -75,7 +75,7 @@ class Inspection:
                 }
                 for damage in self.faults
             ],
-            "clean": self.clean,
+            "clean": self.is_clean,
             "doubts": [asdict(doubt) for doubt in self.doubts],
         }
 
@@ -90,15 +90,24 @@ def inspect(log: Log) -> Inspection:
         What was found. A confidence is 0 to 1: the share of what is odd in that stretch which this
         fault alone would explain, less where the same could be an accident. Above 0.5 it is
         likelier than not.
+
+    Examples:
+        >>> import numpy as np
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> from sim.bench.routine import Routine
+        >>> from sim.bench.simulate import simulate
+        >>> log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(0))
+        >>> inspect(log).is_clean
+        True
     """
-    clues = LogFeatures(log)
-    if clues.period < FASTEST or clues.period > SLOWEST:
-        return Inspection((), (*log.doubts, _odd_clock(clues.period)))
+    features = LogFeatures(log)
+    if features.period < FASTEST or features.period > SLOWEST:
+        return Inspection((), (*log.doubts, _doubt_clock(features.period)))
     # numbers at the edge of what a double holds overflow somewhere, and then say nothing
     with np.errstate(all="ignore"):
-        found = [damage for fault in FAULTS.values() for damage in _asked(fault, clues)]
-        damages = tuple(sorted(_settled(found), key=_when))
-        return Inspection(damages, (*log.doubts, *_ordinary(damages), *diagnose_log(clues)))
+        found = [damage for fault in FAULTS.values() for damage in _run_detector(fault, features)]
+        damages = tuple(sorted(_drop_explained(found), key=_start_of))
+        return Inspection(damages, (*log.doubts, *_ordinary(damages), *diagnose_log(features)))
 
 
 def _ordinary(damages: Iterable[Damage]) -> tuple[Doubt, ...]:
@@ -108,15 +117,15 @@ def _ordinary(damages: Iterable[Damage]) -> tuple[Doubt, ...]:
     return tuple(Doubt(name, f"{one.evidence} {one.advice}") for name, one in once.items())
 
 
-def _asked(fault: Fault, clues: LogFeatures) -> list[Damage]:
+def _run_detector(fault: Fault, features: LogFeatures) -> list[Damage]:
     """What one detector finds; nothing where the log leaves its equations without a solution."""
     try:
-        return list(fault.detect(clues))
+        return list(fault.detect(features))
     except np.linalg.LinAlgError:
         return []
 
 
-def _odd_clock(period: float) -> Doubt:
+def _doubt_clock(period: float) -> Doubt:
     return Doubt(
         "odd-clock",
         f"The samples are {period:.3g} s apart, where a robot logs every 0.001 to 0.1 s: nothing "
@@ -125,25 +134,25 @@ def _odd_clock(period: float) -> Doubt:
     )
 
 
-def _settled(found: Iterable[Damage]) -> list[Damage]:
+def _drop_explained(found: Iterable[Damage]) -> list[Damage]:
     """The damages without those whose moment another fault explains better.
 
     What spoils whole runs, or the time, stands beside what happens to the motion in a moment.
     """
     kept: list[Damage] = []
-    for damage in sorted(found, key=_weight, reverse=True):
-        if not any(_rivals(damage, other) for other in kept):
+    for damage in sorted(found, key=_evidence_weight, reverse=True):
+        if not any(_are_rivals(damage, other) for other in kept):
             kept.append(damage)
     return kept
 
 
-def _weight(damage: Damage) -> float:
+def _evidence_weight(damage: Damage) -> float:
     """How much a damage explains, as a likelihood counts: its length, and what it leaves over."""
     left = max(1.0 - damage.confidence, CERTAIN)
     return (damage.where.end - damage.where.start) * -math.log(left)
 
 
-def _rivals(one: Damage, other: Damage) -> bool:
+def _are_rivals(one: Damage, other: Damage) -> bool:
     """Whether two damages are different explanations of one moment."""
     mine, others = FAULTS[one.fault], FAULTS[other.fault]
     if mine is others or mine.about != others.about or mine.whole or others.whole:
@@ -159,6 +168,6 @@ def _harm(damage: Damage) -> float:
     return (damage.where.end - damage.where.start) * damage.confidence
 
 
-def _when(damage: Damage) -> tuple[int, float, str]:
+def _start_of(damage: Damage) -> tuple[int, float, str]:
     run = damage.where.run
     return (-1 if run is None else run, damage.where.start, damage.fault)

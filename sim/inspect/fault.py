@@ -22,7 +22,7 @@ MOST = 3.0  # [1] largest severity that makes sense; 1 is what one meets on an o
 
 
 @dataclass(frozen=True)
-class Stretch:
+class LogInterval:
     """A part of a log: some seconds of one run, one whole run, or the log as a whole.
 
     Args:
@@ -37,7 +37,7 @@ class Stretch:
     start: float
     end: float
 
-    def overlap(self, other: "Stretch") -> float:
+    def overlap(self, other: "LogInterval") -> float:
         """Shared time over the time that either covers: 1 if equal, 0 if apart or other runs."""
         if (self.run, self.test) != (other.run, other.test):
             return 0.0
@@ -47,7 +47,7 @@ class Stretch:
 
 
 @dataclass(frozen=True, eq=False)
-class Spoilt:
+class DamagedLog:
     """A damaged log, and where the damage is.
 
     Args:
@@ -56,7 +56,7 @@ class Spoilt:
     """
 
     log: Log
-    where: tuple[Stretch, ...]
+    where: tuple[LogInterval, ...]
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Damage:
     """
 
     fault: str
-    where: Stretch
+    where: LogInterval
     confidence: float
     evidence: str
     advice: str
@@ -81,7 +81,7 @@ class Damage:
 
 
 @dataclass(frozen=True)
-class Strike:
+class FaultStrike:
     """Where and how hard a fault strikes.
 
     Args:
@@ -103,14 +103,14 @@ class Fault:
         name: as on the command line: ``encoder-slip``.
         summary: one line for a list.
         ordinary: what severity 1 means, in plain words with a number.
-        spoil: damages a log. Takes the log, a ``Blow`` and a generator; the same state of the
-            generator gives the same log. Never called with severity 0.
+        spoil: damages a log. Takes the log, a ``FaultStrike`` and a generator; the same state of
+            the generator gives the same log. Never called with severity 0.
         detect: finds this fault and only this fault, from what any log shows.
         kinds: the kinds of test it can strike.
         types: the types of mechanism it can strike; a log that does not say its type is let pass.
         about: what it makes odd: ``motion``, as voltage and motion do not agree, or ``time``. Of
             those about the same, only one is believed to be behind one moment.
-        whole: it spoils whole runs, so the start in a ``Blow`` means nothing.
+        whole: it spoils whole runs, so the start in a ``FaultStrike`` means nothing.
         when: the share (earliest, latest) of the time a run is in motion, where it starts if nobody
             says.
     """
@@ -118,7 +118,7 @@ class Fault:
     name: str
     summary: str
     ordinary: str
-    spoil: Callable[[Log, Strike, np.random.Generator], Spoilt]
+    spoil: Callable[[Log, FaultStrike, np.random.Generator], DamagedLog]
     detect: Callable[[LogFeatures], Iterable[Damage]]
     kinds: tuple[str, ...] = ("quasistatic", "dynamic")
     types: tuple[str, ...] = TYPES
@@ -150,7 +150,12 @@ def rescale_motion(run: Run, pace: Array) -> Run:
 
 
 def select_samples(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
-    """The samples of a run that a mask or a slice keeps."""
+    """The samples of a run that a mask or a slice keeps.
+
+    Args:
+        run: as it was.
+        keep: (n,) a mask, or a slice.
+    """
     return replace(
         run,
         time=run.time[keep],
@@ -167,7 +172,7 @@ def replace_run(log: Log, index: int, run: Run) -> Log:
     return replace(log, runs=(*log.runs[:index], run, *log.runs[index + 1 :]))
 
 
-def fault_of(module: ModuleType, *, name: str) -> Fault:
+def load_fault(module: ModuleType, *, name: str) -> Fault:
     """The fault that a file of ``sim/inspect/faults`` offers, once it is sure that it is one.
 
     Args:
@@ -179,7 +184,7 @@ def fault_of(module: ModuleType, *, name: str) -> Fault:
     """
     found = getattr(module, "FAULT", None)
     if isinstance(found, Fault):
-        broken = _broken(found, name=name, caption=module.__doc__ or "")
+        broken = _contract_breaches(found, name=name, caption=module.__doc__ or "")
     else:
         broken = ["offers no FAULT = Fault(...)"]
     if broken or not isinstance(found, Fault):
@@ -191,7 +196,7 @@ def fault_of(module: ModuleType, *, name: str) -> Fault:
     return found
 
 
-def _broken(fault: Fault, *, name: str, caption: str) -> list[str]:
+def _contract_breaches(fault: Fault, *, name: str, caption: str) -> list[str]:
     """What a fault's file does not keep of the contract."""
     earliest, latest = fault.when
     rules = {

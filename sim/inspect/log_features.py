@@ -52,7 +52,7 @@ class LogFeatures:
         return float(np.median(np.concatenate(steps))) if steps else float("nan")
 
     @cached_property
-    def slopes(self) -> tuple[Array, ...]:
+    def position_slopes(self) -> tuple[Array, ...]:
         """Per run, (n,) [m/s or rad/s]: the velocity that its positions tell, by central steps."""
         return tuple(
             np.gradient(run.position, run.time) if len(run) > 1 else np.zeros(len(run))
@@ -75,27 +75,27 @@ class LogFeatures:
         return _smallest_step([run.velocity for run in self.log.runs])
 
     @cached_property
-    def seems(self) -> tuple[str, ...]:
+    def recognized_tests(self) -> tuple[str, ...]:
         """Per run, the test that its voltage and its motion make it: ``quasistatic-forward``.
 
         What they do not tell is taken from the name it is filed under: the direction where voltage
         and motion disagree, and everything about a test that is neither a ramp nor a step.
         """
-        return tuple(_seems(run) for run in self.log.runs)
+        return tuple(_recognize_test(run) for run in self.log.runs)
 
     @cached_property
-    def standing(self) -> tuple[int, ...]:
+    def rest_lengths(self) -> tuple[int, ...]:
         """Per run, how many samples its position stands from the start; 0 if it never leaves."""
-        return tuple(_standing(run, step=self.position_step) for run in self.log.runs)
+        return tuple(_rest_length(run, step=self.position_step) for run in self.log.runs)
 
     @cached_property
-    def scales(self) -> tuple[float, ...]:
+    def distance_ratios(self) -> tuple[float, ...]:
         """Per run, the distance its velocities sum up to over what its position changes.
 
         1 where a run moves too little to tell.
         """
         both = zip(self.log.runs, self.moving, strict=True)
-        return tuple(_scale(run, moving) for run, moving in both)
+        return tuple(_distance_ratio(run, moving) for run, moving in both)
 
     @cached_property
     def velocity_lag(self) -> VelocityLag | None:
@@ -122,7 +122,7 @@ class LogFeatures:
         return float(np.median(third) / NORMAL / WHITE) if third.size else 0.0
 
     @cached_property
-    def still(self) -> float:
+    def still_speed(self) -> float:
         """[m/s or rad/s] a speed that tells motion from standstill."""
         top = max((run.top_speed for run in self.log.runs), default=0.0)
         return STANDING * top + 3.0 * self.noise
@@ -132,15 +132,17 @@ class LogFeatures:
         """Which voltage its motion needs, by most of the log; None if the log cannot tell."""
         if np.count_nonzero(self.copied) > len(self.copied) / 2:
             return None
-        return fit_baseline(self.log.runs, still=self.still, period=self.period)
+        return fit_baseline(self.log.runs, still=self.still_speed, period=self.period)
 
     @cached_property
-    def expected(self) -> tuple[Array, ...]:
+    def predicted_velocities(self) -> tuple[Array, ...]:
         """Per run, (n,) [m/s or rad/s]: the velocity its voltage should bring; () if untold."""
         if self.baseline is None:
             return ()
         return tuple(
-            predict_velocity(run, self.baseline, still=self.still) if len(run) else np.zeros(0)
+            predict_velocity(run, self.baseline, still=self.still_speed)
+            if len(run)
+            else np.zeros(0)
             for run in self.log.runs
         )
 
@@ -151,9 +153,9 @@ class LogFeatures:
             return ()
         return find_anomalies(
             self.log.runs,
-            self.expected,
+            self.predicted_velocities,
             self.baseline,
-            still=self.still,
+            still=self.still_speed,
             noise=self.noise,
             period=self.period,
         )
@@ -164,7 +166,7 @@ class LogFeatures:
 
         The median over the dynamic tests, from the last sample at rest; delays are part of it.
         """
-        rises = [_rise(run) for run in self.log.runs if run.kind == "dynamic" and len(run)]
+        rises = [_rise_time(run) for run in self.log.runs if run.kind == "dynamic" and len(run)]
         rises = [rise for rise in rises if rise > 0.0]
         return float(np.median(rises)) if rises else 0.0
 
@@ -188,7 +190,7 @@ def majority_sign(values: Array) -> int:
     return 0 if abs(mean) < AGREED else int(np.sign(mean))
 
 
-def _seems(run: Run) -> str:
+def _recognize_test(run: Run) -> str:
     if run.kind not in ("quasistatic", "dynamic"):
         return run.test
     size = np.abs(run.voltage)
@@ -217,13 +219,13 @@ def _is_line(time: Array, volts: Array) -> bool:
     return bool(np.median(strays) < STRAIGHT * volts.max())
 
 
-def _standing(run: Run, *, step: float) -> int:
+def _rest_length(run: Run, *, step: float) -> int:
     band = max(STEPS * step, CREEP * float(np.ptp(run.position))) if len(run) else 0.0
     away = np.abs(run.position - run.position[:1]) > band
     return int(np.argmax(away)) if away.any() else 0
 
 
-def _scale(run: Run, moving: Flags) -> float:
+def _distance_ratio(run: Run, moving: Flags) -> float:
     """By the usual part of the motion: single slopes of a stale or coarse position mislead."""
     motion = np.flatnonzero(moving)
     parts = min(PARTS, motion.size // LEAST)
@@ -252,7 +254,7 @@ def _copied(run: Run) -> float:
     return factor if left < min(COPIED, CLOSER * found.unexplained) else 0.0
 
 
-def _rise(run: Run) -> float:
+def _rise_time(run: Run) -> float:
     """[s] from rest to 63 % of the top speed; 0 if the run does not start at rest."""
     speed = np.abs(run.velocity)
     up = int(np.argmax(speed > RISEN * run.top_speed))

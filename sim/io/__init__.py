@@ -19,7 +19,7 @@ from typing import NamedTuple, Protocol, cast
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal, UnreadableFile
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
 from sim.io import formats
 from sim.io.entries.entry import Entry
@@ -44,7 +44,7 @@ class _Writer(Format, Protocol):
         """Write the log as a file."""
 
 
-class _Foreign(NamedTuple):
+class _ForeignFormat(NamedTuple):
     """How to know a file that is of no format here, and what to tell its owner."""
 
     starts: tuple[bytes, ...]
@@ -55,35 +55,35 @@ class _Foreign(NamedTuple):
 
 _ROBOT_LOG = "Give the robot's own log: the .wpilog that DataLogManager writes."
 _FOREIGN = (
-    _Foreign(
+    _ForeignFormat(
         (),
         (".hoot",),
         "a log of CTRE's SignalLogger (.hoot), whose inside only CTRE's tools can read",
         "Convert it to WPILOG with Phoenix Tuner X (Log Extractor) or with owlet, and give that.",
     ),
-    _Foreign(
+    _ForeignFormat(
         (b"\x00\x00\x00\x04",),  # both kinds of the Driver Station's files open with their version
         (".dslog", ".dsevents"),
         "a log of the Driver Station, which holds no motor's voltage or position",
         _ROBOT_LOG,
     ),
-    _Foreign(
+    _ForeignFormat(
         (),
         (".revlog", ".rlog"),
         "a log of REV's or AdvantageKit's own format",
         "Open it in AdvantageScope, export it as WPILOG, and give that.",
     ),
-    _Foreign(
+    _ForeignFormat(
         (b"PK\x03\x04", b"PK\x05\x06"),
         (),
         "a zip archive or a workbook of a spreadsheet program",
         "Unpack it, or save the sheet as CSV.",
     ),
-    _Foreign((b"\x1f\x8b",), (), "packed with gzip", "Unpack it first."),
-    _Foreign((b"\x89PNG", b"\xff\xd8\xff", b"GIF8"), (), "a picture", _ROBOT_LOG),
-    _Foreign((b"%PDF",), (), "a PDF document", _ROBOT_LOG),
-    _Foreign((b"\xff\xfe", b"\xfe\xff"), (), "text in UTF-16", "Save it as UTF-8."),
-    _Foreign(
+    _ForeignFormat((b"\x1f\x8b",), (), "packed with gzip", "Unpack it first."),
+    _ForeignFormat((b"\x89PNG", b"\xff\xd8\xff", b"GIF8"), (), "a picture", _ROBOT_LOG),
+    _ForeignFormat((b"%PDF",), (), "a PDF document", _ROBOT_LOG),
+    _ForeignFormat((b"\xff\xfe", b"\xfe\xff"), (), "text in UTF-16", "Save it as UTF-8."),
+    _ForeignFormat(
         (b"<!doctype html", b"<html"),
         (),
         "a web page (HTML)",
@@ -121,15 +121,15 @@ def read(
     if type is not None and type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
     asked = ReadOptions(
-        units=None if units is None else unit(units).name,
+        units=None if units is None else find_unit(units).name,
         type=type,
         motor=motor,
         entries=dict(entries or {}),
     )
     given = os.fspath(path)
-    with _named(given):
+    with _name_file_in_refusals(given):
         log = _reader(Path(given), _head(given)).read(Path(given), asked)
-    return _typed(replace(log, source=given), type)
+    return _set_type(replace(log, source=given), type)
 
 
 def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
@@ -143,7 +143,7 @@ def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
         BadRequest: a log of its format has no entries with names of their own.
     """
     given = os.fspath(path)
-    with _named(given):
+    with _name_file_in_refusals(given):
         module = _reader(Path(given), _head(given))
         if not hasattr(module, "entries"):
             raise BadRequest(
@@ -154,7 +154,7 @@ def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
 
 
 @contextmanager
-def _named(given: str) -> Iterator[None]:
+def _name_file_in_refusals(given: str) -> Iterator[None]:
     """Every refusal names the file as it was given."""
     try:
         yield
@@ -179,6 +179,16 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
     Raises:
         BadRequest: no format with this suffix can be written, the file cannot be, or the log
             holds what the format cannot.
+
+    Examples:
+        >>> import tempfile
+        >>> from sim.core.log import Log, Run
+        >>> folder = tempfile.TemporaryDirectory()
+        >>> run = Run("dynamic-forward", [0.0, 0.02], [7.0, 7.0], [0.0, 0.0], [0.0, 1.0])
+        >>> write(Log((run,)), f"{folder.name}/log.csv")
+        >>> read(f"{folder.name}/log.csv").runs[0].velocity
+        array([0., 1.])
+        >>> folder.cleanup()
     """
     given = os.fspath(path)
     if "\0" in given:
@@ -201,7 +211,7 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
         ) from None
 
 
-def _typed(log: Log, wanted: str | None) -> Log:
+def _set_type(log: Log, wanted: str | None) -> Log:
     """The log with the type a person asked for, and a doubt if its file says another."""
     if wanted is None or wanted == log.type:
         return log
@@ -212,10 +222,10 @@ def _typed(log: Log, wanted: str | None) -> Log:
         f"{log.source} says it is of type {log.type}; it is taken as {wanted}, as you asked. "
         "Leave out the type to follow the file.",
     )
-    return replace(log, type=wanted).with_doubts(doubt)
+    return replace(log, type=wanted).add_doubts(doubt)
 
 
-def _modules(path: str) -> Iterator[tuple[str, Format]]:
+def _order_formats(path: str) -> Iterator[tuple[str, Format]]:
     """Every format by name, first those that share the suffix, so that few are imported."""
     ending = Path(path).suffix.lower().lstrip(".")
     for name in sorted(FORMATS, key=lambda name: not (ending and name.endswith(ending))):
@@ -224,10 +234,10 @@ def _modules(path: str) -> Iterator[tuple[str, Format]]:
 
 def _reader(path: Path, head: bytes) -> Format:
     """The format of a file that starts with ``head``."""
-    modules = _modules(path.name)
+    modules = _order_formats(path.name)
     seen = []
     for _, module in modules:
-        if module.knows(head):
+        if module.recognizes(head):
             return module
         seen.append(module)
     suffix = path.suffix.lower()
@@ -253,7 +263,7 @@ def _reader(path: Path, head: bytes) -> Format:
 def _writer(given: str) -> _Writer:
     """The format whose suffix ends the path."""
     writable: list[str] = []
-    for _, module in _modules(given):
+    for _, module in _order_formats(given):
         if hasattr(module, "write"):
             if given.lower().endswith(module.SUFFIXES):
                 return cast("_Writer", module)
@@ -284,7 +294,7 @@ def _head(given: str) -> bytes:
         with path.open("rb") as stream:
             return stream.read(HEAD)
     except (FileNotFoundError, NotADirectoryError):
-        raise UnreadableFile("there is no such file", advice=_neighbour(path)) from None
+        raise UnreadableFile("there is no such file", advice=_advise_similar_path(path)) from None
     except PermissionError:
         raise UnreadableFile(
             "you may not read this file", advice="Change its permissions, or copy it."
@@ -295,7 +305,7 @@ def _head(given: str) -> bytes:
         ) from None
 
 
-def _neighbour(path: Path) -> str:
+def _advise_similar_path(path: Path) -> str:
     """Advice for a path that leads nowhere: the name it is likely to mean, if there is one."""
     with suppress(OSError):
         names = [entry.name for entry in path.parent.iterdir() if entry.is_file()]

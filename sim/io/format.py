@@ -3,8 +3,8 @@
 A module offers
 
     SUFFIXES : tuple[str, ...]                 endings of its files, lower case: (".wpilog",)
-    def knows(head: bytes) -> bool             whether a file that starts like this is its own
-    def read(path: Path, asked: Reading) -> Log
+    def recognizes(head: bytes) -> bool        whether a file that starts like this is its own
+    def read(path: Path, asked: ReadOptions) -> Log
     def write(log: Log, path: Path) -> None    optional: some formats are only read
     def entries(path: Path) -> list[Entry]     optional: where a log has entries with names
 
@@ -22,7 +22,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadSample
 from sim.core.log import LARGEST, Array, Log, Run
 
-HEAD = 4096  # [bytes] how much of a file `knows` is shown
+HEAD = 4096  # [bytes] how much of a file `recognizes` is shown
 
 
 @dataclass(frozen=True)
@@ -53,14 +53,14 @@ class Format(Protocol):
 
     SUFFIXES: tuple[str, ...]
 
-    def knows(self, head: bytes) -> bool:
+    def recognizes(self, head: bytes) -> bool:
         """Whether a file whose first bytes are ``head`` is of this format."""
 
     def read(self, path: Path, asked: ReadOptions) -> Log:
         """Read a file."""
 
 
-def lone_motor(asked: ReadOptions, *, where: str) -> tuple[Doubt, ...]:
+def doubt_motor_choice(asked: ReadOptions, *, where: str) -> tuple[Doubt, ...]:
     """A doubt if a motor was asked for in a file that holds the signals of one only."""
     if asked.motor is None:
         return ()
@@ -73,7 +73,7 @@ def lone_motor(asked: ReadOptions, *, where: str) -> tuple[Doubt, ...]:
     )
 
 
-def sound_run(
+def make_run(
     test: str, signals: Mapping[str, Array], *, si: float, where: str
 ) -> tuple[Run, tuple[Doubt, ...]]:
     """Make a Run of raw columns: refuse what is no measurement, drop repeated times, go to SI.

@@ -7,8 +7,8 @@ arguments, and are compiled into the engine (``engine/``). *Backward* is how it 
 looks like, where a search for its parameters starts, which test tells it from its look-alikes.
 
 A module of ``effects/`` defines one as ``EFFECT``. What a function may ask for, besides the
-effect's own parameters, is listed in ``ASKS``; a function that asks for anything else is refused
-with a sentence.
+effect's own parameters, is listed in ``HOOK_ARGUMENTS``; a function that asks for anything else is
+refused with a sentence.
 """
 
 import inspect
@@ -22,7 +22,7 @@ from sim.physics.voltage_residual import VoltageResidual
 KINDS = ("term", "path", "sense", "two-body")
 ONSET, UNTIL = "onset", "until"  # parameters of what happens once
 
-ASKS: Mapping[str, tuple[str, ...]] = {
+HOOK_ARGUMENTS: Mapping[str, tuple[str, ...]] = {
     # a term: volts that the motor must pay on top of kS, kV and kA
     "force": ("x", "v"),
     # dry friction beyond kS [V] when moving, or about to move, toward ``way`` (+1 or -1)
@@ -32,17 +32,17 @@ ASKS: Mapping[str, tuple[str, ...]] = {
     # share of the momentum that what joins takes from what moves: 1 if it was at rest
     "impact": (),
     # [s] of the clock at which inertia changes next: no step of the engine goes across it
-    "changes": ("clock",),
+    "next_change": ("clock",),
     # a path: the voltage that gets through, from the voltage ``u`` that arrives
     "transform_voltage": ("u", "v", "kv", "memory"),
     # [s] by which a command comes late
-    "late": (),
+    "command_delay": (),
     # the next ``memory`` of an effect that has one, after ``dt`` [s] under the voltage ``u``
-    "remembers": ("memory", "dt", "u", "v", "kv"),
+    "update_memory": ("memory", "dt", "u", "v", "kv"),
     # two bodies: free play [unit], softness [unit/V] of what joins them, motor's share of kA [1]
-    "slack": (),
-    "softness": (),
-    "share": (),
+    "backlash_gap": (),
+    "joint_compliance": (),
+    "motor_inertia_share": (),
     # a sense: what the sensor says instead of ``seen``, from the motion up to sample ``now``
     "transform_velocity": ("seen", "now", "time", "position", "velocity"),
 }
@@ -123,19 +123,19 @@ class Effect:
         inspect: what to look at on the robot.
         apart: look-alike -> the test that tells the two apart.
         example: parameters of an ordinary case of a given size; 1 is ordinary, more is stronger.
-        starts: where to begin a search, from what a log shows; the best guess first.
-        acts: hook -> function; the hooks and what they may ask for are in ``ASKS``.
+        start_values: where to begin a search, from what a log shows; the best guess first.
+        hooks: hook -> function; the hooks and what they may ask for are in ``HOOK_ARGUMENTS``.
         symmetric: mirrored volts give mirrored motion, whatever the parameters.
-        stores: [V·unit] energy that it holds at a position, for what can give energy back: a
+        stored_energy: [V·unit] energy that it holds at a position, for what can give energy back: a
             function of ``x`` and the parameters. ``force`` is its slope.
-        pace: [s] the fastest it acts, from parameters and gains; None if it is never fast.
-        span: [unit] way along which it stays much the same, from parameters, for what depends on
-            places: its steps are long where the motion is slow. None if it has none.
+        fastest_time: [s] the fastest it acts, from parameters and gains; None if it is never fast.
+        shortest_length: [unit] way along which it stays much the same, from parameters, for what
+            depends on places: its steps are long where the motion is slow. None if it has none.
         order: where it stands along the path from command to motor, for a path.
-        cannot: why a mechanism cannot have it, from its scale; empty if it can.
+        reason_against: why a mechanism cannot have it, from its scale; empty if it can.
         simpler: the effect with fewer parameters that does about the same; empty if there is none.
-        simplified: its parameters, from this one's and what a log shows.
-        everyday: whether it is as small, with these parameters, as on any robot in good order.
+        simplify: its parameters, from this one's and what a log shows.
+        is_ordinary: whether it is as small, with these parameters, as on any robot in good order.
     """
 
     name: str
@@ -147,19 +147,19 @@ class Effect:
     inspect: str
     apart: Mapping[str, str]
     example: Callable[[Scale, float], Mapping[str, float]]
-    starts: Callable[[VoltageResidual], Iterable[Mapping[str, float]]]
-    acts: Mapping[str, Callable[..., Any]]
+    start_values: Callable[[VoltageResidual], Iterable[Mapping[str, float]]]
+    hooks: Mapping[str, Callable[..., Any]]
     symmetric: bool = True
-    stores: Callable[..., float] | None = None
-    pace: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
-    span: Callable[[Mapping[str, float]], float] | None = None
+    stored_energy: Callable[..., float] | None = None
+    fastest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
+    shortest_length: Callable[[Mapping[str, float]], float] | None = None
     order: int = 0
-    cannot: Callable[[Scale], str] = field(default=lambda _: "")
+    reason_against: Callable[[Scale], str] = field(default=lambda _: "")
     simpler: str = ""
-    simplified: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(
+    simplify: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(
         default=lambda _values, _seen: {}
     )
-    everyday: Callable[[Mapping[str, float]], bool] = field(default=lambda _: False)
+    is_ordinary: Callable[[Mapping[str, float]], bool] = field(default=lambda _: False)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -167,7 +167,7 @@ class Effect:
         return tuple(parameter.name for parameter in self.parameters)
 
     @property
-    def happens(self) -> bool:
+    def has_onset(self) -> bool:
         """Whether it begins at a moment and may be over at another: inertia that joins does."""
         return {ONSET, UNTIL} <= set(self.names)
 
@@ -176,24 +176,26 @@ class Effect:
         """Parameters with which it is not there."""
         return {parameter.name: parameter.neutral for parameter in self.parameters}
 
-    def faults(self) -> list[str]:
+    def contract_breaches(self) -> list[str]:
         """What is wrong with this effect as it is written; empty if nothing is."""
         found = []
         if self.kind not in KINDS:
             found.append(f"kind is {self.kind!r}; choose one of: {', '.join(KINDS)}")
-        if not self.acts:
-            found.append(f"acts is empty; give one of: {', '.join(ASKS)}")
-        for hook, act in self.acts.items():
-            if hook not in ASKS:
-                found.append(f"acts has {hook!r}, which is not one of: {', '.join(ASKS)}")
+        if not self.hooks:
+            found.append(f"hooks is empty; give one of: {', '.join(HOOK_ARGUMENTS)}")
+        for hook, act in self.hooks.items():
+            if hook not in HOOK_ARGUMENTS:
+                found.append(
+                    f"hooks has {hook!r}, which is not one of: {', '.join(HOOK_ARGUMENTS)}"
+                )
                 continue
-            known = (*ASKS[hook], *self.names)
+            known = (*HOOK_ARGUMENTS[hook], *self.names)
             asked = inspect.signature(act).parameters
             found.extend(
                 f"{hook} asks for {name!r}; it may ask for: {', '.join(known)}"
                 for name in asked
                 if name not in known
             )
-        if "transform_voltage" in self.acts and not self.order:
+        if "transform_voltage" in self.hooks and not self.order:
             found.append("order is 0; say where on the path from command to motor it stands")
         return found

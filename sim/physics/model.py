@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from sim.core.errors import BadRequest
 from sim.core.log import TYPES
 from sim.core.units import Unit
-from sim.physics.effects import effect as find
+from sim.physics.effects import find_effect as find
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Part:
                     advice=f"Choose {parameter.least:g} to {parameter.most:g}.",
                 )
 
-    def said(self, per: Unit) -> dict[str, dict[str, float | str]]:
+    def to_json(self, per: Unit) -> dict[str, dict[str, float | str]]:
         """The parameters in the owner's unit: name -> its value and its unit, for JSON.
 
         Args:
@@ -68,6 +68,12 @@ class Model:
         gains: kS [V], kV, kA, and kG [V] (with ``offset_rad`` for an arm) where there is gravity.
         parts: the effects on top; each at most once.
         travel: [m or rad] the lower and the upper stop; None has none.
+
+    Examples:
+        >>> plain = Model("simple", {"kS": 0.1, "kV": 2.5, "kA": 0.4})
+        >>> model = plain + Part("drag", {"drag": 0.02})
+        >>> [part.effect for part in model.parts]
+        ['drag']
     """
 
     type: str

@@ -70,11 +70,15 @@ MOTORS: dict[str, Motor] = {
 }
 
 
-def motor(name: str) -> Motor:
+def find_motor(name: str) -> Motor:
     """Look up a motor.
 
     Raises:
         BadRequest: no such motor; the message lists those there are.
+
+    Examples:
+        >>> find_motor("neo").stall_torque  # [N·m]
+        2.6
     """
     if name not in MOTORS:
         raise BadRequest(f"unknown motor {name!r}", advice=f"Choose one of: {', '.join(MOTORS)}.")
@@ -91,5 +95,9 @@ def theoretical_kv(of: Motor, *, ratio: float, radius: float | None = None) -> f
 
     Returns:
         [V·s/m], or [V·s/rad] without a radius. The exact back-EMF constant gives 0.4 to 2 % less.
+
+    Examples:
+        >>> round(theoretical_kv(find_motor("krakenX60"), ratio=6.75, radius=0.0508), 2)  # [V·s/m]
+        2.54
     """
     return NOMINAL / of.free_speed * ratio / (radius or 1.0)

@@ -2,12 +2,12 @@
 
 from sim.core.log import Log
 from sim.physics.effects import EFFECTS
-from sim.physics.engine import ORDER, State, Track, move
+from sim.physics.engine import ORDER, State, Track, simulate_run
 from sim.physics.model import Model
 from sim.physics.voltage_residual import run_start_times
 
 
-def replay(model: Model, log: Log, *, step: float | None = None) -> tuple[Track, ...]:
+def replay_log(model: Model, log: Log, *, step: float | None = None) -> tuple[Track, ...]:
     """Simulate a model under a log's voltages, open loop.
 
     Args:
@@ -18,17 +18,26 @@ def replay(model: Model, log: Log, *, step: float | None = None) -> tuple[Track,
 
     Returns:
         One track for each run.
+
+    Examples:
+        >>> from sim.core.log import Run
+        >>> run = Run("dynamic-forward", [0.0, 1.0, 2.0], [4.2] * 3, [0.0] * 3, [0.0] * 3)
+        >>> (track,) = replay_log(Model("simple", {"kS": 0.2, "kV": 2.0, "kA": 0.1}), Log((run,)))
+        >>> track.velocity.round(3)
+        array([0., 2., 2.])
     """
     state, tracks = State(), []
     for run, clock in zip(log.runs, run_start_times(log).tolist(), strict=True):
-        let_cool(state, model, clock - state.clock)
+        cool_down(state, model, clock - state.clock)
         state.clock = clock
-        state.body[:] = State.at(float(run.position[0]), float(run.velocity[0])).body
-        tracks.append(move(model, time=run.time, voltage=run.voltage, state=state, step=step))
+        state.body[:] = State.cold_at(float(run.position[0]), float(run.velocity[0])).body
+        tracks.append(
+            simulate_run(model, time=run.time, voltage=run.voltage, state=state, step=step)
+        )
     return tuple(tracks)
 
 
-def let_cool(state: State, model: Model, pause: float) -> None:
+def cool_down(state: State, model: Model, pause: float) -> None:
     """Let time pass without voltage or motion, so that the motor cools.
 
     Args:
@@ -39,12 +48,12 @@ def let_cool(state: State, model: Model, pause: float) -> None:
     if pause <= 0.0:
         return
     for part in model.parts:
-        remembers = EFFECTS[part.effect].acts.get("remembers")
-        if remembers is not None:
+        update = EFFECTS[part.effect].hooks.get("update_memory")
+        if update is not None:
             place = ORDER[part.effect]
             given = {
                 "memory": float(state.memory[place]), "dt": pause, "u": 0.0, "v": 0.0,
                 "kv": model.gains["kV"], **part.parameters,
             }  # fmt: skip
-            asked = remembers.__code__.co_varnames[: remembers.__code__.co_argcount]
-            state.memory[place] = remembers(**{name: given[name] for name in asked})
+            asked = update.__code__.co_varnames[: update.__code__.co_argcount]
+            state.memory[place] = update(**{name: given[name] for name in asked})

@@ -2,8 +2,8 @@
 
     missing = V - (kS·sgn(v) + kV·v + kA·a + gravity)
 
-An effect starts its search from this (``Effect.starts``). The acceleration is taken over a few
-samples, so that noise does not drown what is looked for; where the mechanism does not move,
+An effect starts its search from this (``Effect.start_values``). The acceleration is taken over a
+few samples, so that noise does not drown what is looked for; where the mechanism does not move,
 friction is a bound and not a value, and nothing is said.
 """
 
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 
 ACROSS = 0.04  # [s] that a difference of velocities spans, at least two samples
 ENDLESS = 8.0 * np.pi  # [rad] four turns: more than any arm or turret, soon done by a wheel
@@ -54,16 +54,16 @@ class VoltageResidual:
     missing: Array
 
     @property
-    def speed(self) -> float:
+    def top_speed(self) -> float:
         """[m/s or rad/s] the fastest there was."""
         return float(np.max(np.abs(self.velocity), initial=0.0))
 
     @property
-    def endless(self) -> bool:
+    def is_unbounded(self) -> bool:
         """Whether it turned so often that nothing can hold it to a place."""
-        return unit(self.log.units).angular and bool(np.ptp(self.position) > ENDLESS)
+        return find_unit(self.log.units).angular and bool(np.ptp(self.position) > ENDLESS)
 
-    def every(self, some: slice) -> "VoltageResidual":
+    def thin(self, some: slice) -> "VoltageResidual":
         """Some of the samples."""
         arrays = {
             name: getattr(self, name)[some]
@@ -74,15 +74,15 @@ class VoltageResidual:
         }  # fmt: skip
         return replace(self, **arrays)
 
-    def share(self, *columns: Array) -> Array:
+    def fit_columns(self, *columns: Array) -> Array:
         """Least-squares weights with which columns (n,) sum up to ``missing``; the gains adjust.
 
         A column that looks like friction, back-EMF, inertia or a constant is not credited with what
         those can explain by themselves: they are in the sum, and forgotten.
         """
-        return np.asarray(self.shares(*(column[:, None] for column in columns))[:, 0])
+        return np.asarray(self.fit_column_sums(*(column[:, None] for column in columns))[:, 0])
 
-    def shares(self, *columns: Array) -> Array:
+    def fit_column_sums(self, *columns: Array) -> Array:
         """(k, m) such weights of m sums of k columns (n, m): one sum after another, by itself."""
         kept, rest = self._adjusted
         table = np.stack(columns)
@@ -97,10 +97,10 @@ class VoltageResidual:
         parts /= np.where(told > HARDLY, told, np.inf)[..., None]
         return np.asarray((ways @ parts)[..., 0].T / size)
 
-    def explained(self, column: Array) -> tuple[float, float]:
+    def fit_one_column(self, column: Array) -> tuple[float, float]:
         """The weight of one column (n,), and the sum of squares [V²] of ``missing`` that it takes.
 
-        The gains adjust, as in ``share``.
+        The gains adjust, as in ``fit_columns``.
         """
         kept, rest = self._adjusted
         left = column - kept @ (kept.T @ column)
@@ -159,12 +159,12 @@ def run_start_times(log: Log) -> Array:
     """
     first = np.array([run.time[0] for run in log.runs])
     last = np.array([run.time[-1] for run in log.runs])
-    if share_a_clock(log):
+    if shares_clock(log):
         return np.asarray(first - first[0])
     return np.concatenate(([0.0], np.cumsum(last - first)[:-1]))
 
 
-def share_a_clock(log: Log) -> bool:
+def shares_clock(log: Log) -> bool:
     """Whether the runs share one clock, so that the pauses between them are known.
 
     Where they do not, nobody knows how long a motor cooled: each run is taken to begin cold.

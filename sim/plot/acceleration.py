@@ -9,17 +9,17 @@ import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.core.log import FOUR_TESTS, Array, Log
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.fit.sysid_rows import Rows, prepare_rows
 from sim.plot.decimate import decimate_cloud
-from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, add_legend, make_panels
 from sim.plot.table import Table, to_text
 
 MOST = 300  # samples of a test that are drawn
 FEWEST = 3  # samples that a straight line can miss
 
 
-def acceleration_velocity(
+def plot_acceleration_velocity(
     log: Log, *, gains: Mapping[str, float] | None = None, median: int = 1
 ) -> Picture:
     """Acceleration over velocity of the rows that SysId's regression uses.
@@ -50,11 +50,11 @@ def acceleration_velocity(
     """
     if gains is not None:
         _checked(gains)
-    per = unit(log.units)
+    per = find_unit(log.units)
     rows = prepare_rows(log, median=median).rows
     speeds = {test: rows[test].velocity / per.si for test in FOUR_TESTS}
     heights = {test: _height(rows[test], gains, type=log.type) / per.si for test in FOUR_TESTS}
-    figure, ((axes,),) = panels(1, 1, height=3.8)
+    figure, ((axes,),) = make_panels(1, 1, height=3.8)
     for index, test in enumerate(FOUR_TESTS):
         kept = decimate_cloud(speeds[test], heights[test], most=MOST)
         axes.plot(
@@ -74,7 +74,7 @@ def acceleration_velocity(
     what = "acceleration" if gains is None else "acceleration by back-EMF"
     axes.set_xlabel(f"velocity [{per.symbol}/s]", color=INK)
     axes.set_ylabel(f"{what} [{per.symbol}/s²]", color=INK)
-    legend(figure, [axes])
+    add_legend(figure, [axes])
     table = _table(speeds, heights, gains, per)
     return Picture(figure, _words(table, gains, per), table)
 

@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from sim.core.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.fit.sysid_rows import Rows, prepare_rows
 from sim.plot.decimate import decimate_cloud, decimate_curve
-from sim.plot.picture import COLORS, INK, LINES, REFERENCE, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, LINES, REFERENCE, Picture, add_legend, make_panels
 from sim.plot.table import Table
 
 KINDS = ("quasistatic", "dynamic")
@@ -22,7 +22,7 @@ MOST_CURVE = 1000  # samples of a curve that are drawn: a panel has fewer pixels
 FAINT = "#767676"  # what is there for comparison; the palest gray that is still easy to see
 
 
-def velocity_time(
+def plot_velocity_time(
     log: Log,
     *,
     median: int = 1,
@@ -47,14 +47,16 @@ def velocity_time(
         BadRequest: SysId offers no such window.
         NotIdentifiable: SysId's recipe cannot use this log.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     rows = prepare_rows(log, median=median).rows
-    figure, grid = panels(2, 2, height=4.6)
+    figure, grid = make_panels(2, 2, height=4.6)
     for column, kind in enumerate(KINDS):
         for row, way in enumerate(DIRECTIONS):
             test = f"{kind}-{way}"
-            other = beside.of(test)[0] if beside and beside.of(test) else None
-            _draw(grid[row][column], log.of(test)[0], rows[test], other, name=name, per=per)
+            other = beside.runs_of_test(test)[0] if beside and beside.runs_of_test(test) else None
+            _draw(
+                grid[row][column], log.runs_of_test(test)[0], rows[test], other, name=name, per=per
+            )
     for axes in grid[-1]:
         axes.set_xlabel("time since the test began [s]", color=INK)
     for line in grid:
@@ -62,7 +64,7 @@ def velocity_time(
     if dynamic_seconds is not None:
         for line in grid:
             line[1].set_xlim(-0.02 * dynamic_seconds, dynamic_seconds)
-    legend(figure, [axes for line in grid for axes in line])
+    add_legend(figure, [axes for line in grid for axes in line])
     table = _table(log, rows, beside, name=name, per=per)
     return Picture(figure, _words(log, rows, beside, median=median, name=name, per=per), table)
 
@@ -103,9 +105,9 @@ def _curve(
 
 def _miss(run: Run, beside: Log | None) -> float | None:
     """[m/s or rad/s] root mean square between a run and what a model makes of it."""
-    if beside is None or not beside.of(run.test):
+    if beside is None or not beside.runs_of_test(run.test):
         return None
-    other = beside.of(run.test)[0]
+    other = beside.runs_of_test(run.test)[0]
     model = np.interp(run.time - run.time[0], other.time - other.time[0], other.velocity)
     return float(np.sqrt(np.mean((run.velocity - model) ** 2)))
 
@@ -116,7 +118,7 @@ def _table(
     header = ("test", "recorded", "used", "from [s]", "to [s]", f"fastest used [{per.symbol}/s]")
     lines = []
     for test in FOUR_TESTS:
-        run, used = log.of(test)[0], rows[test]
+        run, used = log.runs_of_test(test)[0], rows[test]
         fastest = float(used.velocity[np.argmax(np.abs(used.velocity))]) / per.si
         start, end = (float(used.time[i] - run.time[0]) for i in (0, -1))
         miss = _miss(run, beside)
@@ -143,7 +145,7 @@ def _words(
     if beside is not None:
         said += f" A thin dashed line is the {name}."
     for test in FOUR_TESTS:
-        run, used = log.of(test)[0], rows[test]
+        run, used = log.runs_of_test(test)[0], rows[test]
         said += f" Of {test} {len(used)} of {len(run)} samples are used, from "
         said += f"{used.time[0] - run.time[0]:.2f} to {used.time[-1] - run.time[0]:.2f} s of "
         said += f"{run.time[-1] - run.time[0]:.2f} s"

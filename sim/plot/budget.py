@@ -7,14 +7,14 @@ from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, add_legend, make_panels
 from sim.plot.table import Table, to_text
 
 HATCHES = ("", "//", "..", "xx")  # a texture beside each color
 TABLE_ROWS = 6  # moments that the table shows
 
 
-def budget(
+def plot_budget(
     time: Array, terms: Mapping[str, Array], *, applied: Array, moment: float | None = None
 ) -> Picture:
     """Terms of the model as areas on top of each other, under the voltage that was applied.
@@ -35,7 +35,7 @@ def budget(
         raise BadRequest(
             "every term needs one value for each time", advice="Give one or more, of equal length."
         )
-    figure, ((axes,),) = panels(1, 1, height=3.6)
+    figure, ((axes,),) = make_panels(1, 1, height=3.6)
     _stack(axes, time, terms)
     axes.plot(time, applied, color=REFERENCE, linewidth=1.6, label="applied")
     axes.axhline(0.0, color=INK, linewidth=0.8)
@@ -43,7 +43,7 @@ def budget(
         axes.axvline(moment, color=INK, linestyle=":", linewidth=1.4, label=f"at {moment:g} s")
     axes.set_xlabel("time [s]", color=INK)
     axes.set_ylabel("voltage [V]", color=INK)
-    legend(figure, (axes,), columns=len(terms) + 2)
+    add_legend(figure, (axes,), columns=len(terms) + 2)
     table = _table(time, terms, applied, moment)
     return Picture(figure, _words(time, terms, applied, moment), table)
 

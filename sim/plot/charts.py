@@ -7,14 +7,14 @@ from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture, panels
+from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture, make_panels
 from sim.plot.table import Cell, Table, to_text
 
 WINDOW = 0.25  # [share of the truth] always shown around it, so that a small error looks small
 TABLE_ROWS = 8  # of a curve: a table is read, not scanned
 
 
-def choices(
+def plot_choices(
     values: Mapping[str, float],
     *,
     truth: float,
@@ -36,7 +36,7 @@ def choices(
     """
     if not values:
         raise BadRequest("there is nothing to compare", advice="Give at least one value.")
-    figure, ((axes,),) = panels(1, 1, height=0.9 + 0.36 * len(values))
+    figure, ((axes,),) = make_panels(1, 1, height=0.9 + 0.36 * len(values))
     axes.axvline(truth, color=REFERENCE, linestyle="--", linewidth=1.2)
     rows = []
     for place, (way, value) in enumerate(values.items()):
@@ -71,7 +71,7 @@ def _dot(axes: Axes, place: int, value: float, *, spread: float) -> None:
     )  # fmt: skip
 
 
-def curves(
+def plot_curves(
     x: Sequence[float] | Array,
     lines: Mapping[str, Sequence[float] | Array],
     *,
@@ -97,7 +97,7 @@ def curves(
         raise BadRequest(
             "every curve needs one value for each x", advice="Give one or more, of equal length."
         )
-    figure, ((axes,),) = panels(1, 1)
+    figure, ((axes,),) = make_panels(1, 1)
     few = -(-len(x) // TABLE_ROWS)
     for index, (name, y) in enumerate(lines.items()):
         axes.plot(
@@ -128,7 +128,7 @@ def curves(
     return Picture(figure, " ".join(said), Table((xlabel, *lines), rows, caption=ylabel))
 
 
-def misses(
+def plot_misses(
     x: Sequence[float] | Array,
     y: Sequence[float] | Array,
     *,
@@ -149,7 +149,7 @@ def misses(
     """
     across, up = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     said = intercept + slope * across
-    figure, ((axes,),) = panels(1, 1)
+    figure, ((axes,),) = make_panels(1, 1)
     ends = np.array([0.0, 1.05 * across.max()])
     axes.plot(ends, intercept + slope * ends, color=COLORS[1], linestyle="--", label="the line")
     axes.vlines(across, said, up, color=COLORS[3], linewidth=2.5, label="misses")

@@ -6,14 +6,14 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from sim.core.errors import BadRequest
-from sim.plot.picture import COLORS, INK, Picture, panels
+from sim.plot.picture import COLORS, INK, Picture, make_panels
 from sim.plot.table import Table
 
 NAMED = 40  # students whose names still can be read beside their rows
 BINS = 10
 
 
-def score_histogram(shares: Sequence[float]) -> Picture:
+def plot_score_histogram(shares: Sequence[float]) -> Picture:
     """How many students earned which share of all points.
 
     Args:
@@ -26,7 +26,7 @@ def score_histogram(shares: Sequence[float]) -> Picture:
         raise BadRequest("nobody was graded", advice="Grade somebody first.")
     edges = np.linspace(0.0, 1.0, BINS + 1)
     counts, _ = np.histogram(np.clip(shares, 0.0, 1.0), edges)
-    figure, ((axes,),) = panels(1, 1, height=2.4)
+    figure, ((axes,),) = make_panels(1, 1, height=2.4)
     axes.bar(100 * edges[:-1] + 50 / BINS, counts, width=90 / BINS, color=COLORS[0], edgecolor=INK)
     axes.set_xlabel("share of all points [%]", color=INK)
     axes.set_ylabel("students", color=INK)
@@ -43,7 +43,7 @@ def score_histogram(shares: Sequence[float]) -> Picture:
     return Picture(figure, alt, Table(("share [%]", "students"), rows))
 
 
-def score_heatmap(
+def plot_score_heatmap(
     students: Sequence[str], exercises: Sequence[str], shares: Sequence[Sequence[float]]
 ) -> Picture:
     """Who earned which share where, the best above.
@@ -61,7 +61,7 @@ def score_heatmap(
     table = np.array(shares, dtype=float)
     order = np.argsort(-np.nan_to_num(table).sum(axis=1), kind="stable")
     rows = min(len(students), NAMED)
-    figure, ((axes,),) = panels(1, 1, height=1.4 + 0.2 * rows)
+    figure, ((axes,),) = make_panels(1, 1, height=1.4 + 0.2 * rows)
     drawn = axes.imshow(
         np.ma.masked_invalid(100 * table[order]), cmap="cividis", vmin=0, vmax=100, aspect="auto",
         interpolation="nearest",

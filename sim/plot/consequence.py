@@ -9,7 +9,16 @@ from matplotlib.axes import Axes
 from sim.core.errors import BadRequest
 from sim.feedback.following import FollowedProfile
 from sim.plot.decimate import decimate_curve
-from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.picture import (
+    COLORS,
+    INK,
+    LINES,
+    MARKERS,
+    REFERENCE,
+    Picture,
+    add_legend,
+    make_panels,
+)
 
 SIDE_BY_SIDE = 2  # panels
 HEIGHT, MORE = 0.8, 2.2  # [in] of what is around the panels, and of each row of them
@@ -27,7 +36,7 @@ class Trace:
         ylabel: with unit.
         time: (n,) [s].
         wanted: (n,) what was asked for; a limit that should be kept, where ``limit`` says so.
-        done: name -> (n,) what happens.
+        actual: name -> (n,) what happens.
         limit: whether ``wanted`` is a limit.
     """
 
@@ -35,20 +44,20 @@ class Trace:
     ylabel: str
     time: Sequence[float]
     wanted: Sequence[float]
-    done: Mapping[str, Sequence[float]]
+    actual: Mapping[str, Sequence[float]]
     limit: bool = False
 
 
-def profile_traces(one: FollowedProfile) -> tuple[Trace, ...]:
+def make_profile_traces(one: FollowedProfile) -> tuple[Trace, ...]:
     """The panels of a profile that was followed: velocity, and position where it matters."""
-    done, wanted = "what it does", one.wanted
+    done, wanted = "what it does", one.target
     of_speed, of_place = f"velocity [{one.symbol}/s]", f"{one.place} [{one.symbol}]"
     speed = Trace(one.name, of_speed, wanted.time, wanted.velocity, {done: one.velocity})
     place = Trace(one.name, of_place, wanted.time, wanted.position, {done: one.position})
     return (speed, place) if one.place else (speed,)
 
 
-def consequence(shown: Sequence[Trace], *, words: str) -> Picture:
+def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
     """What an answer would do, panel by panel.
 
     Args:
@@ -59,7 +68,7 @@ def consequence(shown: Sequence[Trace], *, words: str) -> Picture:
         BadRequest: there is no panel, or a curve has another length than its time.
     """
     for one in shown:
-        if any(len(values) != len(one.time) for values in (one.wanted, *one.done.values())):
+        if any(len(values) != len(one.time) for values in (one.wanted, *one.actual.values())):
             raise BadRequest(
                 f"a curve of {one.title} has not one value for each time",
                 advice="Give as many of both.",
@@ -68,13 +77,13 @@ def consequence(shown: Sequence[Trace], *, words: str) -> Picture:
         raise BadRequest("there is no motion to draw", advice="Give at least one panel.")
     columns = min(SIDE_BY_SIDE, len(shown))
     rows = -(-len(shown) // columns)
-    figure, grid = panels(rows, columns, height=HEIGHT + MORE * rows)
+    figure, grid = make_panels(rows, columns, height=HEIGHT + MORE * rows)
     flat = [axes for row in grid for axes in row]
     for axes, one in zip(flat, shown, strict=False):
         _draw(axes, one)
     for axes in flat[len(shown) :]:
         axes.set_visible(False)
-    legend(figure, flat[: len(shown)])
+    add_legend(figure, flat[: len(shown)])
     drawn = ", ".join(f"{one.title}'s {one.ylabel.partition(' [')[0]}" for one in shown)
     alt = f"Curves over time, wanted and what comes of the answer: {drawn}. {words}"
     return Picture(figure, alt)
@@ -88,7 +97,7 @@ def _draw(axes: Axes, one: Trace) -> None:
         time, one.wanted, color=REFERENCE, linewidth=1.4 if one.limit else 3.0,
         alpha=1.0 if one.limit else 0.45, linestyle="--" if one.limit else "-", label=name,
     )  # fmt: skip
-    for index, (what, values) in enumerate(one.done.items(), start=1):
+    for index, (what, values) in enumerate(one.actual.items(), start=1):
         curve = np.array([float(f"{value:.{DIGITS}g}") for value in values])
         kept = decimate_curve(curve, most=MOST)
         axes.plot(

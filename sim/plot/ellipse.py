@@ -14,7 +14,16 @@ from sim.core.errors import BadRequest
 from sim.core.log import Array
 from sim.fit.sysid_rows import Rows
 from sim.plot.decimate import decimate_cloud
-from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.picture import (
+    COLORS,
+    INK,
+    LINES,
+    MARKERS,
+    REFERENCE,
+    Picture,
+    add_legend,
+    make_panels,
+)
 from sim.plot.table import Table, to_text
 
 LEVEL = 5.991  # of chi square with two degrees of freedom: 95 of 100 fits fall inside
@@ -24,7 +33,7 @@ ENDLESS = 100.0  # [times the panel] an axis is drawn that long where it has no 
 MOST = 250  # samples of a test that are drawn
 
 
-def ellipses(
+def plot_ellipses(
     told: Mapping[str, Array],
     *,
     names: tuple[str, str],
@@ -45,7 +54,7 @@ def ellipses(
     """
     if not told:
         raise BadRequest("there is nothing to draw", advice="Give at least one set of rows.")
-    figure, ((axes,),) = panels(1, 1, height=4.0)
+    figure, ((axes,),) = make_panels(1, 1, height=4.0)
     for index, (name, information) in enumerate(told.items()):
         _draw(axes, information, index, truth=truth, reach=reach, name=name)
     _finish(axes, names=names, truth=truth, reach=reach)
@@ -55,7 +64,7 @@ def ellipses(
     return Picture(figure, alt, _table(told, names))
 
 
-def information_map(
+def plot_information_map(
     rows: Mapping[str, Rows],
     information: Array,
     *,
@@ -74,7 +83,7 @@ def information_map(
         reach: how far from the truth its panel goes, each way.
         symbol: of the unit of position.
     """
-    figure, ((left, right),) = panels(1, 2, height=3.8)
+    figure, ((left, right),) = make_panels(1, 2, height=3.8)
     for index, (test, part) in enumerate(rows.items()):
         kept = decimate_cloud(part.velocity, part.acceleration, most=MOST)
         left.plot(
@@ -92,7 +101,7 @@ def information_map(
     _draw(right, information, 0, truth=truth, reach=reach, name="95 of 100 fits")
     _finish(right, names=names, truth=truth, reach=reach)
     right.set_title("how well two gains are known", fontsize=10, color=INK)
-    legend(figure, [left, right])
+    add_legend(figure, [left, right])
     alt = "Two panels. Left, acceleration over velocity: "
     alt += " ".join(
         f"{test}, {len(part)} rows, {_span(part.velocity)} {symbol}/s and "

@@ -11,7 +11,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, Array, Log, Run
-from sim.inspect.fault import Damage, Stretch
+from sim.inspect.fault import Damage, LogInterval
 from sim.plot.picture import COLORS, INK, LINES, PAPER
 
 HATCHES = ("////", "\\\\\\\\", "xxxx", "----", "..", "++++")
@@ -23,7 +23,7 @@ NARROWEST = 0.012  # [share of a panel's width] a box is at least this wide: it 
 CLOSE = 0.05  # [share of a panel's width] letters nearer than this would cover each other
 NAMED = 6  # stretches of one fault that are told one by one; of more, the number
 
-Damaged: TypeAlias = Damage | Stretch
+Damaged: TypeAlias = Damage | LogInterval
 Signals: TypeAlias = Mapping[int, Sequence[tuple[Axes, Array]]]
 
 
@@ -41,7 +41,7 @@ class FaultMark:
     fault: str
     letter: str
     hatch: str
-    where: Stretch
+    where: LogInterval
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ def draw_fault_marks(log: Log, damage: Sequence[FaultMark], *, drawn: Signals) -
             _letters(axes, here, boxes)
 
 
-def legend_entries(damage: Sequence[FaultMark]) -> list[Patch]:
+def make_legend_entries(damage: Sequence[FaultMark]) -> list[Patch]:
     """One entry of the legend for each fault."""
     first = {mark.fault: mark for mark in reversed(damage)}
     return [
@@ -129,7 +129,7 @@ def describe_faults(log: Log, damage: Sequence[FaultMark], *, drawn: Iterable[in
     return said
 
 
-def _check(log: Log, fault: str, where: Stretch) -> None:
+def _check(log: Log, fault: str, where: LogInterval) -> None:
     if where.run is None:
         return
     advice = "Give damages that were found in this very log."
@@ -150,7 +150,7 @@ def _check(log: Log, fault: str, where: Stretch) -> None:
         )
 
 
-def _box(axes: Axes, run: Run, signal: Array, where: Stretch) -> _Box:
+def _box(axes: Axes, run: Run, signal: Array, where: LogInterval) -> _Box:
     """Around the curve from the sample before the damage to the one after it: a gap has both."""
     first = max(int(np.searchsorted(run.time, where.start, side="right")) - 1, 0)
     last = min(int(np.searchsorted(run.time, where.end)), len(run) - 1)
@@ -204,14 +204,14 @@ def _letters(axes: Axes, here: Sequence[FaultMark], boxes: Sequence[_Box]) -> No
         )
 
 
-def _apart(where: Stretch) -> str:
+def _apart(where: LogInterval) -> str:
     """What the legend adds about damage that no box can show."""
     if where.run is not None:
         return ""
     return f" ({where.test})" if where.test else " (the whole log)"
 
 
-def _place(log: Log, where: Stretch, drawn: set[int]) -> str:
+def _place(log: Log, where: LogInterval, drawn: set[int]) -> str:
     """A damaged part in words, in the time of its run, which the picture shows."""
     if where.run is None:
         return f"{where.test}, which is not in the log" if where.test else "the whole log"

@@ -6,12 +6,12 @@ from sim.core.errors import BadRequest
 from sim.core.units import Unit
 from sim.fit.feedback_trial import FeedbackTrial
 from sim.fit.replay import RunReplay
-from sim.plot.measured_vs_simulated import EVERY, describe_run, draw_all_runs, error_table
+from sim.plot.measured_vs_simulated import EVERY, describe_run, draw_all_runs, make_error_table
 from sim.plot.picture import Picture
 from sim.plot.step_response import describe_trials, draw_loop, group_by_loop
 
 
-def fit_overview(
+def plot_fit_overview(
     runs: Sequence[RunReplay], tried: Sequence[FeedbackTrial], *, per: Unit
 ) -> Picture:
     """All of a fit that can be drawn.
@@ -34,5 +34,5 @@ def fit_overview(
     if len(runs) > EVERY:
         told.append(f"The other {len(runs) - EVERY} runs are not drawn.")
     return Picture(
-        figure, " ".join((*told, describe_trials(tried, per=per))), error_table(runs, per=per)
+        figure, " ".join((*told, describe_trials(tried, per=per))), make_error_table(runs, per=per)
     )

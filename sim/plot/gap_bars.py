@@ -5,14 +5,14 @@ from collections.abc import Mapping
 import numpy as np
 
 from sim.core.errors import BadRequest
-from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, add_legend, make_panels
 from sim.plot.table import Table, to_text
 
 HATCHES = ("", "///", "..")  # a log each: color never speaks alone
 THICK = 0.8  # [rows] that the bars of one model take together
 
 
-def gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
+def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
     """How far each model misses each log.
 
     Args:
@@ -27,7 +27,7 @@ def gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
             "every model needs a gap for each log",
             advice=f"Give each the same logs, at most {len(HATCHES)}.",
         )
-    figure, ((axes,),) = panels(1, 1, height=1.2 + 0.24 * len(gaps) * len(logs))
+    figure, ((axes,),) = make_panels(1, 1, height=1.2 + 0.24 * len(gaps) * len(logs))
     size = THICK / len(logs)
     for number, log in enumerate(logs):
         values = [one[log] for one in gaps.values()]
@@ -49,7 +49,7 @@ def gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
     axes.set_xlabel("gap [times the noise]", color=INK)
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
-    legend(figure, (axes,), columns=4)
+    add_legend(figure, (axes,), columns=4)
     rows: list[tuple[str | float, ...]] = [
         (model, *(one[log] for log in logs)) for model, one in gaps.items()
     ]

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
-from sim.plot.picture import COLORS, INK, MARKERS, PAPER, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, MARKERS, PAPER, Picture, add_legend, make_panels
 from sim.plot.table import Table, to_text
 
 GOOD = COLORS[2]
@@ -17,7 +17,7 @@ APART = 0.22  # [half a band's height] from the middle, where there are several 
 ROOM = 0.05  # [share of the scale] beyond a mark that lies outside the bands
 
 
-def gauge(
+def plot_gauge(
     values: Mapping[str, float],
     bands: Mapping[str, float],
     *,
@@ -45,13 +45,13 @@ def gauge(
             advice="Give each band a larger end than the one before it.",
         )
     low, high = _span(list(values.values()), least=least, last=ends[-1])
-    figure, ((axes,),) = panels(1, 1, height=1.5 + 0.3 * len(values))
+    figure, ((axes,),) = make_panels(1, 1, height=1.5 + 0.3 * len(values))
     _draw(axes, values, bands, good=good, span=(low, high))
     axes.set_xlim(low, high)
     axes.set_yticks([])
     axes.set_xlabel(label, color=INK)
-    legend(figure, (axes,), columns=len(bands) + len(values))
-    rows = tuple((name, value, band_of(value, bands)) for name, value in values.items())
+    add_legend(figure, (axes,), columns=len(bands) + len(values))
+    rows = tuple((name, value, find_band(value, bands)) for name, value in values.items())
     return Picture(figure, _words(rows, bands, label, low), Table(("which", label, "band"), rows))
 
 
@@ -88,7 +88,7 @@ def _draw(
                       bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.8})  # fmt: skip
 
 
-def band_of(value: float, bands: Mapping[str, float]) -> str:
+def find_band(value: float, bands: Mapping[str, float]) -> str:
     """The name of the band that a number lies in; an end belongs to the band that it ends."""
     names = list(bands)
     return next((name for name in names[:-1] if value <= bands[name]), names[-1])

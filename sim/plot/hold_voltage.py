@@ -7,7 +7,7 @@ import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, add_legend, make_panels
 from sim.plot.table import Table, to_text
 
 BAND = COLORS[4]
@@ -15,7 +15,7 @@ QUARTER_TURN = 90.0  # [deg]
 CLOSE = 0.03  # [share of the window] that near to an edge is on it
 
 
-def hold_window(
+def plot_hold_window(
     volts: Sequence[float] | Array,
     speeds: Sequence[float] | Array,
     *,
@@ -42,7 +42,7 @@ def hold_window(
     low, high = window
     if low > high:
         raise BadRequest(f"a window from {low:g} to {high:g} V", advice="Give the lower one first.")
-    figure, ((axes,),) = panels(1, 1, height=3.6)
+    figure, ((axes,),) = make_panels(1, 1, height=3.6)
     axes.axvspan(low, high, color=BAND, alpha=0.35, label="it stays: kG − kS to kG + kS")
     axes.axhline(0.0, color=REFERENCE, linewidth=0.8)
     axes.plot(volts, speeds, "-", marker=".", color=COLORS[0], markersize=5, label="speed")
@@ -105,7 +105,7 @@ def _askew(offset: float) -> _Words:
     )
 
 
-def hold_angles(
+def plot_hold_angles(
     holds: Sequence[tuple[float, float, float]],
     *,
     kg: float,
@@ -127,7 +127,7 @@ def hold_angles(
     ends = [reading for reading, *_ in holds]
     readings = np.linspace(min([-QUARTER_TURN, *ends]) - 5.0, max([QUARTER_TURN, *ends]) + 5.0, 181)
     middle = kg * np.cos(np.radians(readings + add))
-    figure, ((axes,),) = panels(1, 1, height=3.6)
+    figure, ((axes,),) = make_panels(1, 1, height=3.6)
     axes.fill_between(
         readings, middle - ks, middle + ks, color=BAND, alpha=0.35, label="it stays", linewidth=0
     )
@@ -149,7 +149,7 @@ def hold_angles(
         axes.plot(here, at, "*", color=REFERENCE, markersize=15, label="here", zorder=4)
     axes.set_xlabel(words.across, color=INK)
     axes.set_ylabel("voltage [V]", color=INK)
-    legend(figure, (axes,))
+    add_legend(figure, (axes,))
     alt = (
         "The voltages that hold an arm, over its angle: a band of constant width, "
         f"{to_text(2 * ks)} V, about a cosine of {to_text(kg)} V that is largest at "

@@ -7,7 +7,7 @@ from sim.core.errors import Refusal
 from sim.plot.picture import Picture
 
 
-def live(draw: Callable[..., Picture | Sequence[Picture]], **knobs: Any) -> Any:  # noqa: ANN401 - ipywidgets has no types
+def show_interactive(draw: Callable[..., Picture | Sequence[Picture]], **knobs: Any) -> Any:  # noqa: ANN401 - ipywidgets has no types
     """Show a picture below widgets that set the arguments it is drawn with.
 
     The picture is plain HTML in the page, so it needs no drawing library there; and what is drawn

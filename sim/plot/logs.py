@@ -8,14 +8,14 @@ from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, Array, Log, Run
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.plot.decimate import decimate_curve
 from sim.plot.fault_marks import (
     Damaged,
     assign_fault_marks,
     describe_faults,
     draw_fault_marks,
-    legend_entries,
+    make_legend_entries,
 )
 from sim.plot.picture import (
     COLORS,
@@ -25,8 +25,8 @@ from sim.plot.picture import (
     REFERENCE,
     Dash,
     Picture,
-    legend,
-    panels,
+    add_legend,
+    make_panels,
 )
 from sim.plot.table import Cell, Table
 
@@ -50,7 +50,7 @@ _PENS = tuple(_Pen(COLORS[i], LINES[i], MARKERS[i], 1.4) for i in range(len(DIRE
 _THIN = _Pen(REFERENCE, ":", "", 1.2)
 
 
-def time_series(
+def plot_time_series(
     log: Log,
     *,
     beside: Log | None = None,
@@ -74,10 +74,10 @@ def time_series(
     Raises:
         BadRequest: the log has none of the four tests, or a damage is not of this log.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     runs = _first_runs(log)
     damage = assign_fault_marks(log, damages)
-    figure, (upper, lower) = panels(2, 2, height=4.4, shared=True)
+    figure, (upper, lower) = make_panels(2, 2, height=4.4, shared=True)
     labels = tuple(f"{names[0]}, {way}" for way in DIRECTIONS)
     drawn: dict[int, list[tuple[Axes, Array]]] = {}
     for kind, *pair in zip(KINDS, upper, lower, strict=True):
@@ -92,7 +92,7 @@ def time_series(
     if dynamic_seconds is not None:
         lower[1].set_xlim(-0.02 * dynamic_seconds, dynamic_seconds)
     draw_fault_marks(log, damage, drawn=drawn)
-    legend(figure, lower, extra=legend_entries(damage))
+    add_legend(figure, lower, extra=make_legend_entries(damage))
     table = _tests_table(runs, per)
     alt = _time_words(table, per, names if beside is not None else names[:1])
     return Picture(figure, alt + describe_faults(log, damage, drawn=drawn), table)

@@ -26,7 +26,7 @@ SIDE_BY_SIDE = 2  # runs, where all are in one picture
 EVERY = 40  # runs: more in one picture are too small to read, and too large to write
 
 
-def measured_vs_simulated(one: RunReplay, *, per: Unit) -> Picture:
+def plot_measured_vs_simulated(one: RunReplay, *, per: Unit) -> Picture:
     """One run: velocity and position, measured and simulated, what is left, and the voltage.
 
     Args:
@@ -35,7 +35,7 @@ def measured_vs_simulated(one: RunReplay, *, per: Unit) -> Picture:
     """
     figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained", facecolor=PAPER)
     _draw(figure, one, per=per)
-    return Picture(figure, describe_run(one, per=per), error_table([one], per=per))
+    return Picture(figure, describe_run(one, per=per), make_error_table([one], per=per))
 
 
 def draw_all_runs(
@@ -77,7 +77,7 @@ def describe_run(one: RunReplay, *, per: Unit) -> str:
     )
 
 
-def error_table(runs: Sequence[RunReplay], *, per: Unit) -> Table:
+def make_error_table(runs: Sequence[RunReplay], *, per: Unit) -> Table:
     """How far the simulation is off, run by run."""
     rows = []
     for one in runs:
@@ -123,7 +123,7 @@ def _draw(figure: Figure | SubFigure, one: RunReplay, *, per: Unit) -> None:
     grid = figure.subplots(
         ROWS, 2, sharex=True, squeeze=False, gridspec_kw={"height_ratios": (3, 1.5, 1.5)}
     )
-    plain_axes(grid.flat)
+    make_plain_axes(grid.flat)
     time, symbol = one.run.time - one.run.time[0], per.symbol
     sides = (
         ("velocity", f"{symbol}/s", one.run.velocity, one.velocity, one.velocity_noise),
@@ -139,10 +139,10 @@ def _draw(figure: Figure | SubFigure, one: RunReplay, *, per: Unit) -> None:
         grid[2, column].set_ylim(min(low, -0.3), max(high, 0.3))
         grid[2, column].set_ylabel("voltage [V]", color=INK, fontsize=9)
         grid[2, column].set_xlabel("time [s]", color=INK, fontsize=9)
-    shared_legend(figure, (grid[0, 0], grid[1, 0]))
+    add_shared_legend(figure, (grid[0, 0], grid[1, 0]))
 
 
-def shared_legend(figure: Figure | SubFigure, axes: Iterable[Axes]) -> None:
+def add_shared_legend(figure: Figure | SubFigure, axes: Iterable[Axes]) -> None:
     """One legend below a figure or a part of one."""
     entries = [panel.get_legend_handles_labels() for panel in axes]
     figure.legend(
@@ -156,7 +156,7 @@ def shared_legend(figure: Figure | SubFigure, axes: Iterable[Axes]) -> None:
     )
 
 
-def plain_axes(axes: Iterable[Axes]) -> None:
+def make_plain_axes(axes: Iterable[Axes]) -> None:
     """Empty axes as all pictures have them."""
     for panel in axes:
         panel.set_facecolor(PAPER)

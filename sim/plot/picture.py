@@ -109,7 +109,7 @@ class Picture:
 _DATE = {".svg": "Date", ".pdf": "CreationDate"}  # left out, so that a picture never changes
 
 
-def panels(
+def make_panels(
     rows: int, columns: int, *, width: float = 7.6, height: float = 3.2, shared: bool = False
 ) -> tuple[Figure, list[list[Axes]]]:
     """A figure with a grid of empty axes.
@@ -137,7 +137,7 @@ def panels(
     return figure, [list(row) for row in grid]
 
 
-def legend(
+def add_legend(
     figure: Figure, axes: Sequence[Axes], *, columns: int = 3, extra: Sequence[Artist] = ()
 ) -> None:
     """One legend below all panels, each name once.

@@ -7,7 +7,16 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
-from sim.plot.picture import COLORS, INK, MARKERS, PAPER, REFERENCE, Picture, legend, panels
+from sim.plot.picture import (
+    COLORS,
+    INK,
+    MARKERS,
+    PAPER,
+    REFERENCE,
+    Picture,
+    add_legend,
+    make_panels,
+)
 from sim.plot.table import Table
 
 if TYPE_CHECKING:
@@ -20,7 +29,7 @@ ROW, FOOT = 0.27, 1.25  # [in]
 TICKS = (-1000, -100, -10, 0, 10, 100, 1000)
 
 
-def r2_vs_gain_error(
+def plot_r2_vs_gain_error(
     scores: Mapping[str, float],
     *,
     good: float,
@@ -42,7 +51,7 @@ def r2_vs_gain_error(
         raise BadRequest(
             "every fit needs a score and an error", advice="Give one or more, all of them alike."
         )
-    figure, ((left, right),) = panels(1, 2, height=FOOT + ROW * len(scores), shared=True)
+    figure, ((left, right),) = make_panels(1, 2, height=FOOT + ROW * len(scores), shared=True)
     _badges(left, scores, good=good, score=score)
     if off is None:
         right.text(
@@ -51,7 +60,7 @@ def r2_vs_gain_error(
         right.set_xticks([])
     else:
         _errors(right, scores, off)
-        legend(figure, [right])
+        add_legend(figure, [right])
     right.set_xlabel("off by [%]", color=INK)
     right.set_title("the truth, which no robot tells", fontsize=10, color=INK)
     return Picture(figure, _words(scores, good, score, off), _table(scores, good, score, off))

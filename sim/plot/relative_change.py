@@ -3,14 +3,14 @@
 from collections.abc import Mapping
 
 from sim.core.errors import BadRequest
-from sim.plot.picture import COLORS, INK, MARKERS, PAPER, REFERENCE, Picture, panels
+from sim.plot.picture import COLORS, INK, MARKERS, PAPER, REFERENCE, Picture, make_panels
 from sim.plot.table import Table, to_text
 
 SAME = 0.005  # [share] by which a number may differ and still be called the same
 WIDTH = 3.0  # [times] the scale shows at least, so that a small change looks small
 
 
-def relative_change(times: Mapping[str, float]) -> Picture:
+def plot_relative_change(times: Mapping[str, float]) -> Picture:
     """Numbers after a change, each divided by what it was before.
 
     Args:
@@ -23,7 +23,7 @@ def relative_change(times: Mapping[str, float]) -> Picture:
         raise BadRequest(
             "a change needs numbers above zero", advice="Divide what is now by what was before."
         )
-    figure, ((axes,),) = panels(1, 1, height=0.9 + 0.36 * len(times))
+    figure, ((axes,),) = make_panels(1, 1, height=0.9 + 0.36 * len(times))
     axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2)
     rows = []
     for place, (name, value) in enumerate(times.items()):

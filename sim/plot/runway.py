@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from sim.core.errors import BadRequest
-from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
+from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, make_panels
 from sim.plot.table import Table
 from sim.teaching.runway import FloorTest
 
@@ -16,7 +16,7 @@ SEEN, TAPE, BUMP = COLORS[0], COLORS[3], COLORS[1]
 LIT = "#F5C2A3"  # a paler vermilion: words over it stay legible
 
 
-def runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
+def plot_runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
     """A test on its floor from above, and below it speed and battery over time.
 
     Args:
@@ -29,7 +29,7 @@ def runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
     if not 0.0 <= moment <= 1.0:
         raise BadRequest(f"a moment of {moment:g}", advice="Choose 0 (start) to 1 (end).")
     now = round(moment * (drive.time.size - 1))
-    figure, ((floor,), (speed,), (battery,)) = panels(3, 1, height=5.0)
+    figure, ((floor,), (speed,), (battery,)) = make_panels(3, 1, height=5.0)
     _floor(floor, drive, now)
     _over_time(speed, drive, drive.velocity, now)
     speed.set_ylabel("speed [m/s]", color=INK)
@@ -49,7 +49,7 @@ def runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
 
 def _floor(axes: Axes, drive: FloorTest, now: int) -> None:
     """The floor from above: start, tape, wall, and the robot's front where it is."""
-    wall, rests = drive.floor.wall, drive.rests
+    wall, rests = drive.floor.wall, drive.final_position
     axes.set_xlim(-BEHIND, wall + 0.06 * (wall + BEHIND))
     axes.set_ylim(-1.0, 1.0)
     axes.set_yticks([])
@@ -60,14 +60,14 @@ def _floor(axes: Axes, drive: FloorTest, now: int) -> None:
     if drive.floor.tape is not None:
         axes.axvline(drive.floor.tape, color=TAPE, linewidth=5.0)
         _sign(axes, drive.floor.tape, "tape", ha="left")
-    if drive.hit is None:
+    if drive.hit_wall is None:
         there = float(np.interp(drive.released, drive.time, drive.position))
         axes.axvline(there, color=INK, linewidth=1.2, linestyle=":")
         near = wall - there < ROOMY * (wall + BEHIND)
         _sign(axes, there, "motors off", ha="right" if near else "left", below=True)
     _robot(axes, rests, fill=False)
     _robot(axes, float(drive.position[now]), fill=True)
-    if drive.hit is not None:
+    if drive.hit_wall is not None:
         axes.plot(wall, 0.0, "*", color=BUMP, markersize=22, markeredgecolor=INK)
 
 
@@ -103,7 +103,7 @@ def _over_time(
     """A signal, the moment shown, and when the motors were off."""
     axes.plot(drive.time, signal, color=SEEN, linewidth=1.6)
     axes.plot(drive.time[now], signal[now], "o", color=SEEN, markeredgecolor=INK, markersize=8)
-    if drive.hit is None:
+    if drive.hit_wall is None:
         axes.axvline(drive.released, color=INK, linestyle=":", linewidth=1.2)
     axes.set_xlim(0.0, float(drive.time[-1]) * 1.02)
 
@@ -125,7 +125,7 @@ def _lamp(axes: Axes, drive: FloorTest) -> None:
 def _passed(drive: FloorTest) -> float | None:
     """[s] when the tape was passed."""
     tape = drive.floor.tape
-    if tape is None or drive.rests < tape:
+    if tape is None or drive.final_position < tape:
         return None
     return float(drive.time[int(np.argmax(drive.position >= tape))])
 
@@ -135,10 +135,16 @@ def _table(drive: FloorTest) -> Table:
     rows: list[tuple[str, str | float]] = [
         ("passes the tape at [s]", "never" if passed is None else passed),
         ("motors off at [s]", drive.released),
-        ("pushes the wall for [s]", "never" if drive.hit is None else drive.released - drive.hit),
+        (
+            "pushes the wall for [s]",
+            "never" if drive.hit_wall is None else drive.released - drive.hit_wall,
+        ),
         ("fastest [m/s]", top),
-        ("stands at [m]", drive.rests),
-        ("room left [m]", "none: it hit the wall" if drive.hit else drive.floor.wall - drive.rests),
+        ("stands at [m]", drive.final_position),
+        (
+            "room left [m]",
+            "none: it hit the wall" if drive.hit_wall else drive.floor.wall - drive.final_position,
+        ),
         ("lowest battery [V]", float(drive.battery.min())),
     ]
     return Table(("this test", ""), tuple(rows))
@@ -151,11 +157,11 @@ def _words(drive: FloorTest, now: int) -> str:
     if passed is not None:
         said += f"The robot passes it after {passed:.2f} s. "
     said += f"The motors are off after {drive.released:.2f} s. "
-    if drive.hit is not None:
-        said += f"It hits the wall after {drive.hit:.2f} s. "
+    if drive.hit_wall is not None:
+        said += f"It hits the wall after {drive.hit_wall:.2f} s. "
     else:
-        said += f"It stands at {drive.rests:.2f} m, {drive.floor.wall - drive.rests:.2f} m before "
-        said += "the wall. "
+        room = drive.floor.wall - drive.final_position
+        said += f"It stands at {drive.final_position:.2f} m, {room:.2f} m before the wall. "
     said += f"It is drawn at {drive.time[now]:.2f} s, {drive.position[now]:.2f} m from the start. "
     said += "Below, over time: the speed, at most "
     said += f"{drive.velocity.max():.2f} m/s, and the battery, at least {drive.battery.min():.1f} V"

@@ -9,7 +9,7 @@ from sim.core.errors import BadRequest
 from sim.core.units import Unit
 from sim.fit.feedback_trial import FeedbackTrial, format_gain_pair
 from sim.plot.decimate import decimate_curve
-from sim.plot.measured_vs_simulated import plain_axes, shared_legend
+from sim.plot.measured_vs_simulated import add_shared_legend, make_plain_axes
 from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Picture
 from sim.plot.table import Table, to_text
 
@@ -19,7 +19,7 @@ MARK = 0.13  # [share of a panel] between markers
 WIDER = 1.6  # [times the step] shown around it at most: what runs away leaves the picture
 
 
-def step_responses(tried: Sequence[FeedbackTrial], *, per: Unit) -> Picture:
+def plot_step_responses(tried: Sequence[FeedbackTrial], *, per: Unit) -> Picture:
     """What each loop does when its target jumps, and the voltage it takes.
 
     Args:
@@ -54,7 +54,7 @@ def draw_loop(figure: SubFigure, tried: Sequence[FeedbackTrial], *, per: Unit) -
     """
     target, end = tried[0].response.target, max(map(_worth, tried))
     upper, lower = figure.subplots(2, 1, sharex=True)
-    plain_axes((upper, lower))
+    make_plain_axes((upper, lower))
     for index, trial in enumerate(tried):
         time = np.array(trial.response.time)
         for axes, values in ((upper, trial.response.value), (lower, trial.response.voltage)):
@@ -63,7 +63,7 @@ def draw_loop(figure: SubFigure, tried: Sequence[FeedbackTrial], *, per: Unit) -
             axes.plot(
                 time[kept], there[kept], color=COLORS[index], linestyle=LINES[index],
                 marker=MARKERS[index], markersize=4, markevery=MARK, linewidth=1.4,
-                label=trial.whose,
+                label=trial.owner,
             )  # fmt: skip
     upper.axhline(target, color=REFERENCE, linestyle=":", linewidth=1.2, label="target")
     low, high = upper.get_ylim()
@@ -73,7 +73,7 @@ def draw_loop(figure: SubFigure, tried: Sequence[FeedbackTrial], *, per: Unit) -
     upper.set_ylabel(f"{loop} [{_unit(loop, per)}]", color=INK, fontsize=9)
     lower.set_ylabel("voltage [V]", color=INK, fontsize=9)
     lower.set_xlabel("time since the target jumped [s]", color=INK, fontsize=9)
-    shared_legend(figure, (upper,))
+    add_shared_legend(figure, (upper,))
 
 
 def _worth(trial: FeedbackTrial) -> float:
@@ -89,10 +89,10 @@ def _worth(trial: FeedbackTrial) -> float:
 def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
     """What the picture of some trials shows, a sentence for each."""
     return " ".join(
-        f"{trial.whose.capitalize()} gains of the {trial.loop} loop, "
+        f"{trial.owner.capitalize()} gains of the {trial.loop} loop, "
         f"{format_gain_pair(trial.gains)}: when the target jumps by "
         f"{to_text(trial.response.target)} {_unit(trial.loop, per)}, "
-        f"the loop {trial.verdict.words}."
+        f"the loop {trial.verdict.description}."
         for trial in tried
     )
 
@@ -100,7 +100,7 @@ def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
 def _numbers(tried: Sequence[FeedbackTrial], per: Unit) -> Table:
     rows = tuple(
         (
-            f"{trial.loop}, {trial.whose}",
+            f"{trial.loop}, {trial.owner}",
             f"{to_text(trial.response.target)} {_unit(trial.loop, per)}",
             _seconds(trial.verdict.reached),
             f"{trial.verdict.overshoot:.0%}",

@@ -1,17 +1,23 @@
 """A reconcile story in pictures and a table."""
 
-from sim.core.units import unit
-from sim.plot.story_bars import candidate_bars, gap_by_round
-from sim.plot.story_gap import residual_maps
+from sim.core.units import find_unit
+from sim.plot.story_bars import plot_candidate_bars, plot_gap_by_round
+from sim.plot.story_gap import plot_residual_maps
 from sim.plot.story_runs import plot_overlays
 from sim.plot.table import Table
 from sim.reconcile.story import Story
 from sim.reconcile.story_text import format_gap, format_parameter
 
-__all__ = ["candidate_bars", "findings_table", "gap_by_round", "plot_overlays", "residual_maps"]
+__all__ = [
+    "make_findings_table",
+    "plot_candidate_bars",
+    "plot_gap_by_round",
+    "plot_overlays",
+    "plot_residual_maps",
+]
 
 
-def findings_table(story: Story) -> Table:
+def make_findings_table(story: Story) -> Table:
     """What was found, one row each: name, size, parameters with errors, the gap it changes."""
     rows = []
     for one in story.findings:
@@ -30,7 +36,7 @@ def findings_table(story: Story) -> Table:
         )
     caption = (
         f"Verdict: {story.verdict}. The noise is {story.noise_floor:.3g} "
-        f"{unit(story.shown.units).symbol}/s."
+        f"{find_unit(story.shown.units).symbol}/s."
     )
     header = ("finding", "size", "parameters", "gap [times the noise]")
     return Table(header, tuple(rows) or (("nothing", "-", "-", "-"),), caption)

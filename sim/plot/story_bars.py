@@ -6,17 +6,17 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
-from sim.core.units import unit
-from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, panels
+from sim.core.units import find_unit
+from sim.plot.picture import COLORS, INK, PAPER, REFERENCE, Picture, make_panels
 from sim.plot.table import Table, to_text
-from sim.reconcile.story import Story, Tried
+from sim.reconcile.story import Story, TriedCandidate
 
 BARS = 10  # suspects that are drawn: the others explain nothing
 TAKEN, PASSED, REFUSED = "taken", "also possible", "not admitted"
 LOOKS = {TAKEN: (COLORS[0], ""), PASSED: (COLORS[4], ".."), REFUSED: ("#CCCCCC", "///")}
 
 
-def candidate_bars(story: Story, chapter: int = 0) -> Picture:
+def plot_candidate_bars(story: Story, chapter: int = 0) -> Picture:
     """What was tried on top of a chapter's model, and what it would have explained.
 
     Args:
@@ -36,9 +36,9 @@ def candidate_bars(story: Story, chapter: int = 0) -> Picture:
         if others:
             advice = f"Choose one of: {', '.join(map(str, others))}."
         raise BadRequest(f"nothing was tried in chapter {chapter}", advice=advice)
-    taken = next_effect(story, chapter)
+    taken = find_next_effect(story, chapter)
     drawn = tried[:BARS]
-    figure, ((axes,),) = panels(1, 1, height=0.9 + 0.3 * len(drawn))
+    figure, ((axes,),) = make_panels(1, 1, height=0.9 + 0.3 * len(drawn))
     _bars(axes, drawn, taken)
     axes.set_yticks(range(len(drawn)), [one.effect for one in drawn])
     axes.set_ylim(len(drawn) - 0.4, -0.6)
@@ -48,10 +48,10 @@ def candidate_bars(story: Story, chapter: int = 0) -> Picture:
     axes.legend(fontsize=8, labelcolor=INK, loc="lower right")
     told = ". ".join(f"{one.effect} {_points(one.score)}, {_why(one, taken)}" for one in drawn)
     alt = f"Bars show what each suspect explains, the likeliest first: {told}."
-    return Picture(figure, alt, candidate_table(story, chapter))
+    return Picture(figure, alt, make_candidate_table(story, chapter))
 
 
-def _bars(axes: Axes, drawn: Sequence[Tried], taken: str) -> None:
+def _bars(axes: Axes, drawn: Sequence[TriedCandidate], taken: str) -> None:
     """A bar for each suspect, as long as it explains."""
     most = max((max(one.score, 0.0) for one in drawn), default=0.0) or 1.0
     seen: set[str] = set()
@@ -67,9 +67,9 @@ def _bars(axes: Axes, drawn: Sequence[Tried], taken: str) -> None:
     axes.set_xlim(0.0, 1.15 * most)
 
 
-def candidate_table(story: Story, chapter: int) -> Table:
+def make_candidate_table(story: Story, chapter: int) -> Table:
     """The same in numbers, all of them."""
-    taken = next_effect(story, chapter)
+    taken = find_next_effect(story, chapter)
     rows = tuple(
         (one.effect, _points(one.score), _known(one.gap), _why(one, taken))
         for one in story.chapters[chapter].tried
@@ -78,20 +78,20 @@ def candidate_table(story: Story, chapter: int) -> Table:
     return Table(header, rows)
 
 
-def next_effect(story: Story, chapter: int) -> str:
+def find_next_effect(story: Story, chapter: int) -> str:
     """The effect that was taken on top of a chapter's model; empty if none was."""
     chapter %= len(story.chapters)
     return story.chapters[chapter + 1].added if chapter + 1 < len(story.chapters) else ""
 
 
-def candidate_status(one: Tried, taken: str) -> str:
+def candidate_status(one: TriedCandidate, taken: str) -> str:
     """Whether a suspect was taken, could have been, or could not."""
     if one.effect == taken:
         return TAKEN
     return PASSED if one.admitted else REFUSED
 
 
-def _why(one: Tried, taken: str) -> str:
+def _why(one: TriedCandidate, taken: str) -> str:
     kind = candidate_status(one, taken)
     return f"{kind}: {one.why}" if kind == REFUSED and one.why else kind
 
@@ -101,12 +101,12 @@ def _points(score: float) -> str:
     return f"{round(score)}".replace("-", "−") if np.isfinite(score) else "not known"
 
 
-def gap_by_round(story: Story) -> Picture:
+def plot_gap_by_round(story: Story) -> Picture:
     """The gap on the shown log, chapter by chapter, in noise floors."""
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     floor = story.noise_floor if story.noise_floor > 0.0 else 1.0
     gaps = [one.gap / floor for one in story.chapters]
-    figure, ((axes,),) = panels(1, 1, height=1.1 + 0.42 * len(gaps))
+    figure, ((axes,),) = make_panels(1, 1, height=1.1 + 0.42 * len(gaps))
     _lengths(axes, gaps)
     axes.axvline(1.0, color=REFERENCE, linestyle="--", linewidth=1.2)
     axes.annotate(
@@ -118,7 +118,7 @@ def gap_by_round(story: Story) -> Picture:
     axes.set_xlabel("RMS velocity error of the simulation [times the noise]", color=INK)
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
-    symbol = unit(story.shown.units).symbol
+    symbol = find_unit(story.shown.units).symbol
     rows = tuple(
         (name, _known(one.gap), _known(gap))
         for name, one, gap in zip(names, story.chapters, gaps, strict=True)

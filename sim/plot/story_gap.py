@@ -12,12 +12,12 @@ from matplotlib.patches import Patch, Rectangle
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.gap import BinnedResiduals, GapMap
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS, format_noises
 from sim.plot.picture import INK, PAPER, Picture
 from sim.plot.table import Table
-from sim.reconcile.residual_map import residual_map
+from sim.reconcile.residual_map import map_residuals
 from sim.reconcile.story import Story
 
 VELOCITY = 1  # of the two signals
@@ -39,7 +39,7 @@ TITLES = {
 }
 
 
-def residual_maps(story: Story) -> Picture:
+def plot_residual_maps(story: Story) -> Picture:
     """Where the base model disagrees with the shown log, and what is left of that at the end.
 
     Raises:
@@ -57,7 +57,7 @@ def residual_maps(story: Story) -> Picture:
         )
     titles = [title for title, one in maps.items() if one]
     found = [one for one in maps.values() if one]
-    per = unit(story.shown.units)
+    per = find_unit(story.shown.units)
     return Picture(
         _draw(found, titles, per=per),
         _words(found, titles),
@@ -67,17 +67,17 @@ def residual_maps(story: Story) -> Picture:
 
 def _map(story: Story, tracks: Sequence[Array]) -> GapMap | None:
     """What a model leaves of the shown runs; None if no velocity shows."""
-    floor = story.noise_floor * unit(story.shown.units).si
+    floor = story.noise_floor * find_unit(story.shown.units).si
     if not floor > 0.0:
         raise BadRequest("the noise is not known", advice="Give runs in which it moves.")
-    made = residual_map(story.shown, tracks, compared=story.compared, floor=floor)
-    return made if made and any(map(_there, made.maps)) else None
+    made = map_residuals(story.shown, tracks, compared=story.compared, floor=floor)
+    return made if made and any(map(_there, made.all_maps)) else None
 
 
 def _draw(found: Sequence[GapMap], titles: Sequence[str], *, per: Unit) -> Figure:
     first = found[0]
-    kinds = [n for n in range(len(first.maps)) if any(_there(one.maps[n]) for one in found)]
-    rows = [min(len(first.maps[number].rows), MOST_RUNS) for number in kinds]
+    kinds = [n for n in range(len(first.all_maps)) if any(_there(one.all_maps[n]) for one in found)]
+    rows = [min(len(first.all_maps[number].rows), MOST_RUNS) for number in kinds]
     height = sum(rows) * ROW + SPARE * len(rows) + 1.3
     figure = Figure(figsize=(WIDE, height), layout="constrained", facecolor=PAPER)
     grid = figure.subplots(
@@ -86,7 +86,7 @@ def _draw(found: Sequence[GapMap], titles: Sequence[str], *, per: Unit) -> Figur
     )  # fmt: skip
     for line, number in enumerate(kinds):
         for column, one in enumerate(found):
-            cells = one.maps[number]
+            cells = one.all_maps[number]
             _heat(grid[line, column], cells, per=per, named=column == 0)
             grid[line, column].set_title(TITLES[cells.what], fontsize=8, color=INK, loc="left")
     _heads(figure, grid, titles)
@@ -187,7 +187,7 @@ def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
     )
     said = [first]
     for one, title in zip(found, titles, strict=True):
-        places = one.places(TOLD, signal="velocity")
+        places = one.find_places(TOLD, signal="velocity")
         if places:
             said.append(f"{title}: " + "; ".join(place.sentence for place in places) + ".")
         else:
@@ -200,7 +200,7 @@ def _numbers(found: Sequence[GapMap], titles: Sequence[str]) -> Table:
     rows = [
         (place.where, _signed(place.error), f"{place.sure:.0f}", title)
         for one, title in zip(found, titles, strict=True)
-        for place in one.places(TOLD, signal="velocity")
+        for place in one.find_places(TOLD, signal="velocity")
     ]
     if not rows:
         rows = [("nowhere beyond doubt", "", "", "any")]

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Run
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.plot.decimate import decimate_curve
-from sim.plot.measured_vs_simulated import BAND, plain_axes, shared_legend
+from sim.plot.measured_vs_simulated import BAND, add_shared_legend, make_plain_axes
 from sim.plot.picture import COLORS, INK, PAPER, Picture
 from sim.plot.table import Table, to_text
 from sim.reconcile.story import Story
@@ -33,29 +33,29 @@ class RunOverlay:
         run: as it was measured.
         before: (n, 2) position and velocity simulated by the model before.
         after: (n, 2) by the model after; the same array where there is one model only.
-        counts: (n,) samples that are compared.
+        compared: (n,) samples that are compared.
     """
 
     run: Run
     before: Array
     after: Array
-    counts: NDArray[np.bool_]
+    compared: NDArray[np.bool_]
 
-    def missed(self, track: Array) -> Array:
+    def error(self, track: Array) -> Array:
         """(n, 2) measured less simulated; nan where it is not compared."""
         rest = np.column_stack([self.run.position, self.run.velocity]) - track
-        rest[~self.counts | ~np.isfinite(rest).all(axis=1)] = np.nan
+        rest[~self.compared | ~np.isfinite(rest).all(axis=1)] = np.nan
         return rest
 
-    def off(self, track: Array) -> float:
+    def rms_error(self, track: Array) -> float:
         """[unit/s] RMS of the velocity missed; infinite where the simulation ran away."""
-        rest = self.missed(track)[:, 1]
-        if not np.isfinite(track[self.counts]).all() or np.isnan(rest).all():
+        rest = self.error(track)[:, 1]
+        if not np.isfinite(track[self.compared]).all() or np.isnan(rest).all():
             return math.inf
         return float(np.sqrt(np.nanmean(rest**2)))
 
 
-def run_overlays(story: Story, before: int, after: int) -> list[RunOverlay]:
+def make_run_overlays(story: Story, before: int, after: int) -> list[RunOverlay]:
     """The runs of the shown log under the models of two chapters.
 
     Args:
@@ -83,13 +83,13 @@ def plot_overlays(story: Story, chapter: int = -1) -> Picture:
     if not -count <= chapter < count:
         raise BadRequest(f"no chapter {chapter}", advice=f"Choose one of 0 to {count - 1}.")
     chapter %= count
-    runs = run_overlays(story, max(chapter - 1, 0), chapter)
-    per, noise = unit(story.shown.units), story.noise_floor
+    runs = make_run_overlays(story, max(chapter - 1, 0), chapter)
+    per, noise = find_unit(story.shown.units), story.noise_floor
     drawn = runs[:DRAWN]
     size = (WIDTH, HEIGHT * len(drawn) + 0.5)
     figure = Figure(figsize=size, layout="constrained", facecolor=PAPER)
     grid = figure.subplots(len(drawn), 2, squeeze=False, gridspec_kw={"width_ratios": (3, 2)})
-    plain_axes(grid.flat)
+    make_plain_axes(grid.flat)
     said = _names(story, chapter)
     for (curve, left), one in zip(grid.tolist(), drawn, strict=True):
         _draw(curve, left, one, said, per=per, noise=noise)
@@ -97,7 +97,7 @@ def plot_overlays(story: Story, chapter: int = -1) -> Picture:
     grid[0, 1].set_title("measured less simulated", fontsize=9, color=INK)
     for panel in grid[-1]:
         panel.set_xlabel("time [s]", color=INK, fontsize=9)
-    shared_legend(figure, grid[0])
+    add_shared_legend(figure, grid[0])
     return Picture(figure, _words(runs, said, per=per, noise=noise), _numbers(runs, said, story))
 
 
@@ -129,7 +129,7 @@ def _draw(
             time[kept], values[kept], color=color, linestyle=line, linewidth=1.1, label=name,
             marker="s" if color == BEFORE[0] else "o", markersize=3.0, markevery=MARK,
         )  # fmt: skip
-        rest = one.missed(track)[:, 1] / per.si
+        rest = one.error(track)[:, 1] / per.si
         kept = decimate_curve(np.nan_to_num(rest), most=MOST)
         left.plot(time[kept], rest[kept], color=color, linestyle=line, linewidth=0.9)
         if not np.isnan(rest).all():
@@ -148,7 +148,7 @@ def _words(runs: Sequence[RunOverlay], said: Sequence[str], *, per: Unit, noise:
     )
     told = []
     for one in runs:
-        sizes = [_floors(one.off(track) / per.si, noise) for track in _tracks(one, said)]
+        sizes = [_floors(one.rms_error(track) / per.si, noise) for track in _tracks(one, said)]
         told.append(f"{one.run.test}: {' before, '.join(sizes)}{' after' * (len(sizes) - 1)}.")
     if len(runs) > DRAWN:
         told.append(f"The other {len(runs) - DRAWN} runs are not drawn.")
@@ -160,11 +160,14 @@ def _tracks(one: RunOverlay, said: Sequence[str]) -> tuple[Array, ...]:
 
 
 def _numbers(runs: Sequence[RunOverlay], said: Sequence[str], story: Story) -> Table:
-    per = unit(story.shown.units)
+    per = find_unit(story.shown.units)
     rows = tuple(
         (
             f"{number}: {one.run.test}",
-            *(_floors(one.off(track) / per.si, story.noise_floor) for track in _tracks(one, said)),
+            *(
+                _floors(one.rms_error(track) / per.si, story.noise_floor)
+                for track in _tracks(one, said)
+            ),
         )
         for number, one in enumerate(runs, start=1)
     )

@@ -17,7 +17,7 @@ from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, KINDS, Array, Log, Run
 from sim.inspect.log_features import LogFeatures
 from sim.plot.decimate import decimate_cloud, decimate_curve
-from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, add_legend, make_panels
 from sim.plot.table import Table, to_text
 
 GAP = 1.5  # [median steps] a longer step is a gap: 20 ms loops do end after 21 ms now and then
@@ -48,7 +48,7 @@ class _Steps:
     gaps: "np.ndarray[tuple[int], np.dtype[np.bool_]]"
 
 
-def timesteps(log: Log) -> Picture:
+def plot_timesteps(log: Log) -> Picture:
     """The time between one sample and the next, over the time since each test began.
 
     Args:
@@ -69,7 +69,7 @@ def timesteps(log: Log) -> Picture:
     longest = max(float(steps.length.max()) for steps in all_steps)
     top = median * min(max(NEAR_MEDIAN, 1.15 * longest / median), HIGHEST)
     ways = [way for way in DIRECTIONS if any(one.run.direction == way for one in all_steps)]
-    figure, grid = panels(len(kinds), len(ways), height=_height(len(kinds)), shared=True)
+    figure, grid = make_panels(len(kinds), len(ways), height=_height(len(kinds)), shared=True)
     _arrange(figure, rows=len(kinds))
     for kind, row in zip(kinds, grid, strict=True):
         for way, axes in zip(ways, row, strict=True):
@@ -79,7 +79,7 @@ def timesteps(log: Log) -> Picture:
         row[0].set_ylabel("step [ms]", color=INK)
     for axes in grid[-1]:
         axes.set_xlabel("time since the test began [s]", color=INK)
-    legend(figure, [axes for row in grid for axes in row], columns=5)
+    add_legend(figure, [axes for row in grid for axes in row], columns=5)
     return Picture(figure, _words(all_steps, median=median, top=top), _table(all_steps))
 
 

@@ -7,7 +7,16 @@ import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.picture import (
+    COLORS,
+    INK,
+    LINES,
+    MARKERS,
+    REFERENCE,
+    Picture,
+    add_legend,
+    make_panels,
+)
 from sim.plot.table import Table, to_text
 
 APART = 0.12  # [share of a panel] between markers
@@ -37,7 +46,7 @@ def measure_tracking_error(target: Array, velocity: Array) -> TrackingError:
     return TrackingError(float(np.sqrt(np.mean(off**2))), float(np.abs(off).max()))
 
 
-def tracking_error(
+def plot_tracking_error(
     time: Array,
     target: Array,
     followers: Mapping[str, Array],
@@ -62,7 +71,7 @@ def tracking_error(
             "every velocity needs one value for each time",
             advice="Give one or more, of equal length.",
         )
-    figure, ((upper,), (lower,)) = panels(2, 1, height=4.4, shared=True)
+    figure, ((upper,), (lower,)) = make_panels(2, 1, height=4.4, shared=True)
     upper.plot(time, target, color=REFERENCE, linewidth=2.2, label="target")
     lower.axhline(0.0, color=REFERENCE, linewidth=1.2)
     for index, (name, velocity) in enumerate(followers.items()):
@@ -77,7 +86,7 @@ def tracking_error(
     lower.set_xlabel("time [s]", color=INK)
     if title:
         upper.set_title(title, fontsize=10, color=INK)
-    legend(figure, (upper,))
+    add_legend(figure, (upper,))
     found = {name: measure_tracking_error(target, velocity) for name, velocity in followers.items()}
     alt = (
         f"A target velocity over time, between {to_text(float(np.min(target)))} and "

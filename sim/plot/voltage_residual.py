@@ -18,8 +18,17 @@ from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
-from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, legend, panels
+from sim.core.units import find_unit
+from sim.plot.picture import (
+    COLORS,
+    INK,
+    LINES,
+    MARKERS,
+    REFERENCE,
+    Picture,
+    add_legend,
+    make_panels,
+)
 from sim.plot.table import Table, to_text
 
 JUMP = 0.5  # [V] from one sample to the next; a ramp never rises so fast
@@ -57,7 +66,9 @@ class ResidualView:
     explains: float
 
 
-def missing_volts(log: Log, simulated: Sequence[Array], gains: Mapping[str, float]) -> list[Array]:
+def compute_missing_volts(
+    log: Log, simulated: Sequence[Array], gains: Mapping[str, float]
+) -> list[Array]:
     """What a simulation would need on top of its voltage to move as the log did.
 
     Args:
@@ -85,7 +96,7 @@ def missing_volts(log: Log, simulated: Sequence[Array], gains: Mapping[str, floa
     return volts
 
 
-def residual_views(
+def make_residual_views(
     log: Log, simulated: Sequence[Array], gains: Mapping[str, float]
 ) -> dict[str, ResidualView]:
     """The four sides that the missing volts are seen from.
@@ -101,10 +112,10 @@ def residual_views(
     Returns:
         Side -> what is seen from there; without the battery's where its voltage was not recorded.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     columns: dict[str, list[Array]] = {name: [] for name in (*_ASKED, "lacks", "bus")}
     for run, said, lacks in zip(
-        log.runs, simulated, missing_volts(log, simulated, gains), strict=True
+        log.runs, simulated, compute_missing_volts(log, simulated, gains), strict=True
     ):
         ahead = np.sign(np.where(said == 0.0, run.voltage, said))
         inside = (ahead != 0.0) & np.isfinite(lacks)
@@ -134,10 +145,10 @@ def plot_voltage_residual(
         simulated: a run -> (n,) velocity [m/s or rad/s].
         gains: kV and kA of the simulation, SI.
     """
-    found = residual_views(log, simulated, gains)
+    found = make_residual_views(log, simulated, gains)
     lacking = found[SPEED].volts
-    figure, grid = panels(2, 2, height=5.0)
-    symbol = unit(log.units).symbol
+    figure, grid = make_panels(2, 2, height=5.0)
+    symbol = find_unit(log.units).symbol
     labels = {
         SPEED: f"simulated speed [{symbol}/s]", SINCE: "time since the voltage jumped [s]",
         BATTERY: "battery voltage [V]", DIRECTION: "reverse (−1) and forward (+1)",
@@ -151,7 +162,7 @@ def plot_voltage_residual(
         axes.set_ylabel("missing volts [V]", color=INK)
     for axes in places[len(found) :]:
         axes.set_axis_off()
-    legend(figure, places[:1])
+    add_legend(figure, places[:1])
     typical = float(np.sqrt(np.mean(lacking**2)))
     told = ", ".join(f"{name} {_percent(view.explains)}" for name, view in found.items())
     alt = (

@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, Array, Log, Run
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.plot.decimate import decimate_cloud
-from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, panels
+from sim.plot.picture import COLORS, INK, LINES, MARKERS, REFERENCE, Picture, make_panels
 from sim.plot.table import Table
 
 MOST = 150  # samples of a ramp in a panel that shows all of it: more cover each other
@@ -50,7 +50,7 @@ class _Ramps:
     voltage: Array
 
 
-def voltage_velocity(
+def plot_voltage_velocity(
     log: Log, *, lines: Mapping[str, Line] | None = None, zoom: float | None = None
 ) -> Picture:
     """Voltage over velocity of the quasistatic tests, all of it and the part near standstill.
@@ -66,7 +66,7 @@ def voltage_velocity(
     Raises:
         BadRequest: the log has no quasistatic test, or the zoom is not above zero.
     """
-    per = unit(log.units)
+    per = find_unit(log.units)
     ramps = _ramps([run for run in log.runs if run.kind == "quasistatic" and len(run)], per)
     if not ramps:
         raise BadRequest(
@@ -79,7 +79,7 @@ def voltage_velocity(
     drawn = dict(lines or {})
     top = max(float(np.abs(one.velocity).max()) for one in ramps)
     near = zoom or top / 8.0 or 1.0  # of what never moved, any width shows the same
-    figure, ((whole, close),) = panels(1, 2)
+    figure, ((whole, close),) = make_panels(1, 2)
     _draw(whole, ramps, drawn, top=top, most=MOST)
     _limit(close, ramps, drawn, near=near, both=log.type in {"elevator", "arm"})
     _draw(close, _within(ramps, close), drawn, top=top, most=CLOSEST)

@@ -16,8 +16,8 @@ from dataclasses import replace
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
-from sim.core.units import unit
-from sim.estimation.initial_guess import clamp_to_physical, first_guess
+from sim.core.units import Unit, find_unit
+from sim.estimation.initial_guess import clamp_to_physical, guess_gains
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
@@ -32,10 +32,12 @@ from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.local_minimum import minimize, minimize_fully, scan_process_noise
 from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.selection_data import SelectionData
+from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.slip_detection import detect_slips
 from sim.reconcile.story import Story
 from sim.reconcile.thresholds import LOST, MAJOR, WANDERS
-from sim.reconcile.verdict import verdict_of
+from sim.reconcile.verdict import reach_verdict
 
 __all__ = ["DamagedInterval", "Story", "reconcile"]
 
@@ -68,11 +70,22 @@ def reconcile(
     Raises:
         BadRequest: a log of another mechanism, or positions beyond the travel.
         NotIdentifiable: nothing moves, or too little was recorded; the message says what to record.
+
+    Examples:
+        >>> import numpy as np
+        >>> from sim.bench.mechanisms import MECHANISMS
+        >>> from sim.bench.routine import Routine
+        >>> from sim.bench.simulate import simulate
+        >>> robot = MECHANISMS["drivetrain"].hide("velocity-filter", 2.0)
+        >>> routine = Routine(ramp=2.0, step=5.0, timeout=2.0)
+        >>> log = simulate(robot, routine, rng=np.random.default_rng(0))
+        >>> story = reconcile(log, type="simple")
+        >>> story.findings[0].effect
+        'velocity-filter'
     """
     check_logs(log, validation, held_out, type=type, travel=travel)
     aside = judge_damage(damages or {})
-    both = log if validation is None else join_records(log, validation)
-    problem = _problem(log, validation, aside)
+    problem = _make_problem(log, validation, aside)
     progress("base model", 0.05)
     problem, base = _fit_base_model(problem, log, type=type)
     if not math.isfinite(base.cost):
@@ -81,39 +94,54 @@ def reconcile(
             where=log.source,
             advice="Inspect the log, and record it anew.",
         )
-    problem, base, slipped = _without_slips(problem, base)
-    done = select_effects(
-        problem, base, both, make_folds([one.session for one in problem.records]), progress
-    )
+    problem, base, slipped = _exclude_slips(problem, base)
+    both = log if validation is None else join_records(log, validation)
+    folds = make_folds([one.session for one in problem.records])
+    done = select_effects(SelectionData(problem, folds, progress), base, both)
     progress("what remains", 0.9)
-    shown = HeldOutLog.of({"log": log, "validation": validation, "held_out": held_out}, aside)
+    shown = HeldOutLog.choose({"log": log, "validation": validation, "held_out": held_out}, aside)
+    faults = _one_per_fault(slipped, aside.reported)
+    return _make_story(problem, done, shown, faults, per=find_unit(log.units))
+
+
+def _make_story(
+    problem: PredictionErrorProblem,
+    done: Sequence[SelectionRound],
+    shown: HeldOutLog,
+    faults: tuple[DamagedInterval, ...],
+    *,
+    per: Unit,
+) -> Story:
+    """The story of a selection, shown on the held-out log."""
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
-    left, per = ResidualSummary.by(problem, done[-1].candidate.point), unit(log.units)
-    findings = make_findings(
-        problem, done, _once(slipped, aside.found), chapters, left=left, per=per
-    )
-    verdict, remainder, remains = verdict_of(findings, done, problem, left=left, per=per)
+    left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
+    findings = make_findings(problem, done, faults, chapters, left=left, per=per)
+    verdict, remainder, remains = reach_verdict(findings, done, problem, left=left, per=per)
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
-        where=shown.places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.how,
+        where=shown.gap_places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.kind,
         notes=(*list_remarks(problem, done, findings, left), *seen),
-        compared=shown.compared,
+        compared=shown.compared_samples,
     )  # fmt: skip
 
 
-def _problem(log: Log, validation: Log | None, aside: DamageDecision) -> PredictionErrorProblem:
+def _make_problem(
+    log: Log, validation: Log | None, aside: DamageDecision
+) -> PredictionErrorProblem:
     """All runs that may be fitted; the clock of the second log goes on where the first ended."""
-    every = run_records(log, aside=aside.of(TRAIN))
+    every = run_records(log, aside=aside.excluded_from(TRAIN))
     if validation is not None:
         since = session_length(log)
-        every += run_records(validation, session=1, since=since, aside=aside.of(VALIDATION))
-    return PredictionErrorProblem.of(every)
+        every += run_records(
+            validation, session=1, since=since, aside=aside.excluded_from(VALIDATION)
+        )
+    return PredictionErrorProblem.from_records(every)
 
 
-def _without_slips(
+def _exclude_slips(
     problem: PredictionErrorProblem, base: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate, tuple[DamagedInterval, ...]]:
     """The same without moments at which the encoder slipped, and one of those for the findings."""
@@ -122,13 +150,13 @@ def _without_slips(
         return problem, base, ()
     runs = list(problem.records)
     for number, one in found:
-        runs[number] = runs[number].without(ExcludedInterval(number, one.start, one.end))
+        runs[number] = runs[number].exclude_interval(ExcludedInterval(number, one.start, one.end))
     mended = replace(problem, records=tuple(runs))
-    begin = mended.at(base.structure, base.values, base.nuisance, base.process_noise)
+    begin = mended.evaluate(base.structure, base.values, base.nuisance, base.process_noise)
     return mended, minimize(mended, scan_process_noise(mended, begin)), (found[0][1],)
 
 
-def _once(*several: Sequence[DamagedInterval]) -> tuple[DamagedInterval, ...]:
+def _one_per_fault(*several: Sequence[DamagedInterval]) -> tuple[DamagedInterval, ...]:
     """One damage of each fault."""
     found: dict[str, DamagedInterval] = {}
     for one in (damage for some in several for damage in some):
@@ -147,29 +175,34 @@ def _fit_base_model(
     Where much is missing, "it goes on as it did, and is pushed wherever it goes" may follow a
     smooth log better than any physics: then pushes are bounded.
     """
-    base = _base(problem, log, type=type)
-    if not math.isfinite(base.cost) or _lost(problem, base) < LOST:
+    base = _fit_structure(problem, log, type=type)
+    if not math.isfinite(base.cost) or _missed_share(problem, base) < LOST:
         return problem, base
-    bound = replace(problem, most_q=(WANDERS * problem.top) ** 2)
-    other = _base(bound, log, type=type)
-    if math.isfinite(other.cost) and _lost(bound, other) < MAJOR * _lost(problem, base):
+    bound = replace(problem, max_process_noise=(WANDERS * problem.top_speed) ** 2)
+    other = _fit_structure(bound, log, type=type)
+    if math.isfinite(other.cost) and _missed_share(bound, other) < MAJOR * _missed_share(
+        problem, base
+    ):
         return bound, other
     return problem, base
 
 
-def _lost(problem: PredictionErrorProblem, base: Estimate) -> float:
+def _missed_share(problem: PredictionErrorProblem, base: Estimate) -> float:
     """[1] of the motion that a point misses."""
     gap = rms_gap(open_loop_errors(problem, base, base.nuisance)).velocity
     return missed_motion(gap / problem.noise.velocity, problem)
 
 
-def _base(problem: PredictionErrorProblem, log: Log, *, type: str) -> Estimate:  # noqa: A002 - as above
+def _fit_structure(problem: PredictionErrorProblem, log: Log, *, type: str) -> Estimate:  # noqa: A002 - as above
     """Fit the base model, without effects."""
-    guess = clamp_to_physical(first_guess(log, type=type))
+    guess = clamp_to_physical(guess_gains(log, type=type))
     structure = ModelStructure(type)
     values = {name: guess[name] for name in structure.names}
-    begin = problem.at(
-        structure, values, RunNuisance.seen(len(problem.records)), problem.noise.velocity**2
+    begin = problem.evaluate(
+        structure,
+        values,
+        RunNuisance.at_first_samples(len(problem.records)),
+        problem.noise.velocity**2,
     )
     return minimize_fully(
         problem,

@@ -30,10 +30,10 @@ def estimate_backlash_phase(
         point: with free play or without.
         aside: only the two sides are tried, for a quick look.
     """
-    if not point.structure.plays or not math.isfinite(point.cost):
+    if not point.structure.has_backlash or not math.isfinite(point.cost):
         return point
     before = point.nuisance.backlash_phase
-    if not point.nuisance.is_meshed:
+    if not point.nuisance.has_backlash_phase:
         places = PLACES[:: len(PLACES) - 1] if aside else PLACES
         others = [np.full(before.size, place) for place in places]
     else:
@@ -42,15 +42,17 @@ def estimate_backlash_phase(
             for by in (-FINER, FINER)
         ]
     model = point.structure.model(point.values)
-    costs = [_costs(problem, point, point.innovations, before)]
+    costs = [_costs_by_run(problem, point, point.innovations, before)]
     for each in others:
-        ahead = problem.predict_errors(model, point.nuisance.meshing(each), point.kalman_gain)
-        costs.append(_costs(problem, point, ahead, each))
+        ahead = problem.predict_errors(
+            model, point.nuisance.with_backlash_phase(each), point.kalman_gain
+        )
+        costs.append(_costs_by_run(problem, point, ahead, each))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
     if not chosen.any():
         return point
-    nuisance = point.nuisance.meshing(tried[chosen, np.arange(before.size)])
-    found = problem.at(point.structure, point.values, nuisance, point.process_noise)
+    nuisance = point.nuisance.with_backlash_phase(tried[chosen, np.arange(before.size)])
+    found = problem.evaluate(point.structure, point.values, nuisance, point.process_noise)
     return (
         found
         if found.cost + backlash_phase_prior(found) < point.cost + backlash_phase_prior(point)
@@ -60,26 +62,31 @@ def estimate_backlash_phase(
 
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """Half the backlash, with each run's phase estimated anew."""
-    slacks = {name: 0.5 * point.values[name] for name in point.structure.slacks}
+    slacks = {name: 0.5 * point.values[name] for name in point.structure.backlash_names}
     values = {**point.values, **slacks}
     return estimate_backlash_phase(
-        problem, problem.at(point.structure, values, point.nuisance.unmeshed, point.process_noise)
+        problem,
+        problem.evaluate(
+            point.structure, values, point.nuisance.without_backlash_phase, point.process_noise
+        ),
     )
 
 
-def _costs(problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshed: Array) -> Array:
+def _costs_by_run(
+    problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshed: Array
+) -> Array:
     """(runs,) what the innovations of each cost, by the spread at a point, and what was told."""
-    squares = np.square(problem.white(point, ahead)).reshape(-1, 2).sum(axis=1)
-    costs: Array = np.add.reduceat(squares, problem.edges[:-1]) + _prices(meshed)
+    squares = np.square(problem.whiten(point, ahead)).reshape(-1, 2).sum(axis=1)
+    costs: Array = np.add.reduceat(squares, problem.run_edges[:-1]) + _prior_costs(meshed)
     return costs
 
 
 def backlash_phase_prior(point: Estimate) -> float:
     """[of -2 log L] prior cost of the backlash phases."""
-    return float(np.sum(_prices(point.nuisance.backlash_phase)))
+    return float(np.sum(_prior_costs(point.nuisance.backlash_phase)))
 
 
-def _prices(meshed: Array) -> Array:
+def _prior_costs(meshed: Array) -> Array:
     """(runs,) [of -2 log L]."""
     told = np.where(np.abs(meshed) == 1.0, ASIDE, BETWEEN)
     return np.where(np.isnan(meshed), 0.0, told)

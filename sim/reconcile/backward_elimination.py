@@ -10,9 +10,8 @@ from dataclasses import replace
 from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
-from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
-from sim.reconcile.cross_validation import Fold, Gap, validation_gap
+from sim.reconcile.cross_validation import Gap, validation_gap
 from sim.reconcile.local_minimum import minimize
 from sim.reconcile.model_selection import (
     WIDENS,
@@ -20,94 +19,84 @@ from sim.reconcile.model_selection import (
     required_improvement,
     score_improvement,
 )
+from sim.reconcile.selection_data import SelectionData, voltage_residual_at
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import CLOSE, ONCE, SIMPLER, SURER
-
-ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
+from sim.reconcile.thresholds import CLOSE, LOOKED_ALIKE, ONCE, SIMPLER, SURER
 
 
 def replace_effects(
-    problem: PredictionErrorProblem, done: list[SelectionRound], log: Log, parts: Sequence[Fold]
+    data: SelectionData, done: list[SelectionRound], log: Log
 ) -> list[SelectionRound]:
     """Replace an earlier effect by another where that is likelier now."""
-    last = done[-1]
+    problem, last = data.problem, done[-1]
     for place in range(1, len(done) - 1):
         effect = done[place].candidate.effect
-        others = _others(done, place)
+        others = _look_alikes(done, place)
         if not others:
             continue
         reduced = refit_without(problem, last.candidate, effect)
-        if reduced.score - last.candidate.score < required_improvement(
-            effect
-        ):  # it has become needless
-            gap = validation_gap(problem, reduced.point, parts)
+        needed = reduced.score - last.candidate.score >= required_improvement(effect)
+        if not needed:
+            gap = validation_gap(problem, reduced.estimate, data.folds)
             if not math.isfinite(gap.velocity + gap.position):
                 continue
-            rest = [*done[:place], *done[place + 1 : -1]]
-            return [
-                *rest,
-                replace(last, candidate=replace(reduced, effect=last.candidate.effect), gap=gap),
-            ]
-        model = reduced.point.structure.model(reduced.point.values)
-        evidence = compute_voltage_residual(
-            log, dict(model.gains), type=reduced.point.structure.type
-        )
-        found = rank_candidates(problem, reduced.point, evidence, only=others, seeds=last.seeds)
-        if not found or score_improvement(last.candidate, found[0]) < _clear(
+            best = replace(reduced, effect=last.candidate.effect)
+            return [*done[:place], *done[place + 1 : -1], replace(last, candidate=best, gap=gap)]
+        evidence = voltage_residual_at(log, reduced.estimate)
+        found = rank_candidates(problem, reduced.estimate, evidence, only=others, seeds=last.seeds)
+        if not found or score_improvement(last.candidate, found[0]) < _required_advantage(
             effect, found[0].effect
         ):
             continue
-        gap = validation_gap(problem, found[0].point, parts)
+        gap = validation_gap(problem, found[0].estimate, data.folds)
         if rejection_reason(gap, last.gap, SURER) == WIDENS:
             continue
-        return _replaced(done, place, found[0], gap)
+        return _replace_one(done, place, found[0], gap)
     return done
 
 
-def _clear(effect: str, other: str) -> float:
+def _required_advantage(effect: str, other: str) -> float:
     """[of -2 log L] by which another effect must be likelier to take the place of one."""
-    passing = EFFECTS[other].happens and not EFFECTS[effect].happens
+    passing = EFFECTS[other].has_onset and not EFFECTS[effect].has_onset
     return ONCE if passing else CLOSE
 
 
 def simplify_effects(
-    problem: PredictionErrorProblem, done: list[SelectionRound], log: Log, parts: Sequence[Fold]
+    data: SelectionData, done: list[SelectionRound], log: Log
 ) -> list[SelectionRound]:
     """Replace effects by their simpler forms where these explain as much.
 
     What an effect had to explain before all was found may have needed its further parameters.
     """
+    problem = data.problem
     for place in range(1, len(done)):
-        last = done[-1]
-        effect = done[place].candidate.effect
-        had = last.candidate.point.structure.effects  # those that nobody names among them
+        last, effect = done[-1], done[place].candidate.effect
+        point = last.candidate.estimate
+        had = point.structure.effects  # those that nobody names among them
         names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []
-        model = last.candidate.point.structure.model(last.candidate.point.values)
-        evidence = compute_voltage_residual(
-            log, dict(model.gains), type=last.candidate.point.structure.type
-        )
-        begun = simplify_effect(problem, last.candidate.point, names, evidence, effect=effect)
+        evidence = voltage_residual_at(log, point)
+        begun = simplify_effect(problem, point, names, evidence, effect=effect)
         if begun is None or not math.isfinite(begun.cost):
             continue
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
-        gap = validation_gap(problem, found.point, parts)
+        gap = validation_gap(problem, found.estimate, data.folds)
         as_good = found.score - last.candidate.score <= SIMPLER
         if as_good and rejection_reason(gap, last.gap, SURER) != WIDENS:
-            done = _replaced(done, place, found, gap)
+            done = _replace_one(done, place, found, gap)
     return done
 
 
-def _others(done: Sequence[SelectionRound], place: int) -> list[str]:
+def _look_alikes(done: Sequence[SelectionRound], place: int) -> list[str]:
     """Effects that looked like one that was added, or are known to."""
     effect = done[place].candidate.effect
     had = {one.candidate.effect for one in done}
     tried = done[place - 1].tried
     best = max((one.score for one in tried), default=0.0)
-    alike = [one.effect for one in tried if one.score > ALIKE * best]
+    alike = [one.effect for one in tried if one.score > LOOKED_ALIKE * best]
     return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
 
 
-def _replaced(
+def _replace_one(
     done: Sequence[SelectionRound], place: int, found: Candidate, gap: Gap
 ) -> list[SelectionRound]:
     """The rounds with another effect in the place of one."""
@@ -121,27 +110,25 @@ def _replaced(
     return [*middle, replace(last, candidate=end, gap=gap, rivals=())]
 
 
-def measure_removals(
-    problem: PredictionErrorProblem, done: list[SelectionRound], parts: Sequence[Fold]
-) -> list[SelectionRound]:
+def measure_removals(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Each round with the estimate that lacks its effect."""
     last = done[-1].candidate
-    if len(last.point.structure.effects) <= 1:  # what it brought is what it is worth
+    if len(last.estimate.structure.effects) <= 1:  # what it brought is what it is worth
         return done
     told = [done[0]]
     for one in done[1:]:
-        reduced = refit_without(problem, last, one.candidate.effect)
-        gap = validation_gap(problem, reduced.point, parts)
-        told.append(replace(one, lost=reduced.score - last.score, bare=gap))
+        reduced = refit_without(data.problem, last, one.candidate.effect)
+        gap = validation_gap(data.problem, reduced.estimate, data.folds)
+        told.append(replace(one, removal_cost=reduced.score - last.score, gap_without=gap))
     return told
 
 
 def refit_without(problem: PredictionErrorProblem, candidate: Candidate, effect: str) -> Candidate:
     """A model refitted without one of its effects."""
-    point = candidate.point
+    point = candidate.estimate
     structure = point.structure - effect
     values = {name: point.values[name] for name in structure.names}
-    begin = problem.at(structure, values, point.nuisance, point.process_noise)
+    begin = problem.evaluate(structure, values, point.nuisance, point.process_noise)
     return score_estimate(problem, minimize(problem, begin))
 
 

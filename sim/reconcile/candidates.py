@@ -1,9 +1,9 @@
 """Candidate effects: each effect of the catalogue on top of a model, ranked by BIC.
 
-A start of each is drawn from what the log shows (``Effect.starts``) and simulated once; the most
-promising go downhill a little, the best of those to the end. What shakes only for a moment after
-each change of voltage, as two bodies do, is tried on the lively runs first; of a point that much
-pushes, which bears with anything, only near a calmer one.
+A start of each is drawn from what the log shows (``Effect.start_values``) and simulated once; the
+most promising go downhill a little, the best of those to the end. What shakes only for a moment
+after each change of voltage, as two bodies do, is tried on the lively runs first; of a point that
+much pushes, which bears with anything, only near a calmer one.
 """
 
 import math
@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
-from sim.estimation.optimize import joint_jacobian, levenberg_marquardt
+from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.estimation.random_friction import laplace_correction
 from sim.physics.effect import Effect
 from sim.physics.effects import EFFECTS
@@ -50,19 +50,19 @@ class Candidate:
 
     Args:
         effect: its name; empty for the point itself.
-        point: the best with it.
+        estimate: the best with it.
         score: [of -2 log L] of the point, friction that varies and the number of values priced in;
             the smaller, the likelier.
     """
 
     effect: str
-    point: Estimate
+    estimate: Estimate
     score: float
 
 
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
     """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
-    values = point.structure.free * math.log(max(problem.count, 2))
+    values = point.structure.free_count * math.log(max(problem.sample_count, 2))
     own = laplace_correction(point.values, problem.friction_jacobian(point))
     return Candidate(effect, point, point.cost + own + backlash_phase_prior(point) + values)
 
@@ -85,25 +85,25 @@ def rank_candidates(
     had = (*point.structure.effects, *OWN.get(point.structure.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     effects = [EFFECTS[name] for name in names]
-    calmer = _calmer(problem, point)
+    calmer = _find_calmer_estimate(problem, point)
     here = effects if calmer is None else [one for one in effects if one.kind != SHAKES]
-    begun = _begun(problem, point, here, evidence, seeds)[:TRIED]
+    begun = _best_starts(problem, point, here, evidence, seeds)[:TRIED]
     gone = [
         descend_candidate(problem, point, refine_onset(problem, one))
         for starts in begun
         for _, one in starts
     ]
-    best = _each_once(gone)[:KEPT]
+    best = _best_of_each_effect(gone)[:KEPT]
     if calmer is not None:
-        begun = _begun(problem, calmer, effects, evidence, seeds, heavy=True)
-        shaken = [one for one in begun[TRIED_CALM:] if _shakes(one[0][1])]
+        begun = _best_starts(problem, calmer, effects, evidence, seeds, heavy=True)
+        shaken = [one for one in begun[TRIED_CALM:] if _ends_in_two_bodies(one[0][1])]
         begun = [*begun[:TRIED_CALM], *shaken]
         calm = [descend_candidate(problem, point, one) for starts in begun for _, one in starts]
-        best = _each_once([*gone, *calm])[:KEPT]
-        best += _each_once(calm)[:1]  # the likeliest of these has the longer way to go
+        best = _best_of_each_effect([*gone, *calm])[:KEPT]
+        best += _best_of_each_effect(calm)[:1]  # the likeliest of these has the longer way to go
     ended = [minimize(problem, one) for one in dict.fromkeys(best)]
     simpler = [simplify_effect(problem, one, names, evidence) for one in ended]
-    ended = _each_once([*ended, *(minimize(problem, one) for one in simpler if one)])
+    ended = _best_of_each_effect([*ended, *(minimize(problem, one) for one in simpler if one)])
     found = [score_estimate(problem, one, one.structure.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
 
@@ -121,26 +121,28 @@ def descend_candidate(
         point: the best without the candidate.
         start: with it.
     """
-    if not _shakes(start):
+    if not _ends_in_two_bodies(start):
         return levenberg_marquardt(problem, start, steps=A_LITTLE)
     gone = levenberg_marquardt(problem, start, steps=FURTHER)
-    if gone.cost < point.cost or not start.nuisance.is_meshed:
+    if gone.cost < point.cost or not start.nuisance.has_backlash_phase:
         return gone
-    untold = problem.at(start.structure, start.values, start.nuisance.unmeshed, start.process_noise)
+    untold = problem.evaluate(
+        start.structure, start.values, start.nuisance.without_backlash_phase, start.process_noise
+    )
     return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=total_cost)
 
 
-def _shakes(point: Estimate) -> bool:
+def _ends_in_two_bodies(point: Estimate) -> bool:
     """Whether the last effect of a point is a joint of two bodies."""
     return EFFECTS[point.structure.effects[-1]].kind == SHAKES
 
 
-def _calmer(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None:
+def _find_calmer_estimate(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None:
     """A point that little pushes, near one that much does; None where little does anyway."""
     calm = CALM * problem.noise.velocity**2
     if point.process_noise <= AGITATED * calm:
         return None
-    calmer = problem.at(point.structure, point.values, point.nuisance, calm)
+    calmer = problem.evaluate(point.structure, point.values, point.nuisance, calm)
     calmer = levenberg_marquardt(problem, calmer, steps=A_LITTLE)
     return calmer if math.isfinite(calmer.cost) else None
 
@@ -170,16 +172,17 @@ def simplify_effect(
     if name not in names:
         return None
     mine = {one: point.values[f"{old.name}.{one}"] for one in old.names}
-    values = old.simplified(mine, evidence)
+    values = old.simplify(mine, evidence)
     structure = point.structure - old.name + name
     more = {
-        f"{name}.{one}": structure.within(f"{name}.{one}", value) for one, value in values.items()
+        f"{name}.{one}": structure.clamp_value(f"{name}.{one}", value)
+        for one, value in values.items()
     }
     kept = {one: point.values[one] for one in (point.structure - old.name).names}
-    return problem.at(structure, {**kept, **more}, point.nuisance, point.process_noise)
+    return problem.evaluate(structure, {**kept, **more}, point.nuisance, point.process_noise)
 
 
-def _each_once(points: Iterable[Estimate]) -> list[Estimate]:
+def _best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
     """The best point of each effect, the likeliest first."""
     best: dict[str, Estimate] = {}
     for one in sorted(points, key=total_cost):
@@ -187,7 +190,7 @@ def _each_once(points: Iterable[Estimate]) -> list[Estimate]:
     return list(best.values())
 
 
-def _begun(
+def _best_starts(
     problem: PredictionErrorProblem, point: Estimate, effects: Iterable[Effect],
     evidence: VoltageResidual, seeds: Seeds, *, heavy: bool = False,
 ) -> list[list[Begun]]:  # fmt: skip
@@ -196,7 +199,7 @@ def _begun(
     Of what shakes, each valley that its lively runs show: how promising one is, is no sign of where
     it leads. ``heavy`` tries two bodies of more inertia, too.
     """
-    kept = joint_jacobian(problem, point)
+    kept = make_joint_jacobian(problem, point)
     found = []
     lively = None
     for effect in effects:
@@ -206,15 +209,15 @@ def _begun(
                 f"{effect.name}.{one.name}": min(max(start[one.name], one.least), one.most)
                 for one in effect.parameters
             }
-            for start in effect.starts(evidence)
+            for start in effect.start_values(evidence)
         ]
         shakes = False
         if effect.kind == SHAKES:
             lively = lively or TwoBodyStarts(problem, point)
             if shakes := lively.there:
-                more = lively.valleys(structure, more, heavy=heavy)
+                more = lively.list_starts(structure, more, heavy=heavy)
         more += _steps_below(effect, more)
-        if effect.happens:
+        if effect.has_onset:
             more += scan_onsets(problem, point, effect, kept=kept)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))

@@ -12,9 +12,9 @@ from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.random_friction import LEAST_KS
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import Track
+from sim.reconcile.thresholds import MOST_VARIED
 
 REFIT = 4  # steps
-MOST_VARIED = 0.12  # [of kS] by which a run's friction may differ
 EASED = (-1.0, -2 / 3, -1 / 3, 0.0, 1 / 3, 2 / 3, 1.0)
 """[1] of the most that friction varies."""
 
@@ -69,22 +69,27 @@ def validation_gap(problem: PredictionErrorProblem, point: Estimate, parts: Sequ
     """The gap on runs to which the values were not fitted."""
     errors = [np.empty((0, 2))]
     for part in parts:
-        if not (_tells(problem, part.fitted) and _tells(problem, part.predicted)):
+        if not (_has_comparison(problem, part.fitted) and _has_comparison(problem, part.predicted)):
             continue
-        fitted = _some(problem, part.fitted)
-        begin = fitted.at(
-            point.structure, point.values, point.nuisance.of(part.fitted), point.process_noise
+        fitted = _select_records(problem, part.fitted)
+        begin = fitted.evaluate(
+            point.structure,
+            point.values,
+            point.nuisance.select_runs(part.fitted),
+            point.process_noise,
         )
         found = levenberg_marquardt(fitted, begin, steps=REFIT)
-        nuisance = point.nuisance.of(part.predicted).alike
-        errors.append(open_loop_errors(_some(problem, part.predicted), found, nuisance, eased=True))
+        nuisance = point.nuisance.select_runs(part.predicted).with_common_friction
+        errors.append(
+            open_loop_errors(_select_records(problem, part.predicted), found, nuisance, eased=True)
+        )
     return rms_gap(np.concatenate(errors))
 
 
-def _tells(problem: PredictionErrorProblem, chosen: Sequence[int]) -> bool:
+def _has_comparison(problem: PredictionErrorProblem, chosen: Sequence[int]) -> bool:
     """Whether anything of these runs is compared."""
-    edges = problem.edges.tolist()
-    return any(problem.telling[edges[n] : edges[n + 1]].any() for n in chosen)
+    edges = problem.run_edges.tolist()
+    return any(problem.informative[edges[n] : edges[n + 1]].any() for n in chosen)
 
 
 def open_loop_errors(
@@ -99,9 +104,9 @@ def open_loop_errors(
         eased: each run may have a friction of its own, as ``friction.py`` has it: what one run's
             accident does to the gap says nothing about an effect.
     """
-    track = problem.track(point.structure.model(point.values), nuisance)
-    errors = problem.measured - track.read
-    moves = problem.moving | ((track.velocity != 0.0) & problem.telling)
+    track = problem.simulate(point.structure.model(point.values), nuisance)
+    errors = problem.measured - track.sensor_readings
+    moves = problem.moving | ((track.velocity != 0.0) & problem.informative)
     if not eased:
         return np.asarray(errors[moves])
     errors = _with_run_friction(problem, point, nuisance, track, moves)
@@ -126,18 +131,18 @@ def _with_run_friction(
     model, runs = point.structure.model(point.values), len(problem.records)
 
     def missed(rubs: Array) -> Array:
-        other = problem.track(model, nuisance.rubbing(rubs)) if rubs.any() else track
-        return _missed(problem, other)
+        other = problem.simulate(model, nuisance.add_friction(rubs)) if rubs.any() else track
+        return _open_loop_errors(problem, other)
 
     every = np.stack([missed(np.full(runs, share * most)) for share in EASED])  # (shares, n, 2)
-    costs = _costs(problem, every, moves)
+    costs = _costs_by_share(problem, every, moves)
     best = np.clip(np.argmin(costs, axis=0), 1, len(EASED) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
     aside = parabola_minima(less, here, more)
     between = missed((np.array(EASED)[best] + (EASED[1] - EASED[0]) * aside) * most)
     every = np.concatenate([every, between[None]])
-    best = np.argmin(_costs(problem, every, moves), axis=0)
-    return np.asarray(every[np.repeat(best, np.diff(problem.edges)), np.arange(len(moves))])
+    best = np.argmin(_costs_by_share(problem, every, moves), axis=0)
+    return np.asarray(every[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(moves))])
 
 
 def parabola_minima(less: Array, here: Array, more: Array) -> Array:
@@ -147,18 +152,20 @@ def parabola_minima(less: Array, here: Array, more: Array) -> Array:
     return np.asarray(np.clip(np.nan_to_num(aside, posinf=0.0, neginf=0.0), -1.0, 1.0))
 
 
-def _costs(problem: PredictionErrorProblem, every: Array, moves: NDArray[np.bool_]) -> Array:
+def _costs_by_share(
+    problem: PredictionErrorProblem, every: Array, moves: NDArray[np.bool_]
+) -> Array:
     """(shares, runs) what each run misses, position and velocity in what is ordinary for both."""
     with np.errstate(over="ignore", invalid="ignore"):  # of what ran away
         squares = np.where(moves[:, None] & ~np.isnan(every), np.square(every), 0.0)
         sizes = np.mean(squares[EASED.index(0.0)], axis=0) + 1e-300
-        costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.edges[:-1], axis=1)
+        costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.run_edges[:-1], axis=1)
     return np.asarray(np.nan_to_num(costs, nan=np.inf))
 
 
-def _missed(problem: PredictionErrorProblem, track: Track) -> Array:
+def _open_loop_errors(problem: PredictionErrorProblem, track: Track) -> Array:
     """(n, 2) measured less simulated, without end where a simulation ran away."""
-    seen = track.read
+    seen = track.sensor_readings
     away = ~np.isfinite(seen) & ~np.isnan(problem.measured)
     return np.where(away, np.inf, problem.measured - seen)
 
@@ -180,5 +187,7 @@ def missed_motion(strays: float, problem: PredictionErrorProblem) -> float:
     return strays * problem.noise.velocity / max(size, 1e-300)
 
 
-def _some(problem: PredictionErrorProblem, chosen: Sequence[int]) -> PredictionErrorProblem:
+def _select_records(
+    problem: PredictionErrorProblem, chosen: Sequence[int]
+) -> PredictionErrorProblem:
     return PredictionErrorProblem(tuple(problem.records[n] for n in chosen), problem.noise)

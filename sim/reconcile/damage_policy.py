@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from sim.estimation.run_records import ExcludedInterval
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.thresholds import SLIPPED, SPOILT
+from sim.reconcile.thresholds import LONGEST_SLIP, SLIPPED, SPOILT
 
 FOR_GOOD = ("hard-stop",)
 """Faults after which a run tells nothing more: it leans on a stop."""
@@ -23,25 +23,22 @@ physics that is missing (a soft joint shakes as a slipping wheel does): the fit 
 WHOLE = ("sign-flip",)
 """Faults of a whole run. Two such runs are no fault: voltage and motion do not belong together."""
 
-LONGEST = 0.3
-"""[s] of an encoder's slip, which is over in a moment: what takes longer is a start that sticks."""
-
 
 @dataclass(frozen=True)
 class DamageDecision:
     """Which damage is cut out, and which is reported.
 
     Args:
-        cut: which log -> stretches that are left out.
-        found: what is reported as a finding, one of each fault.
+        excluded: which log -> stretches that are left out.
+        reported: what is reported as a finding, one of each fault.
     """
 
-    cut: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
-    found: tuple[DamagedInterval, ...] = ()
+    excluded: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
+    reported: tuple[DamagedInterval, ...] = ()
 
-    def of(self, name: str) -> tuple[ExcludedInterval, ...]:
+    def excluded_from(self, name: str) -> tuple[ExcludedInterval, ...]:
         """What is left out of a log."""
-        return self.cut.get(name, ())
+        return self.excluded.get(name, ())
 
 
 def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDecision:
@@ -51,7 +48,7 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
     for name, every in damages.items():
         turned = {one.run for one in every if one.fault in WHOLE}
         for one in every:
-            if not _of_the_record(one) or (one.fault in WHOLE and len(turned) > 1):
+            if not _is_damage_to_record(one) or (one.fault in WHOLE and len(turned) > 1):
                 continue
             if one.run is not None:
                 stretch = ExcludedInterval(one.run, one.start, one.end, one.fault in FOR_GOOD)
@@ -65,8 +62,8 @@ def _confidence(one: DamagedInterval | None) -> float:
     return -1.0 if one is None else one.confidence
 
 
-def _of_the_record(one: DamagedInterval) -> bool:
+def _is_damage_to_record(one: DamagedInterval) -> bool:
     """Whether it is damage to the record beyond doubt, and no physics."""
     if one.confidence < OF_THE_RECORD.get(one.fault, 2.0):
         return False
-    return one.fault != "encoder-slip" or one.end - one.start <= LONGEST
+    return one.fault != "encoder-slip" or one.end - one.start <= LONGEST_SLIP

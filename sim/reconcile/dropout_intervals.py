@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Run
-
-USUAL = 0.22  # [s] of voltages whose median is what a sample ought to read
-FALLEN = 0.75  # [share of that median] below which it has dropped
-AFTER = 0.06  # [s] in which a velocity has answered
-ANSWERED = 0.9  # [share of the speed before] below which it has
+from sim.reconcile.thresholds import (
+    DROPOUT_ANSWER,
+    DROPOUT_ANSWERED,
+    DROPOUT_FALLEN,
+    DROPOUT_MEDIAN,
+)
 
 
 def dropout_intervals(run: Run, *, start: float, end: float) -> tuple[tuple[float, float], ...]:
@@ -27,39 +28,39 @@ def dropout_intervals(run: Run, *, start: float, end: float) -> tuple[tuple[floa
         start: [s] on its clock, of the first drop-out.
         end: [s] of the last one's end.
     """
-    found = list(_low(run, start=start, end=end))
-    if not found or np.median([_kept(run, *one) for one in found]) > ANSWERED:
+    found = list(_find_falls(run, start=start, end=end))
+    if not found or np.median([_kept_speed(run, *one) for one in found]) > DROPOUT_ANSWERED:
         return ((start, end),)
     return tuple((float(run.time[first]), float(run.time[last])) for first, last in found)
 
 
-def _low(run: Run, *, start: float, end: float) -> Iterator[tuple[int, int]]:
+def _find_falls(run: Run, *, start: float, end: float) -> Iterator[tuple[int, int]]:
     """First and last sample of each fall of the voltage."""
     size = np.abs(run.voltage)
-    low = size < FALLEN * _usual(size, float(np.median(np.diff(run.time))))
+    low = size < DROPOUT_FALLEN * _running_median(size, float(np.median(np.diff(run.time))))
     places = np.flatnonzero(low & (run.time >= start) & (run.time <= end))
-    for group in _together(places):
+    for group in _join_falls(places):
         yield int(group[0]), int(group[-1])
 
 
-def _usual(size: Array, period: float) -> Array:
+def _running_median(size: Array, period: float) -> Array:
     """(n,) running median."""
-    half = max(round(USUAL / period / 2.0), 2)
+    half = max(round(DROPOUT_MEDIAN / period / 2.0), 2)
     padded = np.pad(size, half, mode="edge")
     return np.asarray(
         np.median(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1), axis=1)
     )
 
 
-def _together(places: NDArray[np.intp]) -> list[NDArray[np.intp]]:
+def _join_falls(places: NDArray[np.intp]) -> list[NDArray[np.intp]]:
     if not places.size:
         return []
     return np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)
 
 
-def _kept(run: Run, first: int, last: int) -> float:
+def _kept_speed(run: Run, first: int, last: int) -> float:
     """[share] of its speed that it has in and after a fall."""
     speed = np.abs(run.velocity)
     before = float(np.median(speed[max(first - 2, 0) : first + 1]))
-    until = int(np.searchsorted(run.time, run.time[last] + AFTER)) + 1
+    until = int(np.searchsorted(run.time, run.time[last] + DROPOUT_ANSWER)) + 1
     return float(np.min(speed[first:until])) / before if before > 0.0 else 1.0

@@ -59,22 +59,24 @@ def make_findings(
         left: what the last model leaves.
         per: the owner's unit.
     """
-    faults = [_fault(one, chapters[0].gap) for one in damages]
-    last = done[-1].candidate.point
+    faults = [_make_fault_finding(one, chapters[0].gap) for one in damages]
+    last = done[-1].candidate.estimate
     end = done[-1].gap.velocity / problem.noise.velocity
-    far = end > STRAYS or left.something
-    effects = _sized(problem, done, chapters, far=far, per=per)
+    far = end > STRAYS or left.has_structure
+    effects = _classify_size(problem, done, chapters, far=far, per=per)
     if not missed_motion(end, problem) <= LOST:  # no number at all is lost, too
         effects = []
     effects = [one for one in effects if not is_ordinary_size(one.effect, last.values)]
     alone = all(one.size != "major" for one in effects)
-    effects = [one for one in effects if one.size == "major" or not alone or _headline(one, done)]
+    effects = [
+        one for one in effects if one.size == "major" or not alone or _is_worth_a_name(one, done)
+    ]
     effects = [one for one in effects if not is_contradicted(one.effect, problem, last, left)]
     effects.sort(key=lambda one: -one.score)
-    return tuple(sorted((*faults, *effects), key=_rank))
+    return tuple(sorted((*faults, *effects), key=_sort_key))
 
 
-def _sized(
+def _classify_size(
     problem: PredictionErrorProblem,
     done: Sequence[SelectionRound],
     chapters: Sequence[Chapter],
@@ -88,9 +90,9 @@ def _sized(
     the one that closed most of it is major.
     """
     least = FAR_MAJOR if far else MAJOR
-    errors = standard_errors(problem, done[-1].candidate.point)
+    errors = standard_errors(problem, done[-1].candidate.estimate)
     found = [
-        _effect(
+        _make_effect_finding(
             done[n - 1],
             done[n],
             done[-1],
@@ -102,28 +104,28 @@ def _sized(
         )
         for n in range(1, len(done))
     ]
-    closed = done[-1].gap.velocity <= least * done[0].before.velocity
+    closed = done[-1].gap.velocity <= least * done[0].gap_before.velocity
     if closed and not far and all(one.size != "major" for one in found):
-        most = min(range(len(found)), key=lambda n: _step(done[n + 1]), default=None)
+        most = min(range(len(found)), key=lambda n: _share_left(done[n + 1]), default=None)
         if most is not None:
             found[most] = replace(found[most], size="major")
     return found
 
 
-def _headline(one: Finding, done: Sequence[SelectionRound]) -> bool:
+def _is_worth_a_name(one: Finding, done: Sequence[SelectionRound]) -> bool:
     """Whether a minor effect is worth a name where nothing else is missing."""
-    last = done[-1].candidate.point
+    last = done[-1].candidate.estimate
     places = (n for n in range(1, len(done)) if done[n].candidate.effect == one.effect)
     lone = any(is_unrivalled(one.effect, done[n - 1].tried) for n in places)
     return is_significant(one.effect, last.values, one.score, lone=lone)
 
 
-def _step(one: SelectionRound) -> float:
+def _share_left(one: SelectionRound) -> float:
     """[1] of the gap before it that an effect left when it was added."""
-    return one.gap.velocity / one.before.velocity if one.before.velocity > 0.0 else math.inf
+    return one.gap.velocity / one.gap_before.velocity if one.gap_before.velocity > 0.0 else math.inf
 
 
-def _rank(one: Finding) -> int:
+def _sort_key(one: Finding) -> int:
     """Its place: sure faults, major effects, faults that are none perhaps, minor effects."""
     return 2 * (one.size != "major") + (one.kind == "effect")
 
@@ -137,7 +139,7 @@ def is_contradicted(
     has it back at another pace. The knock itself is known to a sample, and never explained quite.
     """
     moment = left.worst_window
-    if not (EFFECTS[effect].happens and left.shaken):
+    if not (EFFECTS[effect].has_onset and left.has_unlikely_window):
         return False
     record = problem.records[moment.record]
     onset = last.values[f"{effect}.{ONSET}"] - record.clock + float(record.measurements.time[0])
@@ -151,7 +153,7 @@ def list_remarks(
     left: ResidualSummary,
 ) -> tuple[str, ...]:
     """Remarks: effects that were not reported, and what the data do not determine."""
-    last = done[-1].candidate.point
+    last = done[-1].candidate.estimate
     structure = last.structure
     named = {one.effect for one in findings}
     unsure = [name for name in structure.effects if is_contradicted(name, problem, last, left)]
@@ -162,21 +164,21 @@ def list_remarks(
         why = "no more than on other robots, or too little to narrow the gap"
         said.append(f"In the last model there is also a little {what}: {why}.")
     said += [BELIED.format(name) for name in unsure]
-    if structure.plays and not _turned(problem):
+    if structure.has_backlash and not _reverses_within_run(problem):
         said.append(TURNLESS)
     return tuple(said)
 
 
-def _turned(problem: PredictionErrorProblem) -> bool:
+def _reverses_within_run(problem: PredictionErrorProblem) -> bool:
     """Whether it moved both ways within a run."""
     ways = [
         np.sign(problem.measured[first:last, 1][problem.moving[first:last]])
-        for first, last in pairwise(problem.edges.tolist())
+        for first, last in pairwise(problem.run_edges.tolist())
     ]
     return any((one > 0.0).any() and (one < 0.0).any() for one in ways)
 
 
-def _fault(one: DamagedInterval, gap: float) -> Finding:
+def _make_fault_finding(one: DamagedInterval, gap: float) -> Finding:
     size = "major" if one.confidence >= TOLD_FIRST else "minor"
     return Finding(
         effect=one.fault, kind="fault", size=size, ambiguous_with=(), parameters={},
@@ -185,16 +187,20 @@ def _fault(one: DamagedInterval, gap: float) -> Finding:
     )  # fmt: skip
 
 
-def _effect(  # noqa: PLR0917 - two rounds, and what to call them
+def _make_effect_finding(  # noqa: PLR0917 - two rounds, and what to call them
     before: SelectionRound, now: SelectionRound, end: SelectionRound, errors: Mapping[str, float],
     gap_before: float, gap_after: float, *, per: Unit, least: float,
 ) -> Finding:  # fmt: skip
     name = now.candidate.effect
     effect = EFFECTS[name]
-    last = end.candidate.point
-    with_, bare = (now.gap, before.gap) if now.bare is None else (end.gap, now.bare)
+    last = end.candidate.estimate
+    with_, bare = (now.gap, before.gap) if now.gap_without is None else (end.gap, now.gap_without)
     major = with_.velocity <= least * bare.velocity
-    score = before.candidate.score - now.candidate.score if math.isnan(now.lost) else now.lost
+    score = (
+        before.candidate.score - now.candidate.score
+        if math.isnan(now.removal_cost)
+        else now.removal_cost
+    )
     parameters = {}
     for one in effect.parameters:
         whole = f"{name}.{one.name}"
@@ -223,5 +229,5 @@ def standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[st
     told, ways = np.linalg.eigh(table.T @ table)
     inverse = (ways / np.maximum(told, 1e-11)) @ ways.T
     errors = np.sqrt(np.maximum(np.diag(inverse), 0.0)) / size
-    names = point.structure.searched
+    names = point.structure.searched_names
     return {name: float(error) for name, error in zip(names, errors, strict=False) if error > 0.0}

@@ -1,7 +1,7 @@
 """Forward selection: try every candidate, add the best, refit, repeat."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from sim.core.log import Log
@@ -10,7 +10,7 @@ from sim.estimation.optimize import ENOUGH
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import measure_removals, replace_effects, simplify_effects
 from sim.reconcile.candidates import Seeds, score_estimate
-from sim.reconcile.cross_validation import Fold, missed_motion, validation_gap
+from sim.reconcile.cross_validation import missed_motion, validation_gap
 from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.model_selection import (
     HARDLY,
@@ -25,6 +25,7 @@ from sim.reconcile.model_selection import (
     weigh_candidates,
 )
 from sim.reconcile.onset_scan import flip_duration, refine_onset
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.thresholds import (
     CLOSE,
@@ -36,6 +37,7 @@ from sim.reconcile.thresholds import (
     NEAR,
     PART,
     PATHS,
+    SECOND_THOUGHTS,
     STRAYS,
     SURE,
     SURER,
@@ -43,61 +45,41 @@ from sim.reconcile.thresholds import (
     USUAL,
 )
 
-SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
 BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
-Progress = Callable[[str, float], None]
 
 
-def select_effects(
-    problem: PredictionErrorProblem,
-    base: Estimate,
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
-) -> list[SelectionRound]:
+def select_effects(data: SelectionData, base: Estimate, log: Log) -> list[SelectionRound]:
     """The base model, then one round for each effect that was added.
 
     Args:
-        problem: the measurements of all that may be fitted.
+        data: the measurements.
         base: the best point without effects.
         log: the runs of the problem.
-        parts: what predicts what.
-        progress: told what is done.
     """
-    gap = validation_gap(problem, base, parts)
-    done = _gone(
-        problem, [SelectionRound(score_estimate(problem, base), gap, gap)], log, parts, progress
+    gap = validation_gap(data.problem, base, data.folds)
+    done = _continue_search(
+        data, [SelectionRound(score_estimate(data.problem, base), gap, gap)], log
     )
-    done = add_pair(problem, done, log, parts, progress)
-    done = choose_path(problem, done, log, parts, progress)
-    done = simplify_effects(problem, done, log, parts)
-    return measure_removals(problem, done, parts)
+    done = add_pair(data, done, log)
+    done = choose_path(data, done, log)
+    done = simplify_effects(data, done, log)
+    return measure_removals(data, done)
 
 
-def _gone(
-    problem: PredictionErrorProblem,
-    done: list[SelectionRound],
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
+def _continue_search(
+    data: SelectionData, done: list[SelectionRound], log: Log
 ) -> list[SelectionRound]:
     """The same, gone on until nothing is to be added and no earlier effect gives way."""
     for _ in range(SECOND_THOUGHTS + 1):
-        done = _added(problem, done, log, parts, progress)
-        thought = replace_effects(problem, done, log, parts) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
+        done = _add_effects(data, done, log)
+        thought = replace_effects(data, done, log) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
         if thought is done:
             break
         done = thought
     return done
 
 
-def add_pair(
-    problem: PredictionErrorProblem,
-    done: list[SelectionRound],
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
-) -> list[SelectionRound]:
+def add_pair(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
     """Add two effects where one alone is likelier and yet widens the gap.
 
     What a spring gives back may be hidden by a limit that nobody has named, and misses more than no
@@ -107,33 +89,21 @@ def add_pair(
     found = list_blocked(now.candidates)
     if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
         return done
-    one = found[0]
-    begun = SelectionRound(one.candidate, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds)
-    path = _gone(problem, [*done, begun], log, parts, lambda what, _: progress(what, BESIDE))
+    path = _continue_search(_on_another_path(data), [*done, _next_round(now, found[0])], log)
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
     narrows = closes and rejection_reason(path[-1].gap, now.gap, SURER) != WIDENS
     new = {other.candidate.effect for other in path} - {other.candidate.effect for other in done}
     return path if narrows and len(new) > 1 else done  # what was there may have become needless
 
 
-def choose_path(
-    problem: PredictionErrorProblem,
-    done: list[SelectionRound],
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
-) -> list[SelectionRound]:
+def choose_path(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
     """Try alternative paths where the greedy one led astray; the best is returned."""
-    best = done
+    best, problem = done, data.problem
     if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
         return best
-    for place, other in alternative_paths(done, lost=_leads_nowhere(problem, done))[:PATHS]:
-        now = done[place]
-        begun = SelectionRound(
-            other.candidate, other.gap, now.gap, quiet=now.quiet, seeds=now.seeds
-        )
-        path = [*done[: place + 1], begun]
-        path = _gone(problem, path, log, parts, lambda what, _: progress(what, BESIDE))
+    for place, other in alternative_paths(done, lost=_is_dead_end(problem, done))[:PATHS]:
+        path = [*done[: place + 1], _next_round(done[place], other)]
+        path = _continue_search(_on_another_path(data), path, log)
         likelier = score_improvement(best[-1].candidate, path[-1].candidate) >= CLOSE
         if likelier and rejection_reason(path[-1].gap, best[-1].gap, SURER) != WIDENS:
             best = path
@@ -156,10 +126,10 @@ def alternative_paths(
     found = []
     for place, one in enumerate(done[:-1]):
         had = {before.candidate.effect for before in done[: place + 1]}
-        admitted = [other for other in one.candidates if other.tried.admitted]
-        top = max((other.tried.score for other in admitted), default=0.0)
-        near = [other for other in admitted if other.tried.score >= NEAR * top]
-        near.sort(key=lambda other: other.tried.gap if lost else -other.tried.score)
+        admitted = [other for other in one.candidates if other.report.admitted]
+        top = max((other.report.score for other in admitted), default=0.0)
+        near = [other for other in admitted if other.report.score >= NEAR * top]
+        near.sort(key=lambda other: other.report.gap if lost else -other.report.score)
         for other in near:
             names = frozenset({*had, other.candidate.effect})
             if names not in gone:
@@ -168,51 +138,48 @@ def alternative_paths(
     return found
 
 
-def _added(
-    problem: PredictionErrorProblem,
-    done: list[SelectionRound],
-    log: Log,
-    parts: Sequence[Fold],
-    progress: Progress,
-) -> list[SelectionRound]:
+def _add_effects(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
     """The same, and a round for each effect that narrows the gap."""
     done = list(done)
-    while len(done) <= MOST and not _leads_nowhere(problem, done):
-        progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
+    while len(done) <= MOST and not _is_dead_end(data.problem, done):
+        data.progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
         now = done[-1]
-        weighed = weigh_candidates(problem, now, log, parts)
-        tried = tuple(one.tried for one in weighed)
-        seeds = {**now.seeds, **_seeds(weighed)}
+        weighed = weigh_candidates(data, now, log)
+        tried = tuple(one.report for one in weighed)
+        seeds = {**now.seeds, **_collect_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))
-        admitted, quiet = admissible_candidates(weighed, most=MOST_QUIET - now.quiet)
-        if quiet and not any(one.tried.score > PART * quiet[0].tried.score for one in admitted):
+        admitted, quiet = admissible_candidates(weighed, most=MOST_QUIET - now.nuisance_effects)
+        if quiet and not any(one.report.score > PART * quiet[0].report.score for one in admitted):
             one = quiet[0]
-            if is_significant(one.candidate.effect, one.candidate.point.values, one.tried.score):
-                done.append(
-                    SelectionRound(
-                        one.candidate, one.gap, now.gap, quiet=now.quiet, seeds=now.seeds
-                    )
-                )
+            if is_significant(
+                one.candidate.effect, one.candidate.estimate.values, one.report.score
+            ):
+                done.append(_next_round(now, one))
             else:
-                done[-1] = _with_quiet(now, one)
+                done[-1] = _add_nuisance_effect(now, one)
             continue
         if not admitted:
             break
         chosen = choose_simplest(admitted)
-        best, near = _ended(problem, chosen, parts), list_rivals(chosen, weighed)
+        best, near = _finish_search(data, chosen), list_rivals(chosen, weighed)
         if best is not chosen:
-            near = [one for one in near if _near(_ended(problem, one, parts), best)]
-        done.append(
-            SelectionRound(
-                best.candidate,
-                best.gap,
-                now.gap,
-                tuple(one.candidate.effect for one in near),
-                quiet=now.quiet,
-                seeds=now.seeds,
-            )
-        )
+            near = [one for one in near if _is_close(_finish_search(data, one), best)]
+        rivals = tuple(one.candidate.effect for one in near)
+        done.append(replace(_next_round(now, best), rivals=rivals))
     return done
+
+
+def _next_round(now: SelectionRound, added: WeighedCandidate) -> SelectionRound:
+    """The round that begins with a candidate of the one before."""
+    return SelectionRound(
+        added.candidate, added.gap, now.gap,
+        nuisance_effects=now.nuisance_effects, seeds=now.seeds,
+    )  # fmt: skip
+
+
+def _on_another_path(data: SelectionData) -> SelectionData:
+    """The same data, with a progress that waits where the first path ended."""
+    return replace(data, progress=lambda what, _: data.progress(what, BESIDE))
 
 
 def admissible_candidates(
@@ -228,19 +195,23 @@ def admissible_candidates(
         weighed: the candidates of a round.
         most: how many may be added without a name.
     """
-    admitted = [one for one in weighed if one.tried.admitted]
-    quiet = [one for one in weighed if one.tried.why == HARDLY and one.tried.score >= SURER][:most]
-    every = sorted([*admitted, *quiet], key=lambda one: -one.tried.score)
-    usual = [
-        one for one in every if is_ordinary_size(one.candidate.effect, one.candidate.point.values)
+    admitted = [one for one in weighed if one.report.admitted]
+    quiet = [one for one in weighed if one.report.why == HARDLY and one.report.score >= SURER][
+        :most
     ]
-    if usual and usual[0].tried.score >= USUAL * every[0].tried.score:
+    every = sorted([*admitted, *quiet], key=lambda one: -one.report.score)
+    usual = [
+        one
+        for one in every
+        if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
+    ]
+    if usual and usual[0].report.score >= USUAL * every[0].report.score:
         admitted = [one for one in admitted if one is usual[0]]
         quiet = [one for one in quiet if one is usual[0]]
     return admitted, quiet
 
 
-def _leads_nowhere(problem: PredictionErrorProblem, done: Sequence[SelectionRound]) -> bool:
+def _is_dead_end(problem: PredictionErrorProblem, done: Sequence[SelectionRound]) -> bool:
     """Whether the model is lost, and has nothing to add to, or its last effect took little away.
 
     Of such a model nothing is told in the end, and it may take minutes to see four effects of it.
@@ -249,18 +220,16 @@ def _leads_nowhere(problem: PredictionErrorProblem, done: Sequence[SelectionRoun
     share = missed_motion(now.gap.velocity / problem.noise.velocity, problem)
     if share <= LOST:
         return False
-    values = now.candidate.point.values
+    values = now.candidate.estimate.values
     if len(done) == 1:
         return values["kA"] > UNDRIVEN * values["kV"]
-    return not now.gap.velocity <= FAR_MAJOR * now.before.velocity
+    return not now.gap.velocity <= FAR_MAJOR * now.gap_before.velocity
 
 
-def _ended(
-    problem: PredictionErrorProblem, best: WeighedCandidate, parts: Sequence[Fold]
-) -> WeighedCandidate:
+def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandidate:
     """The same, as far as its search leads: candidates are only compared, the one taken goes on."""
-    candidate = best.candidate
-    point = minimize_fully(problem, candidate.point)
+    candidate, problem = best.candidate, data.problem
+    point = minimize_fully(problem, candidate.estimate)
     for other in flip_duration(problem, point):
         settled = minimize(problem, other)
         if settled.cost < point.cost - CLOSE:
@@ -268,30 +237,36 @@ def _ended(
     near = refine_onset(problem, point)
     if near is not point:
         point = minimize(problem, near)
-    if abs(candidate.point.cost - point.cost) < ENOUGH:
+    if abs(candidate.estimate.cost - point.cost) < ENOUGH:
         return best
-    gap = validation_gap(problem, point, parts)
+    gap = validation_gap(problem, point, data.folds)
     if rejection_reason(gap, best.gap, SURER) == WIDENS:
         return best
     return replace(best, candidate=score_estimate(problem, point, candidate.effect), gap=gap)
 
 
-def _near(other: WeighedCandidate, best: WeighedCandidate) -> bool:
+def _is_close(other: WeighedCandidate, best: WeighedCandidate) -> bool:
     return other.candidate.score - best.candidate.score <= CLOSE
 
 
-def _seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
+def _collect_seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
     """What the candidates' parameters are, of those that explain something."""
     found = {}
     for one in weighed:
-        if one.tried.score >= SURE:
-            name, values = one.candidate.effect, one.candidate.point.values
+        if one.report.score >= SURE:
+            name, values = one.candidate.effect, one.candidate.estimate.values
             found[name] = {f"{name}.{p}": values[f"{name}.{p}"] for p in EFFECTS[name].names}
     return found
 
 
-def _with_quiet(now: SelectionRound, best: WeighedCandidate) -> SelectionRound:
+def _add_nuisance_effect(now: SelectionRound, best: WeighedCandidate) -> SelectionRound:
     """Adds a nuisance effect that is modelled but not reported."""
     candidate = replace(best.candidate, effect=now.candidate.effect)
-    plain = now.plain or now.candidate
-    return replace(now, candidate=candidate, gap=best.gap, quiet=now.quiet + 1, plain=plain)
+    plain = now.reported_candidate or now.candidate
+    return replace(
+        now,
+        candidate=candidate,
+        gap=best.gap,
+        nuisance_effects=now.nuisance_effects + 1,
+        reported_candidate=plain,
+    )

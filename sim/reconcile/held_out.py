@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
@@ -18,13 +18,13 @@ from sim.reconcile.backlash_phase import estimate_backlash_phase
 from sim.reconcile.cross_validation import open_loop_errors, rms_gap
 from sim.reconcile.damage_policy import DamageDecision
 from sim.reconcile.input_checks import count_repeated_runs
-from sim.reconcile.residual_map import residual_map
+from sim.reconcile.residual_map import map_residuals
 from sim.reconcile.selection_round import SelectionRound, reported_estimate
 from sim.reconcile.story import Chapter
+from sim.reconcile.thresholds import OTHER_MATTER
 
 TOLD = 5  # places
 LOOKS = 3  # at where in its free play a run began, each nearer
-FAR = 5.0  # [of the gap on runs that were fitted] from which a held-out log is another matter
 HOW: Mapping[str, str] = {
     "held_out": "The gap is shown on a log that nothing was fitted to.",
     "validation": "No held-out log was given: the gap is shown on the validation's, by which the "
@@ -50,19 +50,19 @@ class HeldOutLog:
     Args:
         log: the runs.
         problem: what is compared of them.
-        how: a sentence about how it was used.
+        kind: a sentence about how it was used.
         doubts: what a person should know of the logs.
         held_out: whether nothing was fitted to it.
     """
 
     log: Log
     problem: PredictionErrorProblem
-    how: str
+    kind: str
     doubts: tuple[str, ...]
     held_out: bool
 
     @classmethod
-    def of(cls, logs: Mapping[str, Log | None], aside: DamageDecision) -> "HeldOutLog":
+    def choose(cls, logs: Mapping[str, Log | None], aside: DamageDecision) -> "HeldOutLog":
         """The one that was used least: held out, else validation, else the log itself."""
         given = {name: logs[name] for name in HOW if logs.get(name) is not None}
         name, log = next(iter(given.items()))
@@ -70,14 +70,14 @@ class HeldOutLog:
         if log is None or first is None:
             raise KeyError(name)
         log = replace(log, units=first.units)  # numbers of one story have one unit
-        again = _again(logs)
+        again = _describe_repeats(logs)
         return cls(
             log,
-            PredictionErrorProblem.of(
-                run_records(log, since=_since(logs, name), aside=aside.of(name))
+            PredictionErrorProblem.from_records(
+                run_records(log, since=_clock_offsets(logs, name), aside=aside.excluded_from(name))
             ),
             again.get(name, HOW[name]),
-            (*(text for other, text in again.items() if other != name), *_said(given)),
+            (*(text for other, text in again.items() if other != name), *_collect_doubts(given)),
             name == "held_out" and name not in again,
         )  # fmt: skip
 
@@ -88,9 +88,9 @@ class HeldOutLog:
             last: the last model, on this log.
             fitted: [unit/s] its gap on the runs that were fitted or chosen by.
         """
-        gap = last.gap * unit(self.log.units).si
-        said = (*self.doubts, *((MESHED,) if _plays(last) else ()))
-        if not self.held_out or gap <= FAR * max(fitted, self.problem.noise.velocity):
+        gap = last.gap * find_unit(self.log.units).si
+        said = (*self.doubts, *((MESHED,) if _has_backlash(last) else ()))
+        if not self.held_out or gap <= OTHER_MATTER * max(fitted, self.problem.noise.velocity):
             return said
         far = (
             f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times what "
@@ -102,18 +102,18 @@ class HeldOutLog:
     @property
     def noise_floor(self) -> float:
         """[owner's unit/s] noise of its velocity."""
-        return self.problem.noise.velocity / unit(self.log.units).si
+        return self.problem.noise.velocity / find_unit(self.log.units).si
 
     @property
-    def compared(self) -> tuple[NDArray[np.bool_], ...]:
+    def compared_samples(self) -> tuple[NDArray[np.bool_], ...]:
         """A run -> (n,) its samples that count: where it moves, and nothing was set aside."""
-        return tuple(one.measurements.telling for one in self.problem.records)
+        return tuple(one.measurements.informative for one in self.problem.records)
 
-    def places(self, base: Chapter) -> tuple[Place, ...]:
+    def gap_places(self, base: Chapter) -> tuple[Place, ...]:
         """Where the base model's velocity is off, the surest first."""
         noise = self.problem.noise.velocity
-        found = residual_map(self.log, base.tracks, compared=self.compared, floor=noise)
-        return found.places(TOLD, signal="velocity") if found else ()
+        found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
+        return found.find_places(TOLD, signal="velocity") if found else ()
 
     def chapters(self, done: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
         """Each model's gap and simulated runs."""
@@ -122,37 +122,37 @@ class HeldOutLog:
     def _chapter(self, one: SelectionRound) -> Chapter:
         point = reported_estimate(one)
         model = point.structure.model(point.values)
-        nuisance = self._outset(point)
+        nuisance = self._initial_nuisance(point)
         gap = (
             rms_gap(open_loop_errors(self.problem, point, nuisance)).velocity
-            / unit(self.log.units).si
+            / find_unit(self.log.units).si
         )
-        track = self.problem.track(model, nuisance).read
-        runs = tuple(track[first:last] for first, last in pairwise(self.problem.edges.tolist()))
+        track = self.problem.simulate(model, nuisance).sensor_readings
+        runs = tuple(track[first:last] for first, last in pairwise(self.problem.run_edges.tolist()))
         return Chapter(one.candidate.effect, model, one.tried, gap, runs)
 
-    def _outset(self, point: Estimate) -> RunNuisance:
+    def _initial_nuisance(self, point: Estimate) -> RunNuisance:
         """How its runs begin: where they were first seen, and where in free play they say."""
-        seen = RunNuisance.seen(len(self.problem.records))
-        here = self.problem.at(point.structure, point.values, seen, point.process_noise)
+        seen = RunNuisance.at_first_samples(len(self.problem.records))
+        here = self.problem.evaluate(point.structure, point.values, seen, point.process_noise)
         for _ in range(LOOKS):
             here = estimate_backlash_phase(self.problem, here)
         return here.nuisance
 
 
-def _since(logs: Mapping[str, Log | None], name: str) -> float:
+def _clock_offsets(logs: Mapping[str, Log | None], name: str) -> float:
     """[s] of the first log's clock at which one of them began: what changed for good stays so."""
     before = (logs.get(one) for one in ORDER[: ORDER.index(name)])
     return session_length(*(one for one in before if one is not None))
 
 
-def _plays(chapter: Chapter) -> bool:
+def _has_backlash(chapter: Chapter) -> bool:
     """Whether motor and load of its model have free play."""
     names = tuple(part.effect for part in chapter.model.parts)
-    return ModelStructure(chapter.model.type, names).plays
+    return ModelStructure(chapter.model.type, names).has_backlash
 
 
-def _again(logs: Mapping[str, Log | None]) -> dict[str, str]:
+def _describe_repeats(logs: Mapping[str, Log | None]) -> dict[str, str]:
     """A log that repeats runs of those before it -> what that means."""
     log, validation, held_out = (logs.get(name) for name in ("log", "validation", "held_out"))
     pairs = (("validation", validation, (log,)), ("held_out", held_out, (log, validation)))
@@ -163,6 +163,6 @@ def _again(logs: Mapping[str, Log | None]) -> dict[str, str]:
     }
 
 
-def _said(logs: Mapping[str, Log | None]) -> tuple[str, ...]:
+def _collect_doubts(logs: Mapping[str, Log | None]) -> tuple[str, ...]:
     """What reading the logs left to say, each once."""
     return tuple(dict.fromkeys(d.message for log in logs.values() if log for d in log.doubts))

@@ -6,24 +6,21 @@ import numpy as np
 
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import Log, Run
-from sim.core.units import unit
-from sim.estimation.initial_guess import first_guess
+from sim.core.units import find_unit
+from sim.estimation.initial_guess import guess_gains
 from sim.estimation.model_structure import ModelStructure
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
-
-FEWEST_RUNS, FEWEST_SAMPLES = 2, 60
-SHORTEST = 4  # samples of a run that says anything, as ``see`` has it
-BEYOND = 1.1  # [of the travel] that positions may span
-OTHER = 1.8
-"""[factor] between what a speed costs in two logs of one mechanism, once the first one's kS, kA and
-gravity are paid. Among 256 pairs it was 0.72 to 1.23, whatever was hidden in them; a foot taken for
-a meter makes it 3.3, a rotation for a radian 6.3."""
-TENTH = 0.1  # [1] a smaller factor is told in words
-OBEYS, LEAST_KS = 0.35, -0.1
-"""[of the voltage's size] that a first guess may miss, and [of the largest voltage] friction, of a
-log that is a mechanism's at all: only such a log has a price of a speed that others can be held
-against. Of 512 logs with voltages of other moments none is, of 256 others 254 are."""
-HARDLY = 0.03  # [of the first log's top speed] slower than which nothing moves
+from sim.reconcile.thresholds import (
+    BEYOND_TRAVEL,
+    FEWEST_RUNS,
+    FEWEST_SAMPLES,
+    HARDLY_MOVES,
+    LEAST_KS,
+    OBEYS_VOLTAGE,
+    OTHER_VOLTAGES,
+    SHORTEST_RUN,
+    TENTH,
+)
 
 
 def check_logs(
@@ -38,21 +35,21 @@ def check_logs(
         NotIdentifiable: too few runs, samples, or voltages.
     """
     _check_size(log)
-    if type == "arm" and not unit(log.units).angular:
+    if type == "arm" and not find_unit(log.units).angular:
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {log.units}",
             where=log.source,
             advice="Say --units radians, rotations or degrees, or --type elevator.",
         )
     _check_voltage(log)
-    guess = first_guess(log, type=type)
-    _check_way(log, guess, type=type)
+    guess = guess_gains(log, type=type)
+    _check_direction(log, guess, type=type)
     others = [other for other in (validation, held_out) if other is not None]
     for other in others:
         _check_units(log, other)
         _check_voltage(other)
-        _check_moves(other, than=_top(log))
-        if _obeys(log, guess, type=type):
+        _check_moves(other, than=_top_speed(log))
+        if _follows_voltage(log, guess, type=type):
             _check_same(log, other, guess, type=type)
     if travel is not None:
         _check_travel(log, travel)
@@ -61,10 +58,10 @@ def check_logs(
 def count_repeated_runs(log: Log, others: tuple[Log | None, ...]) -> int:
     """How many runs of a log stand in others as well, sample by sample."""
     known = [run for other in others if other is not None for run in other.runs]
-    return sum(any(_same(run, other) for other in known) for run in log.runs)
+    return sum(any(_is_same_run(run, other) for other in known) for run in log.runs)
 
 
-def _same(one: Run, other: Run) -> bool:
+def _is_same_run(one: Run, other: Run) -> bool:
     return bool(
         one.test == other.test
         and np.array_equal(one.velocity, other.velocity)
@@ -73,7 +70,7 @@ def _same(one: Run, other: Run) -> bool:
 
 
 def _check_size(log: Log) -> None:
-    long = [run for run in log.runs if len(run) >= SHORTEST]
+    long = [run for run in log.runs if len(run) >= SHORTEST_RUN]
     count = sum(map(len, long))
     if len(long) >= FEWEST_RUNS and count >= FEWEST_SAMPLES:
         return
@@ -94,11 +91,11 @@ def _check_voltage(log: Log) -> None:
         )
 
 
-def _check_way(log: Log, guess: dict[str, float], *, type: str) -> None:  # noqa: A002 - as above
+def _check_direction(log: Log, guess: dict[str, float], *, type: str) -> None:  # noqa: A002 - as above
     """Refuse a mechanism that goes backward, and does so as a mechanism would."""
     backward = {name: -value for name, value in guess.items()}
     runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
-    if _obeys(replace(log, runs=runs), backward, type=type):
+    if _follows_voltage(replace(log, runs=runs), backward, type=type):
         raise BadRequest(
             "a positive voltage drives it backward",
             where=log.source,
@@ -107,7 +104,7 @@ def _check_way(log: Log, guess: dict[str, float], *, type: str) -> None:  # noqa
 
 
 def _check_units(log: Log, other: Log) -> None:
-    if unit(other.units).angular != unit(log.units).angular:
+    if find_unit(other.units).angular != find_unit(log.units).angular:
         raise BadRequest(
             f"positions in {other.units}, where {log.source or 'the first log'} has {log.units}",
             where=other.source,
@@ -116,7 +113,7 @@ def _check_units(log: Log, other: Log) -> None:
 
 
 def _check_moves(log: Log, *, than: float) -> None:
-    if not _top(log) > HARDLY * than:
+    if not _top_speed(log) > HARDLY_MOVES * than:
         raise NotIdentifiable(
             "the mechanism hardly moves in this log",
             where=log.source,
@@ -124,14 +121,14 @@ def _check_moves(log: Log, *, than: float) -> None:
         )
 
 
-def _top(log: Log) -> float:
+def _top_speed(log: Log) -> float:
     """[m/s or rad/s] the fastest but for single samples."""
-    long = [np.abs(run.velocity) for run in log.runs if len(run) >= SHORTEST]
+    long = [np.abs(run.velocity) for run in log.runs if len(run) >= SHORTEST_RUN]
     return max((float(np.quantile(one, 0.98)) for one in long), default=0.0)
 
 
 def _check_same(log: Log, other: Log, guess: dict[str, float], *, type: str) -> None:  # noqa: A002 - as above
-    seen = _held_against(other, guess, type=type)
+    seen = _refuse_difference(other, guess, type=type)
     square = float(seen.velocity @ seen.velocity)
     if square == 0.0:
         raise NotIdentifiable(
@@ -141,42 +138,42 @@ def _check_same(log: Log, other: Log, guess: dict[str, float], *, type: str) -> 
         )
     costs = guess["kV"] + float(seen.missing @ seen.velocity) / square
     factor = costs / guess["kV"]
-    if not 1.0 / OTHER < factor < OTHER:
+    if not 1.0 / OTHER_VOLTAGES < factor < OTHER_VOLTAGES:
         raise BadRequest(
-            _otherwise(factor, log.source or "the first log"),
+            _describe_difference(factor, log.source or "the first log"),
             where=other.source,
             advice="Give logs of one mechanism, in the same units.",
         )
 
 
-def _otherwise(factor: float, first: str) -> str:
+def _describe_difference(factor: float, first: str) -> str:
     """How a log's voltages are not those of another."""
-    if factor < -1.0 / OTHER:
+    if factor < -1.0 / OTHER_VOLTAGES:
         return f"it goes the other way than {first} at the same voltage"
     times = f"{factor:.2g} times" if factor > TENTH else "less than a tenth of"
     return f"a speed takes {times} the voltage that it takes in {first}"
 
 
-def _obeys(log: Log, guess: dict[str, float], *, type: str) -> bool:  # noqa: A002 - as above
+def _follows_voltage(log: Log, guess: dict[str, float], *, type: str) -> bool:  # noqa: A002 - as above
     """Whether its voltages are those of a mechanism, whatever else may be missing."""
-    seen = _held_against(log, guess, type=type)
+    seen = _refuse_difference(log, guess, type=type)
     most = float(np.max(np.abs(seen.voltage), initial=0.0))
     if guess["kV"] <= 0.0 or guess["kA"] <= 0.0 or guess["kS"] < LEAST_KS * most:
         return False
     missed, whole = float(seen.missing @ seen.missing), float(seen.voltage @ seen.voltage)
-    return missed < OBEYS**2 * whole
+    return missed < OBEYS_VOLTAGE**2 * whole
 
 
-def _held_against(log: Log, guess: dict[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - as above
+def _refuse_difference(log: Log, guess: dict[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - as above
     return compute_voltage_residual(log, dict(ModelStructure(type).model(guess).gains), type=type)
 
 
 def _check_travel(log: Log, travel: float) -> None:
     spans = [run.position for run in log.runs if len(run)]
-    way = float(max(map(np.max, spans)) - min(map(np.min, spans))) / unit(log.units).si
-    if not travel > 0.0 or way > BEYOND * travel:
+    way = float(max(map(np.max, spans)) - min(map(np.min, spans))) / find_unit(log.units).si
+    if not travel > 0.0 or way > BEYOND_TRAVEL * travel:
         raise BadRequest(
-            f"positions span {way:.3g} {unit(log.units).symbol}, and the travel is {travel:g}",
+            f"positions span {way:.3g} {find_unit(log.units).symbol}, and the travel is {travel:g}",
             where=log.source,
             advice="Give the way from stop to stop, in the log's units, or leave it out.",
         )

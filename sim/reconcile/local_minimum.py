@@ -58,16 +58,16 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
 
     A large q bears with anything: it is where a search for gains that are far off comes to rest.
     """
-    found = [_settled(problem, point)]
+    found = [_alternate(problem, point)]
     calm = CALM * problem.noise.velocity**2
     if found[0].process_noise > AGITATED * calm:
-        calmer = problem.at(point.structure, found[0].values, found[0].nuisance, calm)
-        found.append(_settled(problem, levenberg_marquardt(problem, calmer, steps=STEPS)))
+        calmer = problem.evaluate(point.structure, found[0].values, found[0].nuisance, calm)
+        found.append(_alternate(problem, levenberg_marquardt(problem, calmer, steps=STEPS)))
     best = min(found, key=total_cost)
-    return _tight(problem, best) if point.structure.plays else best
+    return _tighten_backlash(problem, best) if point.structure.has_backlash else best
 
 
-def _tight(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The least play of those about as likely: what no run crosses may be of any size."""
     best = point
     for _ in range(HALVED):
@@ -84,7 +84,7 @@ def total_cost(point: Estimate) -> float:
     return point.cost + backlash_phase_prior(point)
 
 
-def _settled(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+def _alternate(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The same, settled until that gains no more."""
     for _ in range(AGAIN):
         before = point.cost
@@ -115,58 +115,60 @@ def predicted_improvement(
     """
 
     def begun(one: Mapping[str, float]) -> tuple[float, Estimate]:
-        other = problem.at(structure, {**point.values, **one}, point.nuisance, point.process_noise)
-        if not point.structure.plays:  # else its runs are told by now
+        other = problem.evaluate(
+            structure, {**point.values, **one}, point.nuisance, point.process_noise
+        )
+        if not point.structure.has_backlash:  # else its runs are told by now
             other = estimate_backlash_phase(problem, other, aside=not as_given)
         if not math.isfinite(other.cost):
             return -math.inf, other
-        return square - kept.square(problem.white(point, other.innovations)) - backlash_phase_prior(
-            other
-        ), other
+        return square - kept.residual_square(
+            problem.whiten(point, other.innovations)
+        ) - backlash_phase_prior(other), other
 
-    now = problem.white(point, point.innovations)
-    square = kept.square(now)
+    now = problem.whiten(point, point.innovations)
+    square = kept.residual_square(now)
     found = []
     for one in more:
         gained, other = begun(one)
         if not math.isfinite(gained):
             continue
-        change = problem.white(point, other.innovations) - now
-        along, size = kept.along(change, now)
+        change = problem.whiten(point, other.innovations) - now
+        along, size = kept.residual_products(change, now)
         part = -along / size if size > 0.0 else 0.0
         found.append((gained, other))
-        if as_given or not _another_size(structure, part):
+        if as_given or not _is_other_size_worthwhile(structure, part):
             continue
         if part**2 * size > gained + SURELY_MORE:
-            found.append(begun(_sized(structure, one, part)))
+            found.append(begun(_scale_start(structure, one, part)))
     if found and not as_given:
-        found += _halved(structure, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
+        found += _halve_start(structure, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
     return [one for one in found if math.isfinite(one[0])]
 
 
-def _halved(
+def _halve_start(
     structure: ModelStructure, names: Sequence[str], best: Begun,
     begun: Callable[[Mapping[str, float]], Begun],
 ) -> Iterator[Begun]:  # fmt: skip
     """Half of the best start, and half of that, as long as it promises more."""
     for _ in range(HALVINGS):
-        half = begun(_sized(structure, {name: best[1].values[name] for name in names}, 0.5))
+        half = begun(_scale_start(structure, {name: best[1].values[name] for name in names}, 0.5))
         if not half[0] > best[0]:
             return
         yield half
         best = half
 
 
-def _another_size(structure: ModelStructure, part: float) -> bool:
+def _is_other_size_worthwhile(structure: ModelStructure, part: float) -> bool:
     """Whether a part of a start's size is worth a look: a smaller one, or one the other way."""
     if part > 0.0:
         return SMALL_PART < part < LARGE_PART
-    sizes = _sizes(structure)
+    sizes = _size_parameters(structure)
     signed = bool(sizes) and all(structure.parameters[name].least < 0.0 for name in sizes)
     return signed and SMALL_PART < -part < LARGEST_PART
 
 
-def _sizes(structure: ModelStructure) -> list[str]:
+def _size_parameters(structure: ModelStructure) -> list[str]:
     """The parameters of the last effect that are nothing where it is not there."""
     own = f"{structure.effects[-1]}."
     return [
@@ -176,11 +178,13 @@ def _sizes(structure: ModelStructure) -> list[str]:
     ]
 
 
-def _sized(structure: ModelStructure, one: Mapping[str, float], part: float) -> dict[str, float]:
+def _scale_start(
+    structure: ModelStructure, one: Mapping[str, float], part: float
+) -> dict[str, float]:
     """A start at a part of its size."""
-    sizes = _sizes(structure)
+    sizes = _size_parameters(structure)
     return {
-        name: structure.within(name, value * part) if name in sizes else value
+        name: structure.clamp_value(name, value * part) if name in sizes else value
         for name, value in one.items()
     }
 
@@ -188,7 +192,7 @@ def _sized(structure: ModelStructure, one: Mapping[str, float], part: float) -> 
 def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The same values with the likeliest process noise of its whole range."""
     tried = [
-        problem.at(
+        problem.evaluate(
             point.structure, point.values, point.nuisance, point.process_noise * FACTOR**power
         )
         for power in SCANNED

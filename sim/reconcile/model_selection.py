@@ -4,13 +4,12 @@ import math
 from collections.abc import Mapping, Sequence
 
 from sim.core.log import Log
-from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
-from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import Candidate, rank_candidates
-from sim.reconcile.cross_validation import Fold, Gap, validation_gap
+from sim.reconcile.cross_validation import Gap, validation_gap
+from sim.reconcile.selection_data import SelectionData, voltage_residual_at
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
-from sim.reconcile.story import Tried
+from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
     AS_GOOD,
     CLOSE,
@@ -31,33 +30,32 @@ HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
 TINY = 1e-300  # no gap at all
 
 
-def weigh_candidates(
-    problem: PredictionErrorProblem, now: SelectionRound, log: Log, parts: Sequence[Fold]
-) -> list[WeighedCandidate]:
+def weigh_candidates(data: SelectionData, now: SelectionRound, log: Log) -> list[WeighedCandidate]:
     """All candidates of a round with their cross-validated gaps, likeliest first."""
-    point = now.candidate.point
-    model = point.structure.model(point.values)
-    evidence = compute_voltage_residual(log, dict(model.gains), type=point.structure.type)
+    point = now.candidate.estimate
     found = []
-    for candidate in rank_candidates(problem, point, evidence, seeds=now.seeds):
+    evidence = voltage_residual_at(log, point)
+    for candidate in rank_candidates(data.problem, point, evidence, seeds=now.seeds):
         score = now.candidate.score - candidate.score
         if score < required_improvement(candidate.effect):
-            tried = Tried(candidate.effect, score, 1.0, admitted=False, why="explains too little")
+            tried = TriedCandidate(
+                candidate.effect, score, 1.0, admitted=False, why="explains too little"
+            )
             found.append(WeighedCandidate(candidate, now.gap, tried))
             continue
-        gap = validation_gap(problem, candidate.point, parts)
+        gap = validation_gap(data.problem, candidate.estimate, data.folds)
         why = rejection_reason(gap, now.gap, score)
-        if why == HARDLY and EFFECTS[candidate.effect].happens:
+        if why == HARDLY and EFFECTS[candidate.effect].has_onset:
             why = ""
         share = gap.velocity / max(now.gap.velocity, TINY)
-        tried = Tried(candidate.effect, score, share, admitted=not why, why=why)
+        tried = TriedCandidate(candidate.effect, score, share, admitted=not why, why=why)
         found.append(WeighedCandidate(candidate, gap, tried))
     return found
 
 
 def required_improvement(effect: str) -> float:
     """[of -2 log L] by which a candidate has to improve the model."""
-    return ONCE if EFFECTS[effect].happens else SURE
+    return ONCE if EFFECTS[effect].has_onset else SURE
 
 
 def rejection_reason(gap: Gap, before: Gap, score: float) -> str:
@@ -81,27 +79,27 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     likelier than all that lasts by as much as than nothing.
     """
     best = admitted[0]
-    lasting = [one for one in admitted if not EFFECTS[one.candidate.effect].happens]
-    if lasting and best is not lasting[0] and best.tried.score - lasting[0].tried.score < ONCE:
+    lasting = [one for one in admitted if not EFFECTS[one.candidate.effect].has_onset]
+    if lasting and best is not lasting[0] and best.report.score - lasting[0].report.score < ONCE:
         admitted, best = lasting, lasting[0]
-    closer = [one for one in admitted if one.tried.score > HALF * best.tried.score]
-    closest = min(closer, key=lambda one: one.tried.gap)
-    if closest.tried.gap < MUCH_NARROWER * best.tried.gap:
+    closer = [one for one in admitted if one.report.score > HALF * best.report.score]
+    closest = min(closer, key=lambda one: one.report.gap)
+    if closest.report.gap < MUCH_NARROWER * best.report.gap:
         best = closest
-    top = best.tried.score
-    admitted = [one for one in admitted if one.tried.score <= top]
+    top = best.report.score
+    admitted = [one for one in admitted if one.report.score <= top]
     simpler = EFFECTS[best.candidate.effect].simpler
     near = [
         one
         for one in admitted
-        if top - one.tried.score <= SIMPLER
-        or (one.candidate.effect == simpler and one.tried.score > AS_GOOD * top)
+        if top - one.report.score <= SIMPLER
+        or (one.candidate.effect == simpler and one.report.score > AS_GOOD * top)
     ]
-    fewest = min(one.candidate.point.structure.free for one in near)
-    near = [one for one in near if one.candidate.point.structure.free == fewest]
-    likeliest = max(near, key=lambda one: one.tried.score)
-    nearest = min(near, key=lambda one: one.tried.gap)
-    return nearest if nearest.tried.gap < NARROWER * likeliest.tried.gap else likeliest
+    fewest = min(one.candidate.estimate.structure.free_count for one in near)
+    near = [one for one in near if one.candidate.estimate.structure.free_count == fewest]
+    likeliest = max(near, key=lambda one: one.report.score)
+    nearest = min(near, key=lambda one: one.report.gap)
+    return nearest if nearest.report.gap < NARROWER * likeliest.report.gap else likeliest
 
 
 def list_rivals(
@@ -111,7 +109,7 @@ def list_rivals(
     return [
         one
         for one in weighed
-        if one is not best and one.tried.admitted and best.tried.score - one.tried.score <= CLOSE
+        if one is not best and one.report.admitted and best.report.score - one.report.score <= CLOSE
     ]
 
 
@@ -124,17 +122,17 @@ def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
     return [
         one
         for one in weighed
-        if one.tried.why == WIDENS
-        and one.tried.score >= ONCE
-        and not EFFECTS[one.candidate.effect].happens
-        and not is_ordinary_size(one.candidate.effect, one.candidate.point.values)
+        if one.report.why == WIDENS
+        and one.report.score >= ONCE
+        and not EFFECTS[one.candidate.effect].has_onset
+        and not is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
     ]
 
 
 def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
     """Whether an effect is no larger than on any healthy robot."""
     known = EFFECTS[effect]
-    return known.everyday({name: values[f"{effect}.{name}"] for name in known.names})
+    return known.is_ordinary({name: values[f"{effect}.{name}"] for name in known.names})
 
 
 def is_significant(
@@ -157,11 +155,11 @@ def is_significant(
         one.name: one.neutral + (values[f"{effect}.{one.name}"] - one.neutral) / FAR
         for one in known.parameters
     }
-    far = known.everyday(known.neutral) and not known.everyday(part)
+    far = known.is_ordinary(known.neutral) and not known.is_ordinary(part)
     return score >= (LONE if lone else SURER if far else WORTH_A_NAME)
 
 
-def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
+def is_unrivalled(effect: str, tried: Sequence[TriedCandidate]) -> bool:
     """Whether no other permanent effect explained half as much.
 
     Args:
@@ -170,7 +168,7 @@ def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
     """
     scores = {one.effect: one.score for one in tried}
     most = max(
-        (score for name, score in scores.items() if name != effect and not EFFECTS[name].happens),
+        (score for name, score in scores.items() if name != effect and not EFFECTS[name].has_onset),
         default=-math.inf,
     )
     return effect in scores and most < HALF * scores[effect]
@@ -178,5 +176,5 @@ def is_unrivalled(effect: str, tried: Sequence[Tried]) -> bool:
 
 def score_improvement(now: Candidate, other: Candidate) -> float:
     """[of -2 log L] by which one model is likelier than another."""
-    fewer = now.point.structure.free - other.point.structure.free
+    fewer = now.estimate.structure.free_count - other.estimate.structure.free_count
     return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)

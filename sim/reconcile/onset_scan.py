@@ -41,25 +41,29 @@ class _Sums:
     """What a change does to innovations: sums over the rows of some runs.
 
     Args:
-        along: with what the point leaves unexplained.
-        size: with itself.
-        kept: (k,) with what values and starts can make of it.
+        product: with what the point leaves unexplained.
+        square: with itself.
+        projection: (k,) with what values and starts can make of it.
     """
 
-    along: float
-    size: float
-    kept: Array
+    product: float
+    square: float
+    projection: Array
 
     def __add__(self, other: "_Sums") -> "_Sums":
-        return _Sums(self.along + other.along, self.size + other.size, self.kept + other.kept)
+        return _Sums(
+            self.product + other.product,
+            self.square + other.square,
+            self.projection + other.projection,
+        )
 
-    def best(self, least: float, most: float) -> tuple[float, float]:
+    def best_size(self, least: float, most: float) -> tuple[float, float]:
         """[of -2 log L] that it explains at most between two sizes, and at which."""
-        own = self.size - float(self.kept @ self.kept)
-        if not own > HARDLY * self.size:
+        own = self.square - float(self.projection @ self.projection)
+        if not own > HARDLY * self.square:
             return 0.0, 0.0
-        size = min(max(-self.along / own, least), most)
-        return -size * (2.0 * self.along + size * own), size
+        size = min(max(-self.product / own, least), most)
+        return -size * (2.0 * self.product + size * own), size
 
 
 def scan_onsets(
@@ -75,9 +79,11 @@ def scan_onsets(
     """
     scan = _Scan(problem, point, effect, kept)
     for kind in fixed_parameter_choices(effect):
-        likeliest = sorted(scan.coarse(kind), key=lambda one: -one.gained)[:SHOWN]
-        for one in map(scan.nearer, likeliest):
-            yield {f"{effect.name}.{name}": value for name, value in scan.values(one).items()}
+        likeliest = sorted(scan.scan_coarsely(kind), key=lambda one: -one.improvement)[:SHOWN]
+        for one in map(scan.refine, likeliest):
+            yield {
+                f"{effect.name}.{name}": value for name, value in scan.parameter_values(one).items()
+            }
 
 
 def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[Estimate]:
@@ -88,7 +94,7 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
     """
     for name in point.structure.effects:
         effect = EFFECTS[name]
-        if not effect.happens:
+        if not effect.has_onset:
             continue
         onset = point.values[f"{name}.{ONSET}"]
         ends = [
@@ -100,7 +106,7 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
             changed = {f"{name}.{one}": value for one, value in {**kind, UNTIL: until}.items()}
             values = {**point.values, **changed}
             if values != point.values:
-                yield problem.at(point.structure, values, point.nuisance, point.process_noise)
+                yield problem.evaluate(point.structure, values, point.nuisance, point.process_noise)
 
 
 def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -109,14 +115,17 @@ def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     No search moves a moment: across a sample what is likely jumps.
     """
     for name in point.structure.effects:
-        if not EFFECTS[name].happens:
+        if not EFFECTS[name].has_onset:
             continue
         onset, step, structure = f"{name}.{ONSET}", problem.period, point.structure
         for _ in range(HALVINGS):
-            around = (structure.within(onset, point.values[onset] + by) for by in (-step, step))
+            around = (
+                structure.clamp_value(onset, point.values[onset] + by) for by in (-step, step)
+            )
             moved = ({**point.values, onset: moment} for moment in around)
             tried = [
-                problem.at(structure, one, point.nuisance, point.process_noise) for one in moved
+                problem.evaluate(structure, one, point.nuisance, point.process_noise)
+                for one in moved
             ]
             point = min(point, *tried, key=lambda one: one.cost)
             step *= 0.5
@@ -159,10 +168,10 @@ class _Moment:
         """[of -2 log L] that it explains, and its size; what leaves takes no momentum of others."""
         sums = self.here + self.later if self.later else self.here
         least = 0.0 if any(self.kind.values()) else LEAST * self.ka
-        return sums.best(least, MOST * self.ka)
+        return sums.best_size(least, MOST * self.ka)
 
     @property
-    def gained(self) -> float:
+    def improvement(self) -> float:
         return self.best[0]
 
 
@@ -178,10 +187,10 @@ class _Scan:
             for record in problem.records
         ]
         self._some: dict[tuple[int, ...], tuple[PredictionErrorProblem, RunNuisance]] = {}
-        rest = problem.white(point, point.innovations)
-        self.rest = rest - kept.basis @ kept.taken(rest)
+        rest = problem.whiten(point, point.innovations)
+        self.rest = rest - kept.basis @ kept.project(rest)
 
-    def coarse(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
+    def scan_coarsely(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
         """Each run's likeliest moment, for the rest of the run and for good.
 
         What takes momentum is looked for where speed is lost, anything else all over the run.
@@ -194,17 +203,19 @@ class _Scan:
         for run in reversed(every):
             sums = [(share, row[run]) for share, row in zip(shares, table, strict=True)]
             if knocks:
-                sums += [(one, self._sums(kind, one, (run,))[0]) for one in self._knocks(run)]
+                sums += [
+                    (one, self._sums(kind, one, (run,))[0]) for one in self._velocity_losses(run)
+                ]
             for more in (None, later) if run < every[-1] else (None,):
                 tried = (
                     _Moment(kind, run, share, here, more, self.ka)
                     for share, here in sums
                     if share or run or more is None  # else it was never otherwise
                 )
-                yield max(tried, key=lambda one: one.gained)
+                yield max(tried, key=lambda one: one.improvement)
             later += table[0][run]
 
-    def nearer(self, one: _Moment) -> _Moment:
+    def refine(self, one: _Moment) -> _Moment:
         """The same, at the likeliest moment around."""
         step = 1.0 / PARTS
         for _ in range(LOOKS if one.share else 0):
@@ -215,27 +226,27 @@ class _Scan:
                 for share in shares
                 if 0.0 < share < 1.0
             ]
-            one = max((one, *tried), key=lambda one: one.gained)
+            one = max((one, *tried), key=lambda one: one.improvement)
         return one
 
-    def values(self, one: _Moment) -> dict[str, float]:
+    def parameter_values(self, one: _Moment) -> dict[str, float]:
         """Of all parameters, if it happens then."""
         began = self.problem.records[one.run].clock
         return {
-            **self._sized(one.best[1]),
+            **self._fit_size(one.best[1]),
             **one.kind,
             ONSET: began + one.share * self.lasts[one.run],
             UNTIL: LATER if one.later else began + self.lasts[one.run] + MOMENT,
         }
 
-    def _knocks(self, run: int) -> list[float]:
+    def _velocity_losses(self, run: int) -> list[float]:
         """[1] of a run, about its sharpest loss of speed, which is over too soon for any grid.
 
         A knock echoes in the innovations until measurements have corrected it, everywhere alike.
         """
         rest = self.rest[slice(*self._edges[run : run + 2])].reshape(-1, 2)
-        speed = self.problem.measured[slice(*self.problem.edges[run : run + 2]), 1]
-        echo = self._echo[: len(rest)]
+        speed = self.problem.measured[slice(*self.problem.run_edges[run : run + 2]), 1]
+        echo = self._velocity_response[: len(rest)]
         size = np.cumsum(np.sum(np.square(echo), axis=1))
         heard = sum(np.correlate(rest[:, n], echo[:, n], "full")[len(echo) - 1 :] for n in (0, 1))
         left = np.minimum(np.arange(len(rest), 0, -1), len(echo))
@@ -247,7 +258,7 @@ class _Scan:
         return [float(one) for one in near]
 
     @cached_property
-    def _echo(self) -> Array:
+    def _velocity_response(self) -> Array:
         """(samples, 2) white innovations after a velocity that is one more than expected."""
         rate, dt = self.point.values["kV"] / self.ka, self.problem.period
         kept = math.exp(-rate * dt)
@@ -258,48 +269,48 @@ class _Scan:
         for _ in range(min(max(math.ceil(ECHO / (rate * dt)), 4), LONGEST)):
             heard.append(off)
             off = step @ off
-        return self.problem.white(self.point, np.array(heard)).reshape(-1, 2)
+        return self.problem.whiten(self.point, np.array(heard)).reshape(-1, 2)
 
-    def _sized(self, size: float) -> dict[str, float]:
+    def _fit_size(self, size: float) -> dict[str, float]:
         return {one.name: size for one in self.effect.parameters if one.searched}
 
     def _sums(self, kind: Mapping[str, float], share: float, runs: Sequence[int]) -> list[_Sums]:
         """What it changes from that share of each of these runs on, to its end."""
-        some, nuisance = self._alone(tuple(runs))
+        some, nuisance = self._isolate_runs(tuple(runs))
         clocks = CLOCK - share * np.array([self.lasts[run] for run in runs])
         size = PROBE * self.ka
-        given = {**self._sized(size), **kind, ONSET: CLOCK, UNTIL: LATER}
+        given = {**self._fit_size(size), **kind, ONSET: CLOCK, UNTIL: LATER}
         model = self.point.structure.model(self.point.values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
             model += Part(self.effect.name, given)
             ahead = some.predict_errors(model, nuisance, self.point.kalman_gain, clocks)
             return [
-                self._summed(run, (ahead[slice(*rows)] - self._plain[run]) / size)
-                for run, rows in zip(runs, pairwise(some.edges.tolist()), strict=True)
+                self._sum_rows(run, (ahead[slice(*rows)] - self._run_innovations[run]) / size)
+                for run, rows in zip(runs, pairwise(some.run_edges.tolist()), strict=True)
             ]
 
-    def _summed(self, run: int, change: Array) -> _Sums:
-        one, rows = self.problem.white(self.point, change), slice(*self._edges[run : run + 2])
+    def _sum_rows(self, run: int, change: Array) -> _Sums:
+        one, rows = self.problem.whiten(self.point, change), slice(*self._edges[run : run + 2])
         return _Sums(float(one @ self.rest[rows]), float(one @ one), self.kept[rows].T @ one)
 
-    def _alone(self, runs: tuple[int, ...]) -> tuple[PredictionErrorProblem, RunNuisance]:
+    def _isolate_runs(self, runs: tuple[int, ...]) -> tuple[PredictionErrorProblem, RunNuisance]:
         """These runs, none finding warm what another heated, and how they begin."""
         if runs not in self._some:
-            records = (replace(self.problem.records[run], memory=run) for run in runs)
+            records = (replace(self.problem.records[run], memory_group=run) for run in runs)
             some = PredictionErrorProblem(tuple(records), self.problem.noise)
-            self._some[runs] = some, self.point.nuisance.of(runs)
+            self._some[runs] = some, self.point.nuisance.select_runs(runs)
         return self._some[runs]
 
     @property
     def _edges(self) -> list[int]:
         """(runs + 1,) where each run begins among white innovations."""
-        edges: list[int] = (2 * self.problem.edges).tolist()
+        edges: list[int] = (2 * self.problem.run_edges).tolist()
         return edges
 
     @cached_property
-    def _plain(self) -> list[Array]:
+    def _run_innovations(self) -> list[Array]:
         """A run -> (n, 2) innovations without it."""
-        alone, nuisance = self._alone(tuple(range(len(self.problem.records))))
+        alone, nuisance = self._isolate_runs(tuple(range(len(self.problem.records))))
         model = self.point.structure.model(self.point.values)
         ahead = alone.predict_errors(model, nuisance, self.point.kalman_gain)
-        return [ahead[slice(*rows)] for rows in pairwise(self.problem.edges.tolist())]
+        return [ahead[slice(*rows)] for rows in pairwise(self.problem.run_edges.tolist())]

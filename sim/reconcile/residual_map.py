@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
 from sim.estimation.measurements import RunMeasurements, estimate_noise, measure_runs
-from sim.gap import GapMap, Residuals, gap_map
+from sim.gap import GapMap, Residuals, map_gap
 
-FEWEST = 4  # samples of a run that is simulated, as ``records`` has it
+FEWEST = 4  # samples of a run that is simulated, as ``run_records`` takes them
 
 
-def residual_map(
+def map_residuals(
     log: Log, tracks: Sequence[Array], *, compared: Sequence[NDArray[np.bool_]] = (), floor: float
 ) -> GapMap | None:
     """What a simulation leaves of a log; None where there is nothing to compare, or it ran away.
@@ -27,13 +27,15 @@ def residual_map(
     runs = tuple(run for run in log.runs if len(run) >= FEWEST)
     seen = measure_runs(replace(log, runs=runs), friction=None)
     counts = compared or [np.ones(len(run), dtype=bool) for run in runs]
-    left = [_left(*one) for one in zip(runs, seen, tracks, counts, strict=True)]
+    left = [_run_residuals(*one) for one in zip(runs, seen, tracks, counts, strict=True)]
     if not (floor > 0.0 and any(one.compared.any() for one in left)):
         return None
-    return gap_map(left, noise=replace(estimate_noise(seen), velocity=floor))
+    return map_gap(left, noise=replace(estimate_noise(seen), velocity=floor))
 
 
-def _left(run: Run, seen: RunMeasurements, track: Array, counts: NDArray[np.bool_]) -> Residuals:
+def _run_residuals(
+    run: Run, seen: RunMeasurements, track: Array, counts: NDArray[np.bool_]
+) -> Residuals:
     """What it leaves of a run's fresh samples."""
     missed = seen.measured - track
     missed[~counts | ~np.isfinite(track).all(axis=1)] = np.nan

@@ -62,7 +62,7 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class Tried:
+class TriedCandidate:
     """A candidate of one round.
 
     Args:
@@ -94,7 +94,7 @@ class Chapter:
 
     added: str
     model: Model
-    tried: tuple[Tried, ...]
+    tried: tuple[TriedCandidate, ...]
     gap: float
     tracks: tuple[Array, ...]
 

@@ -19,10 +19,10 @@ HARDLY = 1e-4  # [of a value] a smaller error is told as that, as ``sysid fit`` 
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
 
 
-def headline(story: Story) -> str:
+def write_headline(story: Story) -> str:
     """The verdict in one plain sentence."""
     faults = [one.effect for one in story.findings if one.kind == FAULT]
-    majors = effect_names(story, MAJOR)
+    majors = list_effect_names(story, MAJOR)
     also = f"; the record is damaged too ({_listed(faults)})" if faults else ""
     if story.verdict == UNEXPLAINED:
         known = f"beside {_listed(majors)}, " if majors else ""
@@ -44,7 +44,7 @@ def headline(story: Story) -> str:
     return f"Missing in the model {verb} {missing}{doubt}: {_gap(story)}{also}{more}."
 
 
-def effect_names(story: Story, size: str) -> list[str]:
+def list_effect_names(story: Story, size: str) -> list[str]:
     """The names of the effects of one size that were found.
 
     Args:
@@ -54,7 +54,7 @@ def effect_names(story: Story, size: str) -> list[str]:
     return [one.effect for one in story.findings if one.kind != FAULT and one.size == size]
 
 
-def gap_shrinks(before: float, after: float) -> bool:
+def is_gap_narrower(before: float, after: float) -> bool:
     """Whether a gap is narrower than it was."""
     return after < SHRINKS * before
 
@@ -66,7 +66,7 @@ def format_gap(gap: float, story: Story) -> str:
     return f"{gap / story.noise_floor:.3g}"
 
 
-def describe(effect: str) -> str:
+def describe_effect(effect: str) -> str:
     """An effect or a fault in a few plain words; empty where none are known."""
     return EFFECTS[effect].summary if effect in EFFECTS else ""
 
@@ -114,7 +114,7 @@ def list_next_tests(story: Story) -> tuple[str, ...]:
 def list_remarks(story: Story) -> tuple[str, ...]:
     """Whatever else a person should know: what remains, a gap that does not shrink, notes."""
     said = [story.remains] if story.remains else []
-    if effect_names(story, MAJOR) and not gap_shrinks(story.gap_before, story.gap_after):
+    if list_effect_names(story, MAJOR) and not is_gap_narrower(story.gap_before, story.gap_after):
         said.append(
             "With what was found the gap on the shown log does not shrink: do not trust the "
             "finding before another log confirms it."
@@ -123,7 +123,7 @@ def list_remarks(story: Story) -> tuple[str, ...]:
 
 
 def _nothing(story: Story) -> str:
-    minor = effect_names(story, MINOR)
+    minor = list_effect_names(story, MINOR)
     little = f"; a little of {_listed(minor)} shows" if minor else ""
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf
     if last > CLOSE:
@@ -140,11 +140,11 @@ def _off(story: Story) -> str:
 
 def _gap(story: Story) -> str:
     before, after = (format_gap(gap, story) for gap in (story.gap_before, story.gap_after))
-    several = len([*effect_names(story, MAJOR), *effect_names(story, MINOR)]) > 1
+    several = len([*list_effect_names(story, MAJOR), *list_effect_names(story, MINOR)]) > 1
     with_ = "with all that was found" if several else "with it"
     if len(story.chapters) == 1:
         return _off(story)
-    if gap_shrinks(story.gap_before, story.gap_after):
+    if is_gap_narrower(story.gap_before, story.gap_after):
         return f"{with_} the gap shrinks from {before} to {after} times the noise of the velocity"
     return (
         f"{with_} the gap does not shrink, {before} before and {after} times the noise of the "
@@ -154,7 +154,7 @@ def _gap(story: Story) -> str:
 
 def _either(one: Finding) -> str:
     """A finding with its look-alikes, and what the first is."""
-    short = describe(one.effect).partition(" (")[0]
+    short = describe_effect(one.effect).partition(" (")[0]
     told = f"{one.effect} ({short})" if short else one.effect
     return _listed([told, *one.ambiguous_with], word="or")
 

@@ -150,3 +150,92 @@ one strays: what resembles two effects at once is far likelier than each of them
 
 PATHS = 1
 """Other paths that are gone where the first one strays: each takes as long as the first."""
+
+# An encoder that slips (``slip_detection.py``).
+
+SLIP_FAR = 10.0  # [robust standard deviations] that a slip's velocity is off at least
+SLIP_NEIGHBORHOOD = 0.16  # [s] before and after it that must agree
+SHORT_RUN = 2  # [1] times that, which a run lasts at least
+LONG_RUN = 4  # [1] times that, which tell what is ordinary in a run
+SLIP_REST = 0.2  # [1] of its size that may be left after it, or be otherwise than a slip has it
+# What is over before a mechanism could have answered:
+SLIP_STARTING = 0.3  # [s] of a motion in which a model that lacks something errs by itself
+SLIP_LONGEST = 0.1  # [s] it lasts
+SLIP_SUDDEN = 0.4  # [1] of its size that it comes and goes by from one sample to the next
+SLIP_CLEARLY = 4.0  # [1] times as long as it lasts must be the time scale of the mechanism
+# What is a share of the speed, and comes and goes within a sample:
+SHARP_STARTING = 0.2  # [s] the same: free play is crossed by then
+SHARP_EDGE_EARLY = 0.6  # [1] of it, before which no edge is; one of them is after it
+SHARP_LONGEST = 1.0  # [s] it lasts at most
+SHARP_FEWEST = 3  # samples that it lasts at least, and those after it
+SHARP_SEEN = 4.0  # [robust standard deviations] of its lesser edge
+SHARP_NOISES = 2.0  # [robust standard deviations] of noise at an edge
+SHARP_OTHERS = 4  # [jumps for each slip, its own two among them] with more, something else jumps
+SHARP_SLOW = 1.25  # [1] times a sample must be the time scale of the mechanism then
+"""What pushes brings it to half of its new speed in a sample, and a slip to all of it."""
+
+# Logs that are refused (``input_checks.py``).
+
+FEWEST_RUNS, FEWEST_SAMPLES = 2, 60
+SHORTEST_RUN = 4  # samples of a run that says anything, as ``measure_runs`` takes them
+BEYOND_TRAVEL = 1.1  # [of the travel] that positions may span
+OTHER_VOLTAGES = 1.8
+"""[factor] between what a speed costs in two logs of one mechanism, once the first one's kS, kA and
+gravity are paid. Among 256 pairs it was 0.72 to 1.23, whatever was hidden in them; a foot taken for
+a meter makes it 3.3, a rotation for a radian 6.3."""
+TENTH = 0.1  # [1] a smaller factor is told in words
+OBEYS_VOLTAGE, LEAST_KS = 0.35, -0.1
+"""[of the voltage's size] that a first guess may miss, and [of the largest voltage] friction, of a
+log that is a mechanism's at all: only such a log has a price of a speed that others can be held
+against. Of 512 logs with voltages of other moments none is, of 256 others 254 are."""
+HARDLY_MOVES = 0.03  # [of the first log's top speed] slower than which nothing moves
+
+# Damage that is set aside (``damage_policy.py``).
+
+LONGEST_SLIP = 0.3
+"""[s] of an encoder's slip, which is over in a moment: what takes longer is a start that sticks."""
+
+# Voltage drop-outs (``dropout_intervals.py``).
+
+DROPOUT_MEDIAN = 0.22  # [s] of voltages whose median is what a sample ought to read
+DROPOUT_FALLEN = 0.75  # [share of that median] below which it has dropped
+DROPOUT_ANSWER = 0.06  # [s] in which a velocity has answered
+DROPOUT_ANSWERED = 0.9  # [share of the speed before] below which it has
+
+# Residuals that runs share (``residual_tests/repeatability.py``).
+
+REPEAT_CELLS = 24  # of the way, or of all speeds
+FEWEST_IN_CELL = 2  # samples of a run in a cell
+SHORTEST_ONE_WAY = 20  # samples of a run that goes one way
+HELD_BY_FRICTION = 0.02  # [1] of the top speed, below which friction holds as it likes
+
+# Windows of innovations (``residual_tests/whiteness.py``).
+
+WINDOWS = (0.1, 0.2, 0.4)  # [s]
+STEP_JUMP, SOON_AFTER_STEP = 1.0, 0.15  # [V] of a step, and [s] after it
+FEWEST_WINDOWS = 20  # windows that tell what is ordinary
+LEAST_SPREAD = 0.5  # [1] of what independent innovations would add up to
+CLOCK_PART = 0.5  # of a sample, by which a run may be late or early
+
+# Peaks of the spectrum (``residual_tests/spectrum.py``).
+
+FASTEST_PEAK = 5.0  # [Hz] faster is a joint that swings, or a wave along the way
+FEWEST_TURNS = 2.0  # that a run has to last
+PEAK_FINER = 0.5  # [1] of the steps that the longest run can tell apart
+SHORTEST_FOR_PEAK = 20  # samples of a run
+
+# Earlier effects (``backward_elimination.py``).
+
+LOOKED_ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
+
+# Repetitions (``forward_selection.py``).
+
+SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
+
+# Prediction of runs (``cross_validation.py``).
+
+MOST_VARIED = 0.12  # [of kS] by which a run's friction may differ
+
+# The held-out log (``held_out.py``).
+
+OTHER_MATTER = 5.0  # [of the gap of fitted runs] from which a held-out log is another matter

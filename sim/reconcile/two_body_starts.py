@@ -11,7 +11,7 @@ from math import isclose, isfinite
 
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import joint_jacobian, levenberg_marquardt
+from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.physics.effects import EFFECTS
 from sim.reconcile.local_minimum import Begun, predicted_improvement, total_cost
 from sim.reconcile.thresholds import SURE
@@ -42,14 +42,14 @@ class TwoBodyStarts:
         self.problem = PredictionErrorProblem(
             tuple(problem.records[n] for n in chosen), problem.noise
         )
-        self.point = self.problem.at(
-            point.structure, point.values, point.nuisance.of(chosen), point.process_noise
+        self.point = self.problem.evaluate(
+            point.structure, point.values, point.nuisance.select_runs(chosen), point.process_noise
         )
         if isfinite(self.point.cost):  # else all of them were set aside, or fly off
             self.there = True
-            self.kept = joint_jacobian(self.problem, self.point)
+            self.kept = make_joint_jacobian(self.problem, self.point)
 
-    def valleys(
+    def list_starts(
         self, structure: ModelStructure, more: list[dict[str, float]], *, heavy: bool
     ) -> list[dict[str, float]]:
         """The starts that are worth a look at all runs.
@@ -68,17 +68,17 @@ class TwoBodyStarts:
         if heavy:
             tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in more]
         begun = predicted_improvement(self.problem, self.point, structure, tried, kept=self.kept)
-        gone = self._a_step(_best_of_each(begun, effect))
+        gone = self._find_step(_best_of_each(begun, effect))
         for most in GO_ON:
-            gone = self._a_step(_apart(gone, names)[:most])
-        best = _apart(gone, names)
+            gone = self._find_step(_one_per_valley(gone, names)[:most])
+        best = _one_per_valley(gone, names)
         if not best:
             return []
         least = max(NEAR * self._gain(best[0]), SURE)
         found = [one for one in best if self._gain(one) > least][:VALLEYS]
         return [{name: one.values[name] for name in names} for one in found]
 
-    def _a_step(self, points: Iterable[Estimate]) -> list[Estimate]:
+    def _find_step(self, points: Iterable[Estimate]) -> list[Estimate]:
         return [levenberg_marquardt(self.problem, one, steps=1) for one in points]
 
     def _gain(self, point: Estimate) -> float:
@@ -94,7 +94,7 @@ def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Estimate]:
     return [one for kind in kinds.values() for one in kind[:MOST]]
 
 
-def _apart(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
+def _one_per_valley(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
     """The likeliest first, one of each valley."""
     found: list[Estimate] = []
     for one in sorted(points, key=total_cost):

@@ -14,7 +14,7 @@ from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAIN
 from sim.reconcile.thresholds import LOST, MOSTLY, STRAYS
 
 
-def verdict_of(
+def reach_verdict(
     findings: Sequence[Finding], done: Sequence[SelectionRound], problem: PredictionErrorProblem, *,
     left: ResidualSummary, per: Unit,
 ) -> tuple[str, bool, str]:  # fmt: skip
@@ -28,7 +28,7 @@ def verdict_of(
         per: the owner's unit.
     """
     strays, before = (
-        gap.velocity / problem.noise.velocity for gap in (done[-1].gap, done[0].before)
+        gap.velocity / problem.noise.velocity for gap in (done[-1].gap, done[0].gap_before)
     )
     share = missed_motion(strays, problem)
     if not share <= LOST:
@@ -38,7 +38,9 @@ def verdict_of(
             "and the same moment."
         )
         return UNEXPLAINED, True, remains
-    remains = _is_left(problem, left, per) or _remains(findings, done, strays=strays)
+    remains = _describe_residual(problem, left, per) or _describe_remainder(
+        findings, done, strays=strays
+    )
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
     mostly = effects and strays > max(STRAYS, MOSTLY * before)
@@ -51,7 +53,9 @@ def verdict_of(
     return EXPLAINED, bool(remains), remains
 
 
-def _remains(findings: Sequence[Finding], done: Sequence[SelectionRound], *, strays: float) -> str:
+def _describe_remainder(
+    findings: Sequence[Finding], done: Sequence[SelectionRound], *, strays: float
+) -> str:
     """A sentence about how far the last model still is, or why it may be another; or nothing."""
     if strays > STRAYS:
         return (
@@ -63,7 +67,7 @@ def _remains(findings: Sequence[Finding], done: Sequence[SelectionRound], *, str
             f"With {likely[0].candidate.effect} the log would be far likelier, and yet runs that "
             "were not fitted are missed by more: something else is missing, or more than that."
         )
-    if series := _series(findings):
+    if series := _find_nested_pair(findings):
         return (
             f"The log wants {series}, and the one does much of what the other does: together they "
             "follow any force that changes along the way, so it may be one of another kind. Hold "
@@ -72,18 +76,18 @@ def _remains(findings: Sequence[Finding], done: Sequence[SelectionRound], *, str
     return ""
 
 
-def _is_left(problem: PredictionErrorProblem, left: ResidualSummary, per: Unit) -> str:
+def _describe_residual(problem: PredictionErrorProblem, left: ResidualSummary, per: Unit) -> str:
     """A sentence about what the last model leaves that is no noise; empty if it is."""
-    if left.shaken:
+    if left.has_unlikely_window:
         moment = left.worst_window
         record = problem.records[moment.record]
         return (
             f"In {record.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
             f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
         )
-    if left.repeats:
-        return _habit(left.repeated, per)
-    if left.swings:
+    if left.is_repeated:
+        return _describe_repeated(left.repeated, per)
+    if left.is_periodic:
         return (
             f"Something pushes to and fro every {1.0 / left.peak.rate:.2f} s, whatever the "
             "mechanism does meanwhile, and no effect of the catalogue explains it. Look for what "
@@ -93,7 +97,7 @@ def _is_left(problem: PredictionErrorProblem, left: ResidualSummary, per: Unit) 
     return ""
 
 
-def _series(findings: Sequence[Finding]) -> str:
+def _find_nested_pair(findings: Sequence[Finding]) -> str:
     """Two effects of which one does about what the other does, with fewer parameters; or nothing.
 
     On some 2900 logs, none of which has two such effects, they were named together 51 times: on 50
@@ -109,7 +113,7 @@ def _series(findings: Sequence[Finding]) -> str:
     return ""
 
 
-def _habit(alike: RepeatedResidual, per: Unit) -> str:
+def _describe_repeated(alike: RepeatedResidual, per: Unit) -> str:
     """A sentence about what runs miss alike."""
     low, high = (f"{edge / per.si:.3g}".replace("-", "−") for edge in (alike.low, alike.high))
     where, of = ("places", "") if alike.what == POSITION else ("speeds", "/s")

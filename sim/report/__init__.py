@@ -16,17 +16,22 @@ from markupsafe import Markup
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Log
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
 from sim.fit import Fit
 from sim.fit.feedback_trial import FeedbackTrial
 from sim.fit.replay import RunReplay, replay_fit
-from sim.plot.fit_overview import fit_overview
-from sim.plot.measured_vs_simulated import error_table, measured_vs_simulated
+from sim.plot.fit_overview import plot_fit_overview
+from sim.plot.measured_vs_simulated import make_error_table, plot_measured_vs_simulated
 from sim.plot.picture import Picture
-from sim.plot.step_response import step_responses
-from sim.report.page_file import load_templates, page_path, write_whole
-from sim.report.rows import controller_rows, gain_rows, measure_rows, snippet_rows
+from sim.plot.step_response import plot_step_responses
+from sim.report.page_file import choose_page_path, load_templates, write_page_file
+from sim.report.rows import (
+    make_controller_rows,
+    make_gain_rows,
+    make_measure_rows,
+    make_snippet_rows,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,9 +55,9 @@ class Report:
     notes: tuple[str, ...] = field(default=())
 
     @property
-    def per(self) -> Unit:
+    def position_unit(self) -> Unit:
         """The unit of position."""
-        return unit(self.found.units)
+        return find_unit(self.found.units)
 
     @cached_property
     def runs(self) -> tuple[RunReplay, ...]:
@@ -69,8 +74,8 @@ def write_page(report: Report, path: str | os.PathLike[str]) -> None:
     Raises:
         BadRequest: its name does not end as a page's, or it cannot be written.
     """
-    target = page_path(path)
-    write_whole(render_page(report), target)
+    target = choose_page_path(path)
+    write_page_file(render_page(report), target)
 
 
 def write_picture(report: Report, path: str | os.PathLike[str]) -> None:
@@ -80,7 +85,7 @@ def write_picture(report: Report, path: str | os.PathLike[str]) -> None:
         BadRequest: its name ends in no kind of picture, it cannot be written, or there is nothing
             to draw.
     """
-    fit_overview(report.runs, report.tried, per=report.per).save(path)
+    plot_fit_overview(report.runs, report.tried, per=report.position_unit).save(path)
 
 
 def render_page(report: Report) -> str:
@@ -91,22 +96,24 @@ def render_page(report: Report) -> str:
         .render(
             title=report.title,
             found=report.found,
-            per=report.per,
+            per=report.position_unit,
             preset=report.preset.name,
-            gains=gain_rows(report.found),
-            measures=measure_rows(report.found),
+            gains=make_gain_rows(report.found),
+            measures=make_measure_rows(report.found),
             grave=_messages(report.found.doubts, grave=True),
             doubts=_messages(report.found.doubts, grave=False),
             notes=report.notes,
-            overview=Markup(error_table(report.runs, per=report.per).html),  # noqa: S704 - it escapes
+            overview=Markup(make_error_table(report.runs, per=report.position_unit).html),  # noqa: S704 - it escapes
             runs=[
-                (run.run.test, _html(measured_vs_simulated(run, per=report.per)))
+                (run.run.test, _html(plot_measured_vs_simulated(run, per=report.position_unit)))
                 for run in report.runs
             ],
-            steps=_html(step_responses(report.tried, per=report.per)) if report.tried else None,
-            tried=[(trial.whose, trial.loop, trial.verdict.words) for trial in report.tried],
-            controllers=controller_rows(report.found),
-            snippets=snippet_rows(report.found),
+            steps=_html(plot_step_responses(report.tried, per=report.position_unit))
+            if report.tried
+            else None,
+            tried=[(trial.owner, trial.loop, trial.verdict.description) for trial in report.tried],
+            controllers=make_controller_rows(report.found),
+            snippets=make_snippet_rows(report.found),
         )
     )
 

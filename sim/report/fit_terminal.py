@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.table import Table
 
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.feedback import Preset
 from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
 from sim.fit.result import Fit, gain_unit
@@ -34,7 +34,7 @@ def show_fit(
         console: where to print; standard output if None.
     """
     console = console or Console(soft_wrap=True, highlight=False)
-    per = unit(found.units)
+    per = find_unit(found.units)
     console.print(f"{title}: {found.type} mechanism in {per.name}, method {found.method}")
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     rows.add_column("gain")
@@ -60,11 +60,11 @@ def show_fit(
         console.print(f"feedback to start from, as SysId suggests it ({preset.name}), simulated:")
     for trial in tried:
         step = f"{trial.response.target:.4g} {per.symbol}{'/s' * (trial.loop == 'velocity')}"
-        own = "your own " if trial.whose == OWN else ""
-        bad = "" if trial.good else " (no good start)"
+        own = "your own " if trial.owner == OWN else ""
+        bad = "" if trial.is_good else " (no good start)"
         console.print(
             f"  {own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} it "
-            f"{trial.verdict.words}"
+            f"{trial.verdict.description}"
         )
     for note in notes:
         console.print(note)

@@ -8,7 +8,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_atomically
-from sim.support.printable import printable
+from sim.support.printable import make_printable
 
 PAGES = (".html", ".htm")
 FOLDER = Path(__file__).parent
@@ -33,10 +33,10 @@ def load_templates(folder: Path | None = None) -> Environment:
 
 def _shown(value: object) -> object:
     """What a template shows; our own HTML, which is marked as such, stays as it is."""
-    return printable(value) if type(value) is str else value
+    return make_printable(value) if type(value) is str else value
 
 
-def page_path(path: str | os.PathLike[str]) -> Path:
+def choose_page_path(path: str | os.PathLike[str]) -> Path:
     """Where a page goes.
 
     Raises:
@@ -52,7 +52,7 @@ def page_path(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def write_whole(text: str, target: Path, *, private: bool = False) -> None:
+def write_page_file(text: str, target: Path, *, private: bool = False) -> None:
     """Write a file, whole or not at all.
 
     Args:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
-from sim.core.units import Unit, unit
+from sim.core.units import Unit, find_unit
 from sim.feedback import PRESETS
 from sim.fit import Fit
 
@@ -107,7 +107,7 @@ ORDER = {  # of the constructor's arguments
 CLASSES = {"elevator": "ElevatorFeedforward", "arm": "ArmFeedforward"}
 
 
-def robot_code_snippet(found: Fit, *, language: str, season: int = 2026, name: str = "") -> str:
+def write_robot_code(found: Fit, *, language: str, season: int = 2026, name: str = "") -> str:
     """Robot code with the gains of a fit, rounded to the digits that their errors deserve.
 
     Args:
@@ -127,7 +127,9 @@ def robot_code_snippet(found: Fit, *, language: str, season: int = 2026, name: s
     _check(found)
     write = LANGUAGES[language]
     class_ = _class_name(name or found.type)
-    cls = CLASSES.get(found.type) or (write.angular if unit(found.units).angular else write.linear)
+    cls = CLASSES.get(found.type) or (
+        write.angular if find_unit(found.units).angular else write.linear
+    )
     inside = (
         *_constants(found, write),
         *_feedforward(found, write, spelling, cls=cls),
@@ -208,7 +210,7 @@ def _heading(found: Fit, spelling: Spelling, *, season: int) -> Iterator[str]:
 
 def _constants(found: Fit, write: Language) -> Iterator[str]:
     """The gains, and for an arm what makes the sensor's reading the angle from horizontal."""
-    given = unit(found.units)
+    given = find_unit(found.units)
     turned = found.type == "arm" and given.name != "radians"
     if turned:
         yield f"{write.comment} Gains per {given.symbol} in the fit, per radian here."
@@ -244,7 +246,7 @@ def _feedforward(found: Fit, write: Language, spelling: Spelling, *, cls: str) -
 def _feedback(found: Fit, write: Language) -> Iterator[str]:
     """The gains the fit suggests; an arm's are brought to radians, so the loop stays the same."""
     per = _counts_in(found)
-    factor = per.si / unit(found.units).si
+    factor = per.si / find_unit(found.units).si
     yield ""
     loops = found.feedback()
     if not loops:
@@ -266,7 +268,7 @@ def _feedback(found: Fit, write: Language) -> Iterator[str]:
 
 def _counts_in(found: Fit) -> Unit:
     """The unit of position that the code counts in."""
-    return unit("radians" if found.type == "arm" else found.units)
+    return find_unit("radians" if found.type == "arm" else found.units)
 
 
 def _line(write: Language, name: str, value: float, error: float, per: str) -> str:

@@ -5,13 +5,13 @@ import re
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
-from sim.fit.feedback_trial import SUGGESTED, FeedbackTrial, delay_of, try_feedback_gains
+from sim.fit.feedback_trial import SUGGESTED, FeedbackTrial, feedback_delay, try_feedback_gains
 from sim.plot.table import to_text
 from sim.report.fit_terminal import format_error
-from sim.report.robot_code_snippet import LANGUAGES, SEASONS, robot_code_snippet, round_to_error
+from sim.report.robot_code_snippet import LANGUAGES, SEASONS, round_to_error, write_robot_code
 
 SURE = 1.96  # [standard errors] that hold the truth 95 times of a hundred
 MEANS = {
@@ -57,7 +57,7 @@ class Snippet:
     refused: str
 
 
-def gain_rows(found: Fit) -> list[Gain]:
+def make_gain_rows(found: Fit) -> list[Gain]:
     """The gains with their errors and what they mean."""
     rows = []
     for name, value in found.gains.items():
@@ -77,9 +77,9 @@ def gain_rows(found: Fit) -> list[Gain]:
     return rows
 
 
-def measure_rows(found: Fit) -> list[tuple[str, str, str]]:
+def make_measure_rows(found: Fit) -> list[tuple[str, str, str]]:
     """How well the gains explain the log: name, number, what it says."""
-    per = unit(found.units).symbol
+    per = find_unit(found.units).symbol
     rows = [
         (
             "velocity, simulated: R²",
@@ -110,17 +110,17 @@ def measure_rows(found: Fit) -> list[tuple[str, str, str]]:
     return rows
 
 
-def controller_rows(found: Fit) -> list[ControllerRow]:
+def make_controller_rows(found: Fit) -> list[ControllerRow]:
     """Feedback gains for every motor controller; empty where the model allows none."""
     rows = []
     for preset in PRESETS.values():
         tried = {
             trial.loop: trial
             for trial in try_feedback_gains(found, preset)
-            if trial.whose == SUGGESTED
+            if trial.owner == SUGGESTED
         }
         if {"velocity", "position"} <= set(tried):
-            delays = {1000.0 * delay_of(found, preset, loop=loop) for loop in tried}
+            delays = {1000.0 * feedback_delay(found, preset, loop=loop) for loop in tried}
             rows.append(
                 ControllerRow(
                     preset.name,
@@ -145,17 +145,17 @@ def _counts(preset: Preset) -> str:
 def _loop(trial: FeedbackTrial) -> tuple[str, str, str, bool]:
     """kP, kD, what they do in simulation, and whether to begin with them."""
     numbers = (_four(trial.gains.kp), _four(trial.gains.kd))
-    return (*numbers, trial.verdict.words, trial.good)
+    return (*numbers, trial.verdict.description, trial.is_good)
 
 
-def snippet_rows(found: Fit) -> list[Snippet]:
+def make_snippet_rows(found: Fit) -> list[Snippet]:
     """Code for every language and season."""
     made = []
     for language in LANGUAGES:
         for season in SEASONS:
             code, refused = "", ""
             try:
-                code = robot_code_snippet(found, language=language, season=season)
+                code = write_robot_code(found, language=language, season=season)
             except BadRequest as refusal:
                 refused = str(refusal)
             made.append(Snippet(CODE[language], season, code, refused))

@@ -9,30 +9,30 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from sim.core.errors import BadRequest
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.plot.picture import Picture
 from sim.plot.story import (
-    candidate_bars,
-    findings_table,
-    gap_by_round,
+    make_findings_table,
+    plot_candidate_bars,
+    plot_gap_by_round,
     plot_overlays,
-    residual_maps,
+    plot_residual_maps,
 )
-from sim.plot.story_bars import candidate_table
+from sim.plot.story_bars import make_candidate_table
 from sim.plot.table import Table
 from sim.reconcile.story import AMBIGUOUS, UNEXPLAINED, Finding, Story
 from sim.reconcile.story_text import (
     FAULT,
-    describe,
+    describe_effect,
     describe_parameter,
     format_estimate,
     format_gap,
-    headline,
     list_inspections,
     list_next_tests,
     list_remarks,
+    write_headline,
 )
-from sim.report.page_file import load_templates, page_path, write_whole
+from sim.report.page_file import choose_page_path, load_templates, write_page_file
 
 
 @dataclass(frozen=True)
@@ -71,11 +71,11 @@ def write_story(story: Story, path: str | os.PathLike[str], *, title: str) -> No
     Raises:
         BadRequest: its name does not end as a page's, or it cannot be written.
     """
-    target = page_path(path)
-    write_whole(story_page(story, title=title), target)
+    target = choose_page_path(path)
+    write_page_file(render_story(story, title=title), target)
 
 
-def story_page(story: Story, *, title: str) -> str:
+def render_story(story: Story, *, title: str) -> str:
     """The page as text; the same story always gives the same.
 
     Args:
@@ -91,14 +91,14 @@ def story_page(story: Story, *, title: str) -> str:
         .render(
             title=title,
             story=story,
-            per=unit(story.shown.units),
-            headline=headline(story),
+            per=find_unit(story.shown.units),
+            headline=write_headline(story),
             unsure=story.remainder or story.verdict in {AMBIGUOUS, UNEXPLAINED},
             beside=list_remarks(story),
             findings=[_told(one, story) for one in story.findings],
-            overview=_html(findings_table(story)),
+            overview=_html(make_findings_table(story)),
             tests=list_next_tests(story),
-            shrinking=_html(gap_by_round(story)),
+            shrinking=_html(plot_gap_by_round(story)),
             places=[(place.sentence, f"{place.sure:.0f}") for place in story.where],
             gaps=_gaps(story),
             rounds=[(_base(story, n), _lineup(story, n)) for n in tried],
@@ -110,7 +110,7 @@ def story_page(story: Story, *, title: str) -> str:
 def _gaps(story: Story) -> Markup:
     """The map, or why there is none."""
     try:
-        return _html(residual_maps(story))
+        return _html(plot_residual_maps(story))
     except BadRequest as refusal:
         return Markup("<p>{}</p>").format(str(refusal))
 
@@ -118,8 +118,8 @@ def _gaps(story: Story) -> Markup:
 def _lineup(story: Story, chapter: int) -> Markup:
     """The suspects of a round; where none explains anything, bars would show nothing."""
     if max(one.score for one in story.chapters[chapter].tried) < 1.0:
-        return _html(candidate_table(story, chapter))
-    return _html(candidate_bars(story, chapter))
+        return _html(make_candidate_table(story, chapter))
+    return _html(plot_candidate_bars(story, chapter))
 
 
 def _base(story: Story, chapter: int) -> str:
@@ -133,7 +133,7 @@ def _told(one: Finding, story: Story) -> FindingText:
     before, after = (format_gap(gap, story) for gap in (one.gap_before, one.gap_after))
     return FindingText(
         " or ".join([one.effect, *one.ambiguous_with]),
-        describe(one.effect),
+        describe_effect(one.effect),
         "damage to the record" if fault else one.size,
         one.sentence,
         tuple(

@@ -14,10 +14,10 @@ from sim.reconcile.story_text import (
     FAULT,
     format_gap,
     format_parameter,
-    headline,
     list_inspections,
     list_next_tests,
     list_remarks,
+    write_headline,
 )
 
 COLUMNS, BAR = 80, 40  # [characters] of a line, and of the longest bar
@@ -27,7 +27,7 @@ Told = Callable[[str, float], None]
 
 
 @contextmanager
-def progress_bar() -> Iterator[Told]:
+def show_progress() -> Iterator[Told]:
     """A bar on the terminal, to be told a step's words and a share of the whole.
 
     Where nobody watches it is not drawn.
@@ -53,7 +53,7 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
     console = console or _console()
     say = _Sayer(console)
     say(title)
-    say(headline(story), style="bold")
+    say(write_headline(story), style="bold")
     for one in story.findings:
         _finding(say, one, story)
     say("")

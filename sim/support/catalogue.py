@@ -5,7 +5,7 @@ from pkgutil import iter_modules
 from types import ModuleType
 
 
-def members(package: ModuleType) -> dict[str, ModuleType]:
+def list_members(package: ModuleType) -> dict[str, ModuleType]:
     """The modules of a catalogue, by the name a person types: ``encoder_slip`` -> ``encoder-slip``.
 
     Args:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import click
 
 from sim.core.errors import Refusal
-from sim.support.printable import printable
+from sim.support.printable import make_printable
 
 DONE, NOT_RIGHT, COULD_NOT = 0, 1, 2
 INTERRUPTED = 130  # what a shell reports for Ctrl+C
@@ -24,7 +24,9 @@ PLAIN = str.maketrans(
 )  # fmt: skip
 
 
-def run(command: click.Command, *, name: str, arguments: Sequence[str] | None = None) -> int:
+def run_command(
+    command: click.Command, *, name: str, arguments: Sequence[str] | None = None
+) -> int:
     """Run a command and return its exit code; nothing gets out as a traceback.
 
     A refusal, a wrong option or a mistake of ours becomes one line on standard error and code 2.
@@ -46,19 +48,19 @@ def run(command: click.Command, *, name: str, arguments: Sequence[str] | None = 
     except Exception as error:
         if os.environ.get(TRACEBACK):
             raise
-        complain(_sentence(error, name=name), name=name)
+        print_error(_sentence(error, name=name), name=name)
         return COULD_NOT
     return code if isinstance(code, int) else DONE
 
 
-def complain(said: str, *, name: str) -> None:
+def print_error(said: str, *, name: str) -> None:
     """One line to standard error.
 
     Args:
         said: the line; line breaks in it become spaces.
         name: the command that says it.
     """
-    plain = printable(click.unstyle(said))  # what other programs say may be colored
+    plain = make_printable(click.unstyle(said))  # what other programs say may be colored
     click.echo(f"{name}: {' '.join(plain.split())}", err=True)
 
 

@@ -7,7 +7,7 @@ DIRECTIONS = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u
 INSTEAD = "\ufffd"  # the sign for a sign that cannot be shown
 
 
-def printable(text: str) -> str:
+def make_printable(text: str) -> str:
     """The same text, with a visible sign for each that commands a terminal or turns text around.
 
     Control characters (C0 and C1, but for line break and tab) can recolor, move and rename a

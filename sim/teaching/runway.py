@@ -18,7 +18,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import power_path_arrays
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 
 PERIOD = 0.02  # [s] of the robot program's loop
 STANDS = 0.01  # [m/s] slower is standing
@@ -67,7 +67,7 @@ class FloorTest:
         velocity: (n,) [m/s].
         battery: (n,) [V].
         released: [s] when the motors were off.
-        hit: [s] when it came to the wall, which is the last sample; None if it did not.
+        hit_wall: [s] when it came to the wall, which is the last sample; None if it did not.
         brownout: [V] below which the robot controller takes the motors off.
     """
 
@@ -77,11 +77,11 @@ class FloorTest:
     velocity: Array
     battery: Array
     released: float
-    hit: float | None
+    hit_wall: float | None
     brownout: float
 
     @property
-    def rests(self) -> float:
+    def final_position(self) -> float:
         """[m] where it stands in the end, or hits the wall."""
         return float(self.position[-1])
 
@@ -107,10 +107,10 @@ def drive_test(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floo
         forward = ", ".join(one for one in routine.tests if one.endswith("-forward"))
         raise BadRequest(f"{test!r} on a runway", advice=f"Choose one of: {forward}.")
     asked = np.arange(0.0, min(routine.timeout, floor.watched) + PERIOD / 2, PERIOD)
-    track = move(
+    track = simulate_run(
         mechanism.model,
         time=asked,
-        voltage=np.array([routine.voltage(test, t) for t in asked.tolist()]),
+        voltage=np.array([routine.command_voltage(test, t) for t in asked.tolist()]),
         state=State(),
         wires=power_path_arrays(mechanism),
     )
@@ -131,7 +131,7 @@ def drive_test(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floo
         velocity[:end],
         battery[:end],
         released=PERIOD * (on - 1),
-        hit=float(time[end - 1]) if beyond.size else None,
+        hit_wall=float(time[end - 1]) if beyond.size else None,
         brownout=mechanism.brownout,
     )
 

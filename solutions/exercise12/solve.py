@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from grader.course import find_course
 from grader.exercise import find_exercise
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.io import read
 
 if TYPE_CHECKING:
@@ -42,11 +42,11 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     before, after = (
         room.gap(one, logs["held-out"]) / room.noise(logs["held-out"]) for one in (base, model)
     )
-    per = unit(logs["log"].units)
+    per = find_unit(logs["log"].units)
     lines = "".join(
         f"{part.effect}.{name} = {one['value']:.6g}\n"
         for part in model.parts
-        for name, one in part.said(per).items()
+        for name, one in part.to_json(per).items()
     )
     listed = ", ".join(f'"{part.effect}"' for part in model.parts)
     text = (exercise / "answers.toml").read_text(encoding="utf-8")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from sim.core.log import Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.io import read
 
 STANDS = 0.02  # [share of the way] by which a position may move, and still stand
@@ -29,7 +29,7 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     log = read(data / "log.wpilog")
     text = (exercise / "answers.toml").read_text(encoding="utf-8")
     lines = {run.test.replace("-", "_"): f'"{_keep(run)}"' for run in log.runs}
-    lines |= {"threshold": f"{_threshold(log) / unit(log.units).si:.4g}", "median": "3"}
+    lines |= {"threshold": f"{_threshold(log) / find_unit(log.units).si:.4g}", "median": "3"}
     for name, value in lines.items():
         text = text.replace(f'{name} = ""', f"{name} = {value}")
     return {"answers.toml": text}

@@ -44,8 +44,8 @@ def one_mechanism() -> None:
         print(line(f"{name}, {long:.0f} s recorded", took, target=0.010))
     drive = MECHANISMS["drivetrain"]
     for name, effect in EFFECTS.items():
-        if not effect.cannot(drive.scale):
-            built = drive.hiding(name)
+        if not effect.reason_against(drive.scale):
+            built = drive.hide(name)
             took = seconds(lambda built=built: simulate(built, ROUTINE, rng=rng()), repeats=9)
             print(line(f"drivetrain with {name}", took))
 
@@ -54,12 +54,12 @@ def variants() -> None:
     """Many drivetrains, each drawn, each with one or two effects of its own."""
     chance = rng()
     drive = MECHANISMS["drivetrain"]
-    able = [name for name, effect in EFFECTS.items() if not effect.cannot(drive.scale)]
+    able = [name for name, effect in EFFECTS.items() if not effect.reason_against(drive.scale)]
     built = []
     for _ in range(VARIANTS):
         one = drive.draw(chance)
         for name in chance.choice(able, size=int(chance.integers(1, 3)), replace=False).tolist():
-            one = one.hiding(name, float(chance.uniform(0.3, 1.5)))
+            one = one.hide(name, float(chance.uniform(0.3, 1.5)))
         built.append(one)
     began = time.perf_counter()
     for one in built:

@@ -17,7 +17,7 @@ from sim.core.log import FOUR_TESTS, Log, Run
 from sim.core.vocabulary import METHODS
 from sim.fit import fit
 from sim.fit.metrics import score_simulated_velocity
-from sim.fit.regression import regress
+from sim.fit.regression import regress_acceleration
 from sim.fit.sysid_rows import prepare_rows
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
@@ -43,7 +43,7 @@ def log(samples: int) -> Log:
 def measure(recorded: Log, *, name: str, targets: tuple[float, float | None, float]) -> None:
     """Print the figures of one log."""
     raw = list(prepare_rows(recorded).raw.values())
-    taken = seconds(lambda: regress(prepare_rows(recorded).rows, type="simple"))
+    taken = seconds(lambda: regress_acceleration(prepare_rows(recorded).rows, type="simple"))
     print(line(f"{name}: preparation and regression", taken, target=targets[0]))
     taken = seconds(lambda: score_simulated_velocity(raw, GAINS, type="simple"))
     print(line(f"{name}: simulation metrics, all four tests", taken, target=targets[1]))

@@ -97,7 +97,7 @@ def one_log(name: str, *, noise: float, period: float, seed: int) -> tuple[Mecha
     sensor = replace(built.sensor, velocity_noise=noise * built.sensor.velocity_noise)
     built = replace(built, sensor=sensor)
     for effect, most in DIRT.items():
-        built = built.hiding(effect, float(chance.uniform(0.2, 1.0)) * most)
+        built = built.hide(effect, float(chance.uniform(0.2, 1.0)) * most)
     return built, simulate(built, ROUTINE, rng=chance, period=period)
 
 

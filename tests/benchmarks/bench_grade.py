@@ -25,7 +25,7 @@ import psutil
 
 from grader.course import load_progress
 from grader.exercise import find_exercise
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 
 ROOT = Path(__file__).resolve().parents[2]
 READ, FUNCTION = 0.4, 1.5  # [s]
@@ -56,7 +56,7 @@ def course(folder: Path) -> None:
         one.prepare(student, say=lambda _: None)
         solve = runpy.run_path(str(folder / f"solutions/{one.name}/solve.py"))["solve"]
         with chdir(folder):
-            made = solve(one.folder, one.folder / "data" / folder_name(student))
+            made = solve(one.folder, one.folder / "data" / make_folder_name(student))
         (folder / "solved" / one.name).mkdir(parents=True)
         for name, text in made.items():
             (folder / "solved" / one.name / name).write_text(text, encoding="utf-8")

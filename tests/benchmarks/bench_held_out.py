@@ -23,10 +23,10 @@ import sim
 from sim.core.errors import Refusal
 from sim.core.log import Log, Run
 from sim.fit import fit
-from sim.fit.regression import regress
+from sim.fit.regression import regress_acceleration
 from sim.fit.sysid_rows import prepare_rows
 from sim.physics.model import Model, Part
-from sim.physics.replay import replay
+from sim.physics.replay import replay_log
 
 LOGS = {
     "sciborgs-2023-elbow-arm": "arm",
@@ -79,8 +79,8 @@ def by_recipe(log: Log, run: Run, type_: str) -> Model | None:
     """SysId's recipe without the rows of one run."""
     try:
         rows = prepare_rows(log).rows
-        kept = {t: part.where(slice(0, 0)) if t == run.test else part for t, part in rows.items()}
-        return Model(type_, regress(kept, type=type_).gains)
+        kept = {t: part.select(slice(0, 0)) if t == run.test else part for t, part in rows.items()}
+        return Model(type_, regress_acceleration(kept, type=type_).gains)
     except Refusal:
         return None
 
@@ -105,7 +105,7 @@ def miss(model: Model | None, log: Log, run: Run) -> float:
     """[unit/s] root mean square of measured velocity less predicted; nan without a model."""
     if model is None:
         return math.nan
-    (track,) = replay(model, replace(log, runs=(run,)))
+    (track,) = replay_log(model, replace(log, runs=(run,)))
     return float(np.sqrt(np.mean(np.square(track.seen - run.velocity))))
 
 

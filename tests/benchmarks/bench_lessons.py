@@ -3,7 +3,8 @@
     python tests/benchmarks/bench_lessons.py [NN ...]
 
 Cells are run in this process, one after another, as JupyterLab does without its drawing. A redraw
-is one knob moved once: the function of each `live` is called with other values of each knob.
+is one knob moved once: the function of each `show_interactive` is called with other values of each
+knob.
 Aims: a lesson under 60 s, a cell at most 5 s, a redraw at most 1 s.
 """
 
@@ -28,8 +29,8 @@ redraws: list[tuple[float, str]] = []
 
 
 def timed(draw: Callable[..., Any], **knobs: Any) -> Any:
-    """What `live` does, and how long each knob's move takes."""
-    shown = live(draw, **knobs)
+    """What `show_interactive` does, and how long each knob's move takes."""
+    shown = show_interactive(draw, **knobs)
     for name, knob in knobs.items():
         asked = {one: other.value for one, other in knobs.items()}
         for value in moved(knob):
@@ -89,8 +90,8 @@ def main() -> None:
             lesson(path)
 
 
-live = sim.plot.interactive
-sim.plot.interactive = timed
+show_interactive = sim.plot.show_interactive
+sim.plot.show_interactive = timed
 
 if __name__ == "__main__":
     main()

@@ -17,7 +17,7 @@ from time import perf_counter
 import numpy as np
 from wpiutil.log import DataLogReader
 
-from sim.io.formats.wpilog.contents import contents_of
+from sim.io.formats.wpilog.contents import read_contents
 from sim.io.formats.wpilog.control import Start, start_payload
 from sim.io.formats.wpilog.entry import KINDS, STRING
 from sim.io.formats.wpilog.records import MAGIC, load_records
@@ -85,7 +85,7 @@ def mixed(count: int, rng: np.random.Generator) -> bytes:
 
 def ours(path: Path) -> int:
     """Read everything, in arrays; strings in lists."""
-    found = contents_of(load_records(path))
+    found = read_contents(load_records(path))
     kept = {
         entry.name: (entry.time, entry.texts() if entry.type == STRING else entry.values())
         for entry in found.entries

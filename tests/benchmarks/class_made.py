@@ -17,7 +17,7 @@ from types import ModuleType
 import numpy as np
 
 from grader.exercise import Exercise, exercises
-from grader.variant import class_secret, folder_name
+from grader.variant import class_secret, make_folder_name
 from sim.support.work.process_pool import run_jobs_locally
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -126,7 +126,7 @@ def _right(one: Exercise, who: str) -> Texts:
     if not (authored / "solve.py").is_file():
         return {name: (authored / name).read_text(encoding="utf-8") for name in one.files}
     one.prepare(who, say=lambda _: None)
-    data = one.folder / "data" / folder_name(who)
+    data = one.folder / "data" / make_folder_name(who)
     texts: Texts = _loaded(authored / "solve.py").solve(one.folder, data)
     shutil.rmtree(data)
     return texts

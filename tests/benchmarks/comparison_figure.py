@@ -10,7 +10,7 @@ from comparison_page import WAYS, share, told
 from comparison_plan import LAG, LIGHT, NOISE, Row, Section
 from matplotlib.axes import Axes
 
-from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, legend, panels
+from sim.plot.picture import COLORS, INK, MARKERS, REFERENCE, Picture, add_legend, make_panels
 
 LOOKS = {RECIPE: (COLORS[1], MARKERS[1], -0.12), OURS: (COLORS[0], MARKERS[0], 0.12)}
 """Method -> color, marker, place beside the middle: color never speaks alone."""
@@ -29,14 +29,14 @@ SHORT = {
 def picture(figures: Measured) -> Picture:
     """All panels; the last is left out where there are no logs of real robots."""
     across = 2
-    figure, grid = panels(2, across, width=8.4, height=6.2)
+    figure, grid = make_panels(2, across, width=8.4, height=6.2)
     axes = [panel for row in grid for panel in row]
     sections = ((NOISE, "velocity noise [m/s]"), (LIGHT, "true kA [V·s²/m], noise [m/s]"))
     said = []
     for panel, (section, label) in zip(axes, (*sections, (LAG, "velocity")), strict=False):
         said.append(simulated(panel, section, figures))
         panel.set_xlabel(label, color=INK)
-    legend(figure, axes[:1], columns=3)
+    add_legend(figure, axes[:1], columns=3)
     if figures.real:
         said.append(real(axes[-1], figures.real))
         some = ratios(figures)

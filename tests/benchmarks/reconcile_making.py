@@ -22,7 +22,7 @@ from reconcile_recording import (
 from reconcile_sizes import hide
 
 from sim.core.log import Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.inspect.contaminate import contaminate
 from sim.io import write
 
@@ -100,7 +100,7 @@ def store(
     folder = out / ("shuffled" if case.shuffled else "") / name
     folder.mkdir(parents=True)
     for file, log in made.logs.items():
-        si = replace(log, units="radians" if unit(log.units).angular else "meters")
+        si = replace(log, units="radians" if find_unit(log.units).angular else "meters")
         write(si, folder / f"{file}.csv")
     (folder / "case.json").write_text(json.dumps(made.known), encoding="utf-8")
     return folder.relative_to(out).as_posix(), made.answer

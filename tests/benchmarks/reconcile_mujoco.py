@@ -24,11 +24,11 @@ from reconcile_strangers import SHAKES
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.bench.sensor_model import read_sensor
-from sim.bench.simulate import PAUSE, _begin, _end, _loops
+from sim.bench.simulate import PAUSE, _begin, _end, _loop_times
 from sim.core.log import Array, Run
-from sim.core.units import unit
-from sim.physics.effect import ASKS
-from sim.physics.effects import effect as find
+from sim.core.units import find_unit
+from sim.physics.effect import HOOK_ARGUMENTS
+from sim.physics.effects import find_effect as find
 from sim.physics.engine.model_arrays import COARSEST
 from sim.physics.model import Part
 
@@ -65,8 +65,8 @@ def moved(
     runs: list[Run] = []
     start, last = PAUSE, 0.0
     for test in routine.tests:
-        time = _loops(routine.lasts(test), period=period, jitter=mechanism.sensor.jitter, rng=rng)
-        volts = np.array([routine.voltage(test, one) for one in time.tolist()])
+        time = _loop_times(mechanism, routine, test, period=period, rng=rng)
+        volts = np.array([routine.command_voltage(test, one) for one in time.tolist()])
         rubs = 1.0 + wobble * float(np.clip(rng.standard_normal(), -WIDEST, WIDEST))
         body.clock = float(start + time[0] - (runs[0].time[0] if runs else start + time[0]))
         position, velocity = body.run(test, last, time, volts, rubs=rubs)
@@ -82,7 +82,7 @@ def moved(
 def scene(mechanism: Mechanism) -> str:
     """The mechanism in MuJoCo's own words: a motor, and a load if something joins the two."""
     gains = mechanism.gains
-    turns = unit(mechanism.units).angular
+    turns = find_unit(mechanism.units).angular
     joint = {"type": "hinge" if turns else "slide", "axis": "0 -1 0" if turns else "0 0 1"}
     weight, arm = gains.get("kG", 0.0), mechanism.type == "arm"
     between = _between(mechanism)
@@ -168,7 +168,7 @@ class _Body:
         self.memory = {part.effect: 0.0 for part in mechanism.hidden}
         self.clock = self.more = 0.0  # [s] since the log began; [V·s²/unit] of inertia beyond kA
         parts = sorted(mechanism.hidden, key=lambda part: find(part.effect).order)
-        self.acts = {hook: list(_acts(parts, hook)) for hook in ASKS}
+        self.acts = {hook: list(_acts(parts, hook)) for hook in HOOK_ARGUMENTS}
 
     def run(
         self, test: str, last: float, time: Array, volts: Array, *, rubs: float
@@ -176,7 +176,7 @@ class _Body:
         """Position and velocity (n,) at the samples until someone ends the test."""
         mujoco.mj_resetData(self.model, self.data)
         self.data.qpos[0] = _begin(self.mechanism, test, last)
-        arrives = time + sum(self._ask("late"))
+        arrives = time + sum(self._ask("command_delay"))
         motion, kept = np.empty((time.size, 2)), []
         now, command = float(time[0]), -1
         for sample, due in enumerate(time.tolist()):
@@ -245,7 +245,7 @@ class _Body:
         self.more = more
 
     def _remember(self, volts: float, v: float, dt: float) -> None:
-        for effect, act in self.acts["remembers"]:
+        for effect, act in self.acts["update_memory"]:
             known = {"memory": self.memory[effect], "dt": dt, "u": volts, "v": v, "kv": self.kv}
             self.memory[effect] = act(known)
 
@@ -257,7 +257,7 @@ class _Body:
 def _acts(parts: Iterable[Part], hook: str) -> Iterator[tuple[str, Act]]:
     """Effects and what they do there, each a function of all that is known."""
     for part in map(_in_steps, parts):
-        act = find(part.effect).acts.get(hook)
+        act = find(part.effect).hooks.get(hook)
         if act is not None and part.effect not in MOVED_BY_SCENE:
             yield part.effect, _given(act, part.parameters)
 

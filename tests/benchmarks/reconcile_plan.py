@@ -85,7 +85,7 @@ def why_not(mechanism: str, name: str) -> str:
     if name in FAULTS:
         return "it has no stops" if name == "hard-stop" and built.stops is None else ""
     known = STRANGERS[name] if name in STRANGERS else EFFECTS[name]
-    return known.cannot(built.scale)
+    return known.reason_against(built.scale)
 
 
 def plan(*, seed: int, cases: int, shuffled: int = SHUFFLED) -> tuple[Case, ...]:

@@ -18,7 +18,7 @@ from sim.bench.routine import COAST_AFTER, LEVEL_LASTS, LEVELS, TRIANGLE_RISES, 
 from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
 from sim.physics.effect import Scale
-from sim.physics.effects import effect as find
+from sim.physics.effects import find_effect as find
 from sim.physics.effects.inertia_change import LATER
 from sim.physics.engine.model_arrays import COARSEST
 from sim.physics.model import Part
@@ -237,7 +237,7 @@ def _drop(hidden: Hidden, run: Run) -> np.ndarray:
     kv = hidden.mechanism.gains["kV"]
     volts = run.voltage
     for part in sorted(hidden.parts, key=lambda one: find(one.effect).order):
-        act = find(part.effect).acts.get("transform_voltage")
+        act = find(part.effect).hooks.get("transform_voltage")
         if act is None:
             continue
         asked = inspect.signature(act).parameters

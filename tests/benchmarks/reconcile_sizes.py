@@ -15,7 +15,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.physics.battery import Battery
 from sim.physics.effect import Scale
-from sim.physics.effects import effect as find
+from sim.physics.effects import find_effect as find
 from sim.physics.model import Part
 
 ORDINARY = (0.75, 1.35)  # [1] sizes of what is realistic

@@ -160,11 +160,11 @@ def _stranger(
         inspect="",
         apart={},
         example=example,
-        starts=no_starts,
-        acts=acts,
-        pace=pace,
+        start_values=no_starts,
+        hooks=acts,
+        fastest_time=pace,
         order=99 if "transform_voltage" in acts else 0,
-        cannot=cannot,
+        reason_against=cannot,
     )
 
 
@@ -182,20 +182,20 @@ STRANGERS: Mapping[str, Effect] = {
         ),
         _stranger("band", {"volts": 0.0, "at": 1.0, "width": 1.0}, {"force": band}, ordinary_band),
         _stranger(
-            "swing", {"volts": 0.0, "rate": 1.0}, {"transform_voltage": swing, "remembers": clock},
-            ordinary_swing, pace=swing_pace,
+            "swing", {"volts": 0.0, "rate": 1.0},
+            {"transform_voltage": swing, "update_memory": clock}, ordinary_swing, pace=swing_pace,
         ),
         _stranger(
             "push", {"volts": 0.0, "onset": 0.0, "lasts": 1.0},
-            {"transform_voltage": push, "remembers": clock}, ordinary_push, pace=push_pace,
+            {"transform_voltage": push, "update_memory": clock}, ordinary_push, pace=push_pace,
         ),
         _stranger(
             "dip", {"depth": 0.0, "every": 1.0, "lasts": 0.1},
-            {"transform_voltage": dip, "remembers": clock}, ordinary_dip, pace=dip_pace,
+            {"transform_voltage": dip, "update_memory": clock}, ordinary_dip, pace=dip_pace,
         ),
         _stranger(
-            "cling", {"volts": 0.0, "way": 1.0}, {"transform_voltage": clings, "remembers": drawn},
-            ordinary_cling,
+            "cling", {"volts": 0.0, "way": 1.0},
+            {"transform_voltage": clings, "update_memory": drawn}, ordinary_cling,
         ),
     )
 }  # fmt: skip
@@ -205,7 +205,7 @@ STRANGERS: Mapping[str, Effect] = {
 SHAKES = _stranger(
     "shakes",
     {"volts": 0.0, "seed": 0.0},
-    {"transform_voltage": shaken, "remembers": thrown},
+    {"transform_voltage": shaken, "update_memory": thrown},
     ordinary_shakes,
 )
 """What is in every case and nobody has to flag: it is another in every run."""

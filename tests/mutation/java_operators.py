@@ -9,6 +9,7 @@ COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?![\w.])"
 SENT = r"setVoltage\(voltage\.in\(Volts\)\)"
 STATEMENT = r"^ {4,}[\w.]+(?:\([^\n]*\)|\s=[^\n]*);\n"
+PERIODIC = "\n\n  @Override\n  public void periodic() {{\n    {};\n  }}"
 WRAPPED = r"\b(?:Volts|Meters|MetersPerSecond|Rotations|RotationsPerSecond)\.of"
 
 RULES = (
@@ -25,6 +26,11 @@ RULES = (
     Rule("guard-other-mode", r"RobotModeTriggers\.test\(\)", "RobotModeTriggers.teleop()"),
     Rule("guard-other-mode", r"RobotModeTriggers\.test\(\)", "RobotModeTriggers.autonomous()"),
     Rule("guard-other-mode", r"RobotModeTriggers\.test\(\)", "RobotModeTriggers.disabled()"),
+    Rule("negate-button", r"(?<=m_driverController\.)[abxy]\(\)(?=\.and)", r"\g<0>.negate()"),
+    Rule("discarded-command", r"(?<=return )m_routine\.\w+\(direction\)", r"runOnce(() -> \g<0>)"),
+    Rule("reassign-guard", r"^( +)(?=m_driverController\.\w\(\)\.and)", r"\1testing = new Trigger(() -> true);\n\1"),
+    Rule("may-not-run", r"^( +)(?=m_driverController\.\w\(\)\.and)", r"\1if (false) "),
+    Rule("may-not-run", r"^( +)(?=m_driverController\.\w\(\)\.and)", r"\1if (true) return;\n\1"),
     Rule("on-true", r"whileTrue", "onTrue"),
     Rule("toggle", r"whileTrue", "toggleOnTrue"),
     Rule("while-false", r"whileTrue", "whileFalse"),
@@ -109,6 +115,25 @@ RULES = (
     Rule("closed-loop", SENT, "setControl(new VelocityVoltage(voltage.in(Volts)))"),
     Rule("closed-loop", SENT, "setControl(new PositionVoltage(voltage.in(Volts)))"),
     Rule("stop-motor", SENT, "stopMotor()"),
+    Rule("clamp-voltage", r"(?<=setVoltage\()voltage\.in\(Volts\)", r"Math.min(\g<0>, 2.0)"),
+    Rule("clamp-voltage", r"(?<=setVoltage\()voltage\.in\(Volts\)", r"Math.max(-3, \g<0>)"),
+    Rule("one-way-voltage", r"(?<=setVoltage\()voltage\.in\(Volts\)", r"\g<0> > 0 ? \g<0> : 0"),
+    Rule("one-way-voltage", r"(?<=setVoltage\()voltage\.in\(Volts\)", r"Math.abs(\g<0>)"),
+    Rule("stop-after", r"^( +m_\w+\.)setVoltage\([^\n]*\n", r"\g<0>\1stopMotor();\n"),
+    Rule("stop-after", r"^( +m_\w+\.)setVoltage\([^\n]*\n", r"\g<0>\1setVoltage(0);\n"),
+    Rule("may-not-run", r"^( +)(?=m_\w+\.setVoltage)", r"\1if (voltage.in(Volts) > 3) return;\n\1"),
+    Rule("may-not-run", r"^( +)(?=m_\w+\.setVoltage)", r"\1if (true) return;\n\1"),
+    Rule("may-not-run", r"^( +)(?=m_\w+\.setVoltage)", r"\1if (voltage.in(Volts) > 0) "),
+    Rule("may-not-run", r"^( +)(?=m_\w+\.setVoltage)", r"\1while (false) "),
+    Rule("may-not-run", r"^( +)(?=log\.motor)", r"\1if (true) return;\n\1"),
+    Rule("lost-sign", r"(?<=[( ])[mM]\w+\.get(?!Applied)\w+\(\)\.getValueAsDouble\(\)", r"Math.abs(\g<0>)"),
+    Rule("lost-sign", r"(?<=[( ])motor\.get\w+\(\)\.getValueAsDouble\(\)", r"Math.abs(\g<0>)"),
+    Rule("lost-sign", r"m_\w+Encoder\.get\w+\(\)|m_\w+\.getAppliedOutput\(\)", r"Math.abs(\g<0>)"),
+    Rule("moves-in-periodic", r"\n\}\n\Z", PERIODIC.format("m_right.setVoltage(0)") + r"\g<0>"),
+    Rule("moves-in-periodic", r"\n\}\n\Z", PERIODIC.format("m_top.stopMotor()") + r"\g<0>"),
+    Rule("own-motor-class", r"new (?:TalonFX|SparkMax)\([^)]*\)(?=;)", r"\g<0> { public void setVoltage(double v) { super.setVoltage(v / 2); } }"),
+    Rule("own-motor-class", r"(?<=^import )com\.[\w.]+(?=\.(?:TalonFX|SparkMax);)", "frc.robot.lib"),
+    Rule("own-unit", r"edu\.wpi\.first\.units\.Units(?=\.(?:Meters|MetersPerSecond|Volts|Seconds);)", "frc.robot.Units"),
     Rule("measure-for-number", r"voltage\.in\(Volts\)", "voltage"),
     # Constants and arguments.
     Rule("other-constant", NUMBER, times(2.0)),

@@ -7,6 +7,7 @@ from mutation.text_operators import Rule, all_changes, either, times, without_a_
 
 COMMENT = re.compile(r'#[^\n]*|"""(?:.|\n)*?"""')
 NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?![\w.])"
+PERIODIC = "\n\n    def periodic(self) -> None:\n        {}\n"
 SENT = r"setVoltage\(voltage\)"
 ASKS = r"(?:wpilib\.)?DriverStation\.isTest"
 
@@ -20,6 +21,10 @@ RULES = (
     Rule("guard-other-mode", r"(?<=DriverStation\.)isTest", "isAutonomous"),
     Rule("guard-other-mode", r"(?<=DriverStation\.)isTest", "isEnabled"),
     Rule("guard-called-once", rf"= {ASKS}\n", "= wpilib.DriverStation.isTest()\n"),
+    Rule("negate-button", r"(?<=driver\.)[abxy]\(\)(?=\.and_)", r"\g<0>.negate()"),
+    Rule("discarded-command", r"(?<=return )self\.routine\.\w+\(direction\)", r"self.runOnce(lambda: \g<0>)"),
+    Rule("reassign-guard", r"^( +)(?=self\.driver\.\w\(\)\.and_)", r"\1testing = lambda: True\n\1"),
+    Rule("may-not-run", r"^( +)(?=self\.driver\.\w\(\)\.and_)", r"\1if True:\n\1    return\n\1"),
     Rule("on-true", r"whileTrue", "onTrue"),
     Rule("toggle", r"whileTrue", "toggleOnTrue"),
     Rule("while-false", r"whileTrue", "whileFalse"),
@@ -73,6 +78,15 @@ RULES = (
     Rule("scaled-voltage", SENT, "setVoltage(voltage + 0.2)"),
     Rule("constant-voltage", SENT, "setVoltage(3.5)"),
     Rule("constant-voltage", SENT, "setVoltage(0)"),
+    Rule("clamp-voltage", SENT, "setVoltage(min(voltage, 2.0))"),
+    Rule("one-way-voltage", SENT, "setVoltage(voltage if voltage > 0 else 0)"),
+    Rule("one-way-voltage", SENT, "setVoltage(abs(voltage))"),
+    Rule("stop-after", r"^( +self\.\w+\.)setVoltage\([^\n]*\n", r"\g<0>\1stopMotor()\n"),
+    Rule("may-not-run", r"^( +)(?=self\.\w+\.setVoltage)", r"\1if voltage > 3:\n\1    return\n\1"),
+    Rule("may-not-run", r"^( +)(?=self\.\w+\.setVoltage)", r"\1if voltage > 0: "),
+    Rule("may-not-run", r"^( +)(?=log\.motor)", r"\1if True:\n\1    return\n\1"),
+    Rule("lost-sign", r"(?<=[( ])self\.\w+\.get(?:Voltage|Distance|Rate)\(\)", r"abs(\g<0>)"),
+    Rule("moves-in-periodic", r"\n\Z", PERIODIC.format("self.right.setVoltage(0)")),
     Rule("closed-loop", r"(?<=setVoltage\()voltage", "self.controller.calculate(0, voltage)"),
     Rule("stop-motor", SENT, "stopMotor()"),
     # Constants and arguments.

@@ -13,7 +13,7 @@ from grader.classroom.atomic_files import write_private_file
 from grader.classroom.feedback_text import feedback
 from grader.classroom.grading import Graded
 from grader.classroom.results import Results
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 
 SUMMARY = "github/STUDENT.txt: result=…, a line for $GITHUB_OUTPUT"
 LONGEST = 500  # [characters] of an output, says the reporter
@@ -27,7 +27,7 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
         BadRequest: they cannot be written.
     """
     return tuple(
-        write_private_file(folder / "github" / f"{folder_name(one.student)}.txt", _line(one))
+        write_private_file(folder / "github" / f"{make_folder_name(one.student)}.txt", _line(one))
         for one in results.students
     )
 

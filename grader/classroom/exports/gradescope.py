@@ -11,7 +11,7 @@ from grader.classroom.atomic_files import write_private_file
 from grader.classroom.feedback_text import feedback
 from grader.classroom.grading import Graded
 from grader.classroom.results import Results
-from grader.variant import folder_name
+from grader.variant import make_folder_name
 
 SUMMARY = "gradescope/STUDENT/results.json: as Gradescope reads it"
 
@@ -24,7 +24,7 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
     """
     return tuple(
         write_private_file(
-            folder / "gradescope" / folder_name(one.student) / "results.json",
+            folder / "gradescope" / make_folder_name(one.student) / "results.json",
             json.dumps(_result(one), ensure_ascii=False, indent=1) + "\n",
         )
         for one in results.students

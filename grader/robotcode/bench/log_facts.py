@@ -28,9 +28,9 @@ from grader.robotcode.bench.sandboxed_run import LARGEST
 from grader.robotcode.bench.season import explain_other_season
 from sim.core.errors import Refusal
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.io import read
-from sim.io.formats.wpilog.contents import contents_of
+from sim.io.formats.wpilog.contents import read_contents
 from sim.io.formats.wpilog.records import load_records
 
 STATE = "sysid-test-state-"
@@ -213,7 +213,7 @@ def _with_log(path: Path, trace: BenchTrace, facts: dict[str, Any]) -> RunFacts:
 
 def _names(path: Path) -> list[str] | None:
     """The motors of the log that have all three signals; None if it does not name the tests."""
-    entries = contents_of(load_records(path)).entries
+    entries = read_contents(load_records(path)).entries
     state = next((one.name for one in entries if one.name.startswith(STATE)), None)
     if state is None:
         return None
@@ -235,7 +235,7 @@ def _recorded(name: str, log: Log, trace: BenchTrace) -> LoggedMotor:
     got = applied[:, motor]
     awake = np.abs(got) > AWAKE
     kept, lowered = _low(pairs, motor)
-    encoder, scale = _followed(pairs, size=unit(log.units).si)
+    encoder, scale = _followed(pairs, size=find_unit(log.units).si)
     as_asked = bool(np.ptp(voltage) > 0 and np.allclose(voltage, asked, rtol=0, atol=1e-9))
     return LoggedMotor(
         one_line(name),
@@ -247,7 +247,7 @@ def _recorded(name: str, log: Log, trace: BenchTrace) -> LoggedMotor:
         _forward(pairs),
         scale,
         encoder,
-        unit(log.units).angular,
+        find_unit(log.units).angular,
     )
 
 

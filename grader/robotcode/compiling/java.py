@@ -29,7 +29,7 @@ from grader.robotcode.name_resolution import (
 )
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import UNITS
+from grader.robotcode.vocabulary import UNITS, is_motor
 
 LANG = frozenset(
     {
@@ -52,6 +52,9 @@ BLANK_FINAL = re.compile(
     r"final\s+[\w.<>\[\], ]+?\s+(?P<name>\w+)\s*;",
     re.MULTILINE,
 )
+OWN_BODY = re.compile(  # a class without a name, which may change what any method does
+    r"\bnew\s+(?P<type>[A-Z]\w*)\s*\([^;{}()]*(?:\([^;{}()]*\)[^;{}()]*)*\)\s*\{"
+)
 PACKAGE = re.compile(r"(edu|com|org|java|javax|frc|swervelib|choreo)$")
 
 
@@ -61,6 +64,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     if not module.package:
         return
     yield from _imports(names)
+    yield from _replaced(names)
     yield from type_errors(names)
     yield from _file_name(names)
     yield from _constructors(names)
@@ -144,6 +148,28 @@ def _imports(names: SymbolTable) -> Iterator[ParseProblem]:
             yield ParseProblem(f"there is no class {name}: {meant} is meant?", line)
         elif name in HOME and not HOME[name].startswith(owner):
             yield ParseProblem(f"{name} is not in {owner}: it is in {HOME[name]}", line)
+
+
+def _replaced(names: SymbolTable) -> Iterator[ParseProblem]:
+    """Classes and units of WPILib and of vendors that are replaced by code that is not here."""
+    text = names.main.source.decode("utf-8", errors="replace")
+    team = names.main.package.partition(".")[0]
+    for one in names.main.imports:
+        name = one.path.rpartition(".")[2]
+        known = name in HOME or name in UNITS or is_motor(name)
+        if (
+            known
+            and one.path.startswith(f"{team}.")
+            and names.named(name, Scope(names.main)) is None
+        ):
+            lines = enumerate(text.split("\n"), 1)
+            line = next((at for at, row in lines if _imports_it(row, one)), 1)
+            yield ParseProblem(f"{one.path} is not {name} as WPILib or its maker has it", line)
+    for found in OWN_BODY.finditer(text):
+        if is_motor(found["type"]):
+            line = text.count("\n", 0, found.start()) + 1
+            said = f"this {found['type']} has methods of its own: make a plain one"
+            yield ParseProblem(said, line)
 
 
 def _imports_it(text: str, one: Import) -> bool:

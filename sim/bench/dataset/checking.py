@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from sim.bench.dataset.folder import digest, list_unknown_logs
-from sim.bench.dataset.key import by_file, read_key
+from sim.bench.dataset.folder import file_digest, list_unknown_logs
+from sim.bench.dataset.key import entries_by_file, read_key
 from sim.bench.dataset.plan import LogJob
 from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
@@ -31,7 +31,7 @@ def verify_dataset(
             where=str(key),
             advice="Make the dataset to its end, or name its key with --key.",
         )
-    files = by_file(entries)
+    files = entries_by_file(entries)
     asked = {file: job.fingerprint for job in jobs for file in job.files}
     try:
         return (
@@ -52,6 +52,6 @@ def verify_dataset(
 
 def _changed(folder: Path, hashes: dict[str, str]) -> Iterator[str]:
     for file, made in hashes.items():
-        found = digest(folder / file)
+        found = file_digest(folder / file)
         if found != made:
             yield f"{'changed' if found else 'missing'}: {file}"

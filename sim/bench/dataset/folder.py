@@ -16,7 +16,7 @@ LISTED = 3  # [files] that a refusal names
 
 
 @dataclass(frozen=True)
-class Survey:
+class FolderSurvey:
     """What is there already of a plan.
 
     Args:
@@ -32,7 +32,7 @@ class Survey:
     stale: tuple[Entry, ...]
 
 
-def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry]) -> Survey:
+def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry]) -> FolderSurvey:
     """Look at what is there.
 
     Args:
@@ -52,7 +52,7 @@ def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry
             )
         for job in jobs:
             entry = entries.pop(job.fingerprint, None)
-            hashes = {file: digest(folder / file) for file in job.files}
+            hashes = {file: file_digest(folder / file) for file in job.files}
             there = {file: found for file, found in hashes.items() if found}
             if entry and hashes == entry["files"]:
                 kept.append(entry)
@@ -68,10 +68,10 @@ def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry
         ]
     except OSError as error:
         raise _cannot(error, folder) from None
-    return Survey(tuple(kept), tuple(todo), tuple(foreign), tuple(stale))
+    return FolderSurvey(tuple(kept), tuple(todo), tuple(foreign), tuple(stale))
 
 
-def digest(path: Path) -> str:
+def file_digest(path: Path) -> str:
     """SHA-256 of a file; empty if there is none.
 
     Raises:
@@ -102,7 +102,7 @@ def name_files(files: Sequence[str]) -> str:
     return ", ".join(files[:LISTED]) + more
 
 
-class Shelf:
+class DatasetFolder:
     """Puts files into the folder, each whole or not at all.
 
     Args:
@@ -115,7 +115,7 @@ class Shelf:
         self.mine = None if mine is None else set(mine)
         self._made: list[Path] = []
 
-    def open(self) -> None:
+    def create(self) -> None:
         """Make the folder.
 
         Raises:
@@ -123,7 +123,7 @@ class Shelf:
         """
         self._folder(self.folder)
 
-    def put(self, contents: Mapping[str, bytes]) -> None:
+    def write_files(self, contents: Mapping[str, bytes]) -> None:
         """Write the files of one log.
 
         Raises:
@@ -149,7 +149,7 @@ class Shelf:
                 with suppress(OSError):  # it is there only if something went wrong
                     part.unlink()
 
-    def tidy(self) -> None:
+    def remove_empty_folders(self) -> None:
         """Remove the folders that were made for nothing."""
         for folder in reversed(self._made):
             with suppress(OSError):  # there is a file in it

@@ -25,13 +25,13 @@ SEAL = "seal"
 Entry = Mapping[str, Any]
 
 
-def key_of(folder: Path) -> Path:
+def default_key_path(folder: Path) -> Path:
     """Where the key of a dataset lies if nobody says: beside its folder, not in it."""
     folder = Path(os.path.abspath(folder))  # noqa: PTH100 - as it is called, not where it leads
     return folder.with_name(f"{folder.name or 'dataset'}{ENDING}")
 
 
-def by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
+def entries_by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
     """The entry of each file."""
     return {file: entry for entry in entries for file in entry["files"]}
 
@@ -115,7 +115,7 @@ class Journal:
                 found.append(json.loads(content))
         return tuple(found)
 
-    def begin(self, entries: Iterable[Entry]) -> None:
+    def start(self, entries: Iterable[Entry]) -> None:
         """Start with what is known already; what else was in it goes.
 
         Raises:

@@ -40,7 +40,7 @@ class LogSettings:
 
 
 @dataclass(frozen=True)
-class Hiding:
+class HiddenEffectChoice:
     """An effect to hide, or one of several.
 
     Args:
@@ -55,7 +55,7 @@ class Hiding:
 
 
 @dataclass(frozen=True)
-class Spoiling:
+class FaultChoice:
     """A fault to spoil a log with, or one of several.
 
     Args:
@@ -74,7 +74,7 @@ class Spoiling:
 
 
 @dataclass(frozen=True)
-class Logs:
+class LogTable:
     """Logs of one kind.
 
     Args:
@@ -92,8 +92,8 @@ class Logs:
     count: int
     drawn: bool
     settings: LogSettings
-    effects: tuple[Hiding, ...]
-    faults: tuple[Spoiling, ...]
+    effects: tuple[HiddenEffectChoice, ...]
+    faults: tuple[FaultChoice, ...]
 
 
 def read_settings(table: TomlTable, *, default: LogSettings) -> LogSettings:
@@ -101,39 +101,41 @@ def read_settings(table: TomlTable, *, default: LogSettings) -> LogSettings:
     if "routine" not in table:
         return default
     found = TomlTable(table.content["routine"], where=f"{table.where}, routine", known=ROUTINE)
-    tests = found.choices("tests", TESTS) if "tests" in found else default.tests
+    tests = found.read_choices("tests", TESTS) if "tests" in found else default.tests
     try:
         routine = Routine(
-            ramp=found.number("ramp", default=default.routine.ramp),
-            step=found.number("step", default=default.routine.step),
-            timeout=found.number("timeout", default=default.routine.timeout),
+            ramp=found.read_number("ramp", default=default.routine.ramp),
+            step=found.read_number("step", default=default.routine.step),
+            timeout=found.read_number("timeout", default=default.routine.timeout),
             kinds=tuple(kind for kind in KINDS if any(test.startswith(kind) for test in tests)),
         )
     except Refusal as refusal:
         found.refuse(refusal.what, advice=refusal.advice)
-    period = found.number("period", default=default.period)
+    period = found.read_number("period", default=default.period)
     if not FASTEST <= period <= SLOWEST:
-        found.wrong("period", advice=f"Give {FASTEST:g} to {SLOWEST:g} s; a robot's is 0.02.")
+        found.refuse_value(
+            "period", advice=f"Give {FASTEST:g} to {SLOWEST:g} s; a robot's is 0.02."
+        )
     return LogSettings(
         routine=routine,
         tests=tests,
         period=period,
-        duty_cycle=found.flag("duty_cycle", default=default.duty_cycle),
-        electrical=found.flag("electrical", default=default.electrical),
+        duty_cycle=found.read_flag("duty_cycle", default=default.duty_cycle),
+        electrical=found.read_flag("electrical", default=default.electrical),
     )
 
 
-def read_logs(table: TomlTable, *, default: LogSettings) -> Logs:
+def read_logs(table: TomlTable, *, default: LogSettings) -> LogTable:
     """One ``[[logs]]``, checked."""
     settings = read_settings(table, default=default)
-    mechanisms = table.choices("mechanisms", MECHANISMS)
-    effects = table.tables("effects", name="logs.effects", known=EFFECT)
-    faults = table.tables("faults", name="logs.faults", known=FAULT)
-    found = Logs(
+    mechanisms = table.read_choices("mechanisms", MECHANISMS)
+    effects = table.read_tables("effects", name="logs.effects", known=EFFECT)
+    faults = table.read_tables("faults", name="logs.faults", known=FAULT)
+    found = LogTable(
         where=table.where,
         mechanisms=mechanisms,
-        count=table.whole("count", default=1, least=1, most=MOST_LOGS),
-        drawn=table.flag("drawn", default=True),
+        count=table.read_integer("count", default=1, least=1, most=MOST_LOGS),
+        drawn=table.read_flag("drawn", default=True),
         settings=settings,
         effects=tuple(_hiding(one, mechanisms=mechanisms) for one in effects),
         faults=tuple(_spoiling(one, settings=settings, mechanisms=mechanisms) for one in faults),
@@ -148,38 +150,40 @@ def read_logs(table: TomlTable, *, default: LogSettings) -> Logs:
     return found
 
 
-def _hiding(table: TomlTable, *, mechanisms: tuple[str, ...]) -> Hiding:
+def _hiding(table: TomlTable, *, mechanisms: tuple[str, ...]) -> HiddenEffectChoice:
     """One ``[[logs.effects]]``, tried on every mechanism at both ends of its size."""
-    found = Hiding(
-        names=table.choices("name", EFFECTS),
-        size=table.span("size", default=1.0),
-        chance=table.number("chance", default=1.0, above=0.0, most=1.0),
+    found = HiddenEffectChoice(
+        names=table.read_choices("name", EFFECTS),
+        size=table.read_range("size", default=1.0),
+        chance=table.read_number("chance", default=1.0, above=0.0, most=1.0),
     )
     if found.size.most == 0.0:
-        table.wrong("size", advice="Leave the effect out, or give a number above 0.")
+        table.refuse_value("size", advice="Leave the effect out, or give a number above 0.")
     for mechanism in mechanisms:
         for name in found.names:
             for size in (found.size.least, found.size.most):
                 try:
-                    MECHANISMS[mechanism].hiding(name, size=size)
+                    MECHANISMS[mechanism].hide(name, size=size)
                 except Refusal as refusal:
                     table.refuse(refusal.what, advice=refusal.advice)
     return found
 
 
-def _spoiling(table: TomlTable, *, settings: LogSettings, mechanisms: tuple[str, ...]) -> Spoiling:
+def _spoiling(
+    table: TomlTable, *, settings: LogSettings, mechanisms: tuple[str, ...]
+) -> FaultChoice:
     """One ``[[logs.faults]]``."""
-    found = Spoiling(
-        names=table.choices("name", FAULTS),
-        severity=table.span("severity", default=1.0, least=0.0, most=MOST),
-        tests=table.texts("test", example=settings.tests[0]) if "test" in table else (),
-        at=table.span("at", default=0.0, least=0.0, most=settings.routine.timeout)
+    found = FaultChoice(
+        names=table.read_choices("name", FAULTS),
+        severity=table.read_range("severity", default=1.0, least=0.0, most=MOST),
+        tests=table.read_texts("test", example=settings.tests[0]) if "test" in table else (),
+        at=table.read_range("at", default=0.0, least=0.0, most=settings.routine.timeout)
         if "at" in table
         else None,
-        chance=table.number("chance", default=1.0, above=0.0, most=1.0),
+        chance=table.read_number("chance", default=1.0, above=0.0, most=1.0),
     )
     if found.severity.most == 0.0:
-        table.wrong("severity", advice="Leave the fault out, or give a number above 0.")
+        table.refuse_value("severity", advice="Leave the fault out, or give a number above 0.")
     for name in found.names:
         for what, advice in _mistakes(FAULTS[name], found, tests=settings.tests):
             table.refuse(what, advice=advice)
@@ -193,7 +197,7 @@ def _spoiling(table: TomlTable, *, settings: LogSettings, mechanisms: tuple[str,
 
 
 def _mistakes(
-    fault: Fault, asked: Spoiling, *, tests: tuple[str, ...]
+    fault: Fault, asked: FaultChoice, *, tests: tuple[str, ...]
 ) -> Iterator[tuple[str, str]]:
     """What is impossible about where a fault shall strike, and what to do about it."""
     possible = tuple(test for test in tests if test.rpartition("-")[0] in fault.kinds)

@@ -10,15 +10,15 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from sim.bench.dataset.plan import DAMAGE, MECHANISM, RECORD, LogJob, PlannedStrike
+from sim.bench.dataset.plan import DAMAGE, MECHANISM, RECORD, LogJob, PlannedFault
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.errors import Refusal
 from sim.core.log import Log, Run
-from sim.core.units import gains_per, unit
+from sim.core.units import find_unit, gains_per
 from sim.inspect.contaminate import contaminate
-from sim.inspect.fault import Spoilt, Stretch
+from sim.inspect.fault import DamagedLog, LogInterval
 from sim.io import write
 
 ALONE = threading.Lock()  # a worker of a cluster has many threads, and the engine is loaded once
@@ -34,7 +34,7 @@ DIGITS = {  # after the point, of what is in SI; finer than any encoder or conve
 
 
 @dataclass(frozen=True)
-class Made:
+class MadeLog:
     """A log that is made.
 
     Args:
@@ -49,7 +49,7 @@ class Made:
 
 
 @dataclass(frozen=True)
-class Failed:
+class FailedLog:
     """A log that cannot be made: a refusal as plain data, which every process can hand on."""
 
     job: LogJob
@@ -57,20 +57,20 @@ class Failed:
     advice: str
 
 
-def make_log(job: LogJob) -> Made | Failed:
+def make_log(job: LogJob) -> MadeLog | FailedLog:
     """Make a log. Threads of one process take turns: they would share its one processor anyway."""
     with ALONE:
         return _made(job)
 
 
-def _made(job: LogJob) -> Made | Failed:
+def _made(job: LogJob) -> MadeLog | FailedLog:
     try:
         built = _built(job)
         asked = job.settings
         log = simulate(
             built,
             asked.routine,
-            rng=job.stream(RECORD),
+            rng=job.random_stream(RECORD),
             period=asked.period,
             duty_cycle=asked.duty_cycle,
             electrical=asked.electrical,
@@ -78,12 +78,12 @@ def _made(job: LogJob) -> Made | Failed:
         kept = tuple(run for run in log.runs if run.test in asked.tests)
         log, where = _spoil(_recorded(replace(log, runs=kept)), job)
         log = _recorded(log)
-        return Made(job, _contents(log, job), _truth(built, job, log=log, where=where))
+        return MadeLog(job, _contents(log, job), _truth(built, job, log=log, where=where))
     except Refusal as refusal:
         what = f"{refusal.where}: {refusal.what}" if refusal.where else refusal.what
-        return Failed(job, what, refusal.advice)
+        return FailedLog(job, what, refusal.advice)
     except OSError as error:
-        return Failed(
+        return FailedLog(
             job,
             f"a temporary file cannot be written ({error.strerror or error})",
             "Make room for temporary files, or say where with TMPDIR.",
@@ -94,9 +94,9 @@ def _built(job: LogJob) -> Mechanism:
     """The mechanism, drawn and with its effects hidden."""
     built = MECHANISMS[job.mechanism]
     if job.drawn:
-        built = built.draw(job.stream(MECHANISM))
+        built = built.draw(job.random_stream(MECHANISM))
     for one in job.effects:
-        built = built.hiding(one.effect, size=one.size)
+        built = built.hide(one.effect, size=one.size)
     return built
 
 
@@ -118,7 +118,7 @@ def _rounded(run: Run) -> dict[str, Any]:
     }
 
 
-def _spoil(log: Log, job: LogJob) -> tuple[Log, list[tuple[Stretch, ...]]]:
+def _spoil(log: Log, job: LogJob) -> tuple[Log, list[tuple[LogInterval, ...]]]:
     """The log with all its faults, and where each of them is."""
     where = []
     for number, strike in enumerate(job.strikes):
@@ -128,11 +128,11 @@ def _spoil(log: Log, job: LogJob) -> tuple[Log, list[tuple[Stretch, ...]]]:
     return log, where
 
 
-def _struck(log: Log, strike: PlannedStrike, job: LogJob, number: int) -> Spoilt:
+def _struck(log: Log, strike: PlannedFault, job: LogJob, number: int) -> DamagedLog:
     """The log with one more fault; where chance chose a moment that cannot be, it chooses again."""
     attempt = 0
     while True:
-        rng = job.stream(DAMAGE, number, attempt)
+        rng = job.random_stream(DAMAGE, number, attempt)
         try:
             return contaminate(
                 log,
@@ -160,10 +160,10 @@ def _contents(log: Log, job: LogJob) -> dict[str, bytes]:
 
 
 def _truth(
-    built: Mechanism, job: LogJob, *, log: Log, where: list[tuple[Stretch, ...]]
+    built: Mechanism, job: LogJob, *, log: Log, where: list[tuple[LogInterval, ...]]
 ) -> dict[str, object]:
     """What is true of a log, as it stands in the key."""
-    per = unit(built.units)
+    per = find_unit(built.units)
     sizes = {one.effect: one.size for one in job.effects}  # none for what every such one has
     return {
         "student": job.student,
@@ -176,7 +176,7 @@ def _truth(
             {
                 "effect": part.effect,
                 "size": sizes.get(part.effect),
-                "parameters": part.said(per),
+                "parameters": part.to_json(per),
             }
             for part in built.hidden
         ],
@@ -200,7 +200,7 @@ def _flat(settings: dict[str, Any]) -> dict[str, Any]:
     return {**routine, **settings, "tests": list(settings["tests"])}
 
 
-def _stretch(found: Stretch, log: Log) -> dict[str, object]:
+def _stretch(found: LogInterval, log: Log) -> dict[str, object]:
     """A damaged part, in the log as it ended up: a later fault may remove a run, or rename it."""
     number = None if found.run is None else _run_at((found.start + found.end) / 2.0, log)
     return {

@@ -13,17 +13,17 @@ from typing import Any
 
 import numpy as np
 
-from sim.bench.dataset.logs import Hiding, Logs, LogSettings, Spoiling
+from sim.bench.dataset.logs import FaultChoice, HiddenEffectChoice, LogSettings, LogTable
 from sim.bench.dataset.secret import Secret, log_seed
 from sim.bench.dataset.spec import Spec
-from sim.bench.dataset.student import folder_name
+from sim.bench.dataset.student import make_folder_name
 from sim.bench.dataset.table import NumberRange
 
 EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # streams of chance, apart from one another
 
 
 @dataclass(frozen=True)
-class Hidden:
+class HiddenEffect:
     """An effect that is hidden in a log's mechanism, and how much of it."""
 
     effect: str
@@ -31,7 +31,7 @@ class Hidden:
 
 
 @dataclass(frozen=True)
-class PlannedStrike:
+class PlannedFault:
     """A fault that strikes a log.
 
     Args:
@@ -70,8 +70,8 @@ class LogJob:
     mechanism: str
     drawn: bool
     settings: LogSettings
-    effects: tuple[Hidden, ...]
-    strikes: tuple[PlannedStrike, ...]
+    effects: tuple[HiddenEffect, ...]
+    strikes: tuple[PlannedFault, ...]
     formats: tuple[str, ...]
     seed: int
 
@@ -87,7 +87,7 @@ class LogJob:
         del content["where"]
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
-    def stream(self, *which: int) -> np.random.Generator:
+    def random_stream(self, *which: int) -> np.random.Generator:
         """A source of chance of its own for each purpose: a new fault leaves the rest as it is."""
         return random_stream(self.seed, *which)
 
@@ -111,7 +111,7 @@ def plan_jobs(spec: Spec, secret: Secret) -> tuple[LogJob, ...]:
     )
 
 
-def _seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, Logs, str]]:
+def _seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, LogTable, str]]:
     """Seed, place in the spec and mechanism of each log of a student."""
     for block, logs in enumerate(spec.logs, start=1):
         for mechanism in logs.mechanisms:
@@ -127,9 +127,9 @@ def _seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, Logs
                 yield seed, logs, mechanism
 
 
-def _numbered(found: list[tuple[int, Logs, str]], spec: Spec, student: str) -> Iterator[LogJob]:
+def _numbered(found: list[tuple[int, LogTable, str]], spec: Spec, student: str) -> Iterator[LogJob]:
     """Jobs, shuffled by their seeds and numbered."""
-    folder = f"{folder_name(student)}/" if student else ""
+    folder = f"{make_folder_name(student)}/" if student else ""
     digits = max(2, len(str(len(found))))
     shuffled = sorted(found, key=lambda one: one[0])
     for number, (seed, logs, mechanism) in enumerate(shuffled, start=1):
@@ -147,18 +147,18 @@ def _numbered(found: list[tuple[int, Logs, str]], spec: Spec, student: str) -> I
         )
 
 
-def _effects(asked: tuple[Hiding, ...], seed: int) -> Iterator[Hidden]:
+def _effects(asked: tuple[HiddenEffectChoice, ...], seed: int) -> Iterator[HiddenEffect]:
     for number, one in enumerate(asked):
         rng = random_stream(seed, EFFECT, number)
         if rng.random() < one.chance:
-            yield Hidden(_one_of(one.names, rng), one.size.draw(rng))
+            yield HiddenEffect(_one_of(one.names, rng), one.size.draw(rng))
 
 
-def _strikes(asked: tuple[Spoiling, ...], seed: int) -> Iterator[PlannedStrike]:
+def _strikes(asked: tuple[FaultChoice, ...], seed: int) -> Iterator[PlannedFault]:
     for number, one in enumerate(asked):
         rng = random_stream(seed, FAULT, number)
         if rng.random() < one.chance:
-            yield PlannedStrike(
+            yield PlannedFault(
                 fault=_one_of(one.names, rng),
                 severity=one.severity.draw(rng),
                 test=_one_of(one.tests, rng) if one.tests else None,

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from sim.bench.dataset.roster_file import read_roster
-from sim.bench.dataset.student import same, student_name
+from sim.bench.dataset.student import check_student_name, normalize_name
 from sim.bench.dataset.table import TomlTable
 from sim.core.errors import BadRequest, Refusal
 
@@ -12,7 +12,7 @@ COLUMN = "student"  # [header of a CSV file] unless the spec names another
 EXAMPLE = "roster.csv"
 
 
-def students_of(table: TomlTable, *, folder: Path) -> tuple[str, ...]:
+def read_students(table: TomlTable, *, folder: Path) -> tuple[str, ...]:
     """The students, in their own order; empty if the spec has none.
 
     Args:
@@ -26,14 +26,14 @@ def students_of(table: TomlTable, *, folder: Path) -> tuple[str, ...]:
     if given is None:
         return ()
     if isinstance(given, list):
-        texts = table.texts("students", example="ann")
+        texts = table.read_texts("students", example="ann")
         return distinct_names((f"{table.where}, students", text) for text in texts)
     if isinstance(given, dict):
         found = TomlTable(given, where=f"{table.where}, students", known=("file", "column"))
-        file = found.text("file", example=EXAMPLE)
-        column = found.text("column", example=COLUMN) if "column" in found else COLUMN
+        file = found.read_text("file", example=EXAMPLE)
+        column = found.read_text("column", example=COLUMN) if "column" in found else COLUMN
     else:
-        file, column = table.text("students", example=EXAMPLE), COLUMN
+        file, column = table.read_text("students", example=EXAMPLE), COLUMN
     return distinct_names(_cells(folder / file, column=column))
 
 
@@ -41,7 +41,7 @@ def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
     """Place and text of every cell of a column."""
     advice = "Give the path of a CSV file in UTF-8, seen from the spec's folder."
     roster = read_roster(path, advice=advice)
-    place = roster.place([column])
+    place = roster.find_column([column])
     if place is None:
         raise BadRequest(
             f"no column {column!r} in its first line",
@@ -64,14 +64,14 @@ def distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
     names: dict[str, str] = {}
     for where, text in found:
         try:
-            name = student_name(text)
+            name = check_student_name(text)
         except Refusal as refusal:
             raise BadRequest(refusal.what, where=where, advice=refusal.advice) from None
-        if same(name) in names:
+        if normalize_name(name) in names:
             raise BadRequest(
-                f"{name!r} and {names[same(name)]!r} are one student",
+                f"{name!r} and {names[normalize_name(name)]!r} are one student",
                 where=where,
                 advice="List each student once, or tell them apart by more than capitals.",
             )
-        names[same(name)] = name
+        names[normalize_name(name)] = name
     return tuple(names.values())

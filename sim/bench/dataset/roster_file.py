@@ -25,7 +25,7 @@ class Roster:
     header: tuple[str, ...]
     rows: tuple[tuple[int, tuple[str, ...]], ...]
 
-    def place(self, columns: Sequence[str]) -> int | None:
+    def find_column(self, columns: Sequence[str]) -> int | None:
         """Where the first of some columns is that there is, in capitals or not."""
         plain = [name.strip().casefold() for name in self.header]
         found = (name.casefold() for name in columns if name.casefold() in plain)

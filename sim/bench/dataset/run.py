@@ -6,14 +6,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim.bench.dataset.folder import Shelf, Survey, name_files, survey_folder
+from sim.bench.dataset.folder import DatasetFolder, FolderSurvey, name_files, survey_folder
 from sim.bench.dataset.key import Entry, Journal, read_key, write_key
-from sim.bench.dataset.making import Failed, Made, make_log
+from sim.bench.dataset.making import FailedLog, MadeLog, make_log
 from sim.bench.dataset.plan import LogJob
 from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
 
-Maker = Callable[[Sequence[LogJob]], Iterator[Made | Failed]]
+Maker = Callable[[Sequence[LogJob]], Iterator[MadeLog | FailedLog]]
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class DatasetPlace:
     folder: Path
     key: Path
 
-    def keep_apart(self, *, spec: Path, secret: Path | None) -> None:
+    def check_separation(self, *, spec: Path, secret: Path | None) -> None:
         """Refuse a folder that would give the truth away with the data.
 
         Args:
@@ -51,7 +51,7 @@ class DatasetPlace:
 
 def check_folder(
     place: DatasetPlace, jobs: Sequence[LogJob], *, secret: Secret, overwrite: bool
-) -> Survey:
+) -> FolderSurvey:
     """What is there already, or a refusal if something else is.
 
     Args:
@@ -108,7 +108,7 @@ def rehearse_jobs(jobs: Sequence[LogJob]) -> None:
 
 def finish_dataset(
     place: DatasetPlace,
-    found: Survey,
+    found: FolderSurvey,
     *,
     maker: Maker,
     dataset: str,
@@ -132,17 +132,19 @@ def finish_dataset(
     """
     entries = list(found.kept)
     journal = Journal(place.key, secret=secret)
-    shelf = Shelf(place.folder, mine=None if overwrite else _files(found.todo, place.folder))
+    shelf = DatasetFolder(
+        place.folder, mine=None if overwrite else _files(found.todo, place.folder)
+    )
     try:
-        shelf.open()
+        shelf.create()
         with _needing(place.key):
-            journal.begin(entries)
+            journal.start(entries)
         for result in maker(found.todo):
             made = _sound(result)
             entry = _entry(made)
             with _needing(place.key):
                 journal.add(entry)
-            shelf.put(made.contents)
+            shelf.write_files(made.contents)
             entries.append(entry)
             say()
         if len(entries) != len(found.kept) + len(found.todo):
@@ -151,20 +153,20 @@ def finish_dataset(
             write_key(place.key, entries, dataset=dataset, secret=secret)
     finally:
         journal.close()
-        shelf.tidy()
+        shelf.remove_empty_folders()
     journal.remove()
 
 
-def _sound(result: Made | Failed) -> Made:
+def _sound(result: MadeLog | FailedLog) -> MadeLog:
     """What was made, or a refusal with the place in the spec."""
-    if isinstance(result, Failed):
+    if isinstance(result, FailedLog):
         raise BadRequest(
             result.what, where=f"{result.job.where} ({result.job.name})", advice=result.advice
         )
     return result
 
 
-def _entry(made: Made) -> Entry:
+def _entry(made: MadeLog) -> Entry:
     """What the key says of a log."""
     hashes = {file: hashlib.sha256(content).hexdigest() for file, content in made.contents.items()}
     return {"files": hashes, **made.truth, "plan": made.job.fingerprint}

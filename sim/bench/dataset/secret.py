@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sim.bench.dataset.spec import ENDING, Spec
-from sim.bench.dataset.student import same
+from sim.bench.dataset.student import normalize_name
 from sim.core.errors import BadRequest
 
 VARIABLE = "SYSID_SECRET"  # of the environment; holds the secret itself
@@ -41,7 +41,7 @@ class Secret:
         """Without the value: a message may hold this."""
         return f"Secret(hidden={self.hidden}, new={self.new})"
 
-    def seed(self, *which: str | int) -> int:
+    def derive_seed(self, *which: str | int) -> int:
         """The number that one thing is drawn from."""
         return int.from_bytes(self._code("seed", json.dumps(which).encode()), "big")
 
@@ -53,7 +53,7 @@ class Secret:
         own = hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
         return hmac.digest(own, content, hashlib.sha256)
 
-    def keep(self) -> None:
+    def save(self) -> None:
         """Write a new secret to its file, for its owner only.
 
         Raises:
@@ -86,7 +86,9 @@ def log_seed(
         mechanism: its name.
         number: which log of that mechanism, from 1.
     """
-    return secret.seed(dataset, same(student) if student else "", block, mechanism, number)
+    return secret.derive_seed(
+        dataset, normalize_name(student) if student else "", block, mechanism, number
+    )
 
 
 def find_secret(spec: Spec, *, make: bool) -> Secret:
@@ -102,7 +104,7 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
     if spec.seed is not None:
         return Secret(f"sysid dataset of seed {spec.seed}".encode(), hidden=False)
     set_ = os.environ.get(VARIABLE, "").strip().encode()
-    kept = kept_in(spec.secret) if spec.secret else b""
+    kept = read_secret(spec.secret) if spec.secret else b""
     if set_ and kept and set_ != kept:
         raise BadRequest(
             f"the file of the secret and {VARIABLE} differ",
@@ -134,7 +136,7 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
     return Secret(secrets.token_hex(SIZE).encode(), hidden=True, new=spec.secret)
 
 
-def kept_in(path: Path) -> bytes:
+def read_secret(path: Path) -> bytes:
     """The secret in a file; empty if there is no such file.
 
     Raises:

@@ -7,8 +7,8 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim.bench.dataset.logs import LOGS, MOST_LOGS, Logs, LogSettings, read_logs, read_settings
-from sim.bench.dataset.roster import students_of
+from sim.bench.dataset.logs import LOGS, MOST_LOGS, LogSettings, LogTable, read_logs, read_settings
+from sim.bench.dataset.roster import read_students
 from sim.bench.dataset.table import TomlTable
 from sim.core.errors import BadRequest
 
@@ -38,7 +38,7 @@ class Spec:
     secret: Path | None
     students: tuple[str, ...]
     formats: tuple[str, ...]
-    logs: tuple[Logs, ...]
+    logs: tuple[LogTable, ...]
 
 
 def read_spec(path: Path) -> Spec:
@@ -48,22 +48,22 @@ def read_spec(path: Path) -> Spec:
         BadRequest: it cannot be read, or asks for what is not there; the message names the key.
     """
     top = TomlTable(_parsed(path), where=str(path), known=TOP)
-    name = top.text("name", example="week3")
+    name = top.read_text("name", example="week3")
     if len(name) > 64 or not name.isprintable():  # noqa: PLR2004 - as long as a student's name
-        top.wrong("name", advice="Give a name of 1 to 64 characters.")
+        top.refuse_value("name", advice="Give a name of 1 to 64 characters.")
     settings = read_settings(top, default=LogSettings())
     logs = tuple(
-        read_logs(one, default=settings) for one in top.tables("logs", name="logs", known=LOGS)
+        read_logs(one, default=settings) for one in top.read_tables("logs", name="logs", known=LOGS)
     )
     if not logs:
         top.refuse("there is no [[logs]] in it", advice="Add one, with mechanisms and count.")
     spec = Spec(
         where=str(path),
         name=name,
-        seed=top.whole("seed", least=0, most=LARGEST_SEED) if "seed" in top else None,
+        seed=top.read_integer("seed", least=0, most=LARGEST_SEED) if "seed" in top else None,
         secret=_secret(top, folder=path.parent),
-        students=students_of(top, folder=path.parent),
-        formats=top.choices("formats", FORMATS) if "formats" in top else FORMATS[:1],
+        students=read_students(top, folder=path.parent),
+        formats=top.read_choices("formats", FORMATS) if "formats" in top else FORMATS[:1],
         logs=logs,
     )
     total = max(len(spec.students), 1) * sum(one.count * len(one.mechanisms) for one in logs)
@@ -102,7 +102,7 @@ def _secret(top: TomlTable, *, folder: Path) -> Path | None:
         return None
     if "seed" in top:
         top.refuse("both seed and secret are there", advice="Leave one of them out.")
-    name = top.text("secret", example=f"class{ENDING}")
+    name = top.read_text("secret", example=f"class{ENDING}")
     if not name.endswith(ENDING) or len(name) == len(ENDING):
         top.refuse(
             f"secret is not the name of a file that ends in {ENDING}",

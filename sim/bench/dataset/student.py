@@ -12,7 +12,7 @@ RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?")  # Windows has no
 PLAIN = re.compile(r"[\w@+-][\w@+. -]*(?<![. ])")
 
 
-def student_name(text: str) -> str:
+def check_student_name(text: str) -> str:
     """A student's name as it is shown, or a refusal.
 
     Raises:
@@ -31,14 +31,14 @@ def student_name(text: str) -> str:
     return name
 
 
-def same(student: str) -> str:
+def normalize_name(student: str) -> str:
     """The one form of a name: Ann and ann are one person, as they are one folder on most disks."""
-    return student_name(student).casefold()
+    return check_student_name(student).casefold()
 
 
-def folder_name(student: str) -> str:
+def make_folder_name(student: str) -> str:
     """A folder's name that every system accepts, different for different students."""
-    name = same(student)
+    name = normalize_name(student)
     if name.isascii() and PLAIN.fullmatch(name) and not RESERVED.fullmatch(name):
         return name
     digest = hashlib.sha256(name.encode()).hexdigest()

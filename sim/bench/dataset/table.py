@@ -63,11 +63,11 @@ class TomlTable:
         """Refuse this table."""
         raise BadRequest(what, where=self.where, advice=advice)
 
-    def wrong(self, key: str, *, advice: str) -> NoReturn:
+    def refuse_value(self, key: str, *, advice: str) -> NoReturn:
         """Refuse the value of a key."""
         self.refuse(f"{key} is {_shown(self.content[key])}", advice=advice)
 
-    def text(self, key: str, *, example: str) -> str:
+    def read_text(self, key: str, *, example: str) -> str:
         """A text that is not empty.
 
         Args:
@@ -78,22 +78,22 @@ class TomlTable:
             self.refuse(f"{key} is missing", advice=f"Add, for example: {key} = {_shown(example)}")
         value = self.content[key]
         if not (isinstance(value, str) and value.strip()):
-            self.wrong(key, advice=f"Give a text: {key} = {_shown(example)}")
+            self.refuse_value(key, advice=f"Give a text: {key} = {_shown(example)}")
         return value.strip()
 
-    def texts(self, key: str, *, example: str) -> tuple[str, ...]:
+    def read_texts(self, key: str, *, example: str) -> tuple[str, ...]:
         """One text, or several in a list."""
         value = self.content.get(key)
         if not isinstance(value, list):
-            return (self.text(key, example=example),)
+            return (self.read_text(key, example=example),)
         if not value or not all(isinstance(one, str) and one.strip() for one in value):
-            self.wrong(key, advice=f"Give texts: {key} = [{_shown(example)}]")
+            self.refuse_value(key, advice=f"Give texts: {key} = [{_shown(example)}]")
         return tuple(one.strip() for one in value)
 
-    def choices(self, key: str, options: Iterable[str]) -> tuple[str, ...]:
+    def read_choices(self, key: str, options: Iterable[str]) -> tuple[str, ...]:
         """One or several of some names."""
         options = tuple(options)
-        chosen = self.texts(key, example=options[0] if options else "")
+        chosen = self.read_texts(key, example=options[0] if options else "")
         for one in chosen:
             if one not in options:
                 self.refuse(f"{key} {_shown(one)} is unknown", advice=suggest_word(one, options))
@@ -102,33 +102,33 @@ class TomlTable:
                 self.refuse(f"{key} names {_shown(one)} twice", advice="Name each once.")
         return chosen
 
-    def flag(self, key: str, *, default: bool) -> bool:
+    def read_flag(self, key: str, *, default: bool) -> bool:
         """True or false."""
         value = self.content.get(key, default)
         if not isinstance(value, bool):
-            self.wrong(key, advice="Give true or false, without quotes.")
+            self.refuse_value(key, advice="Give true or false, without quotes.")
         return value
 
-    def whole(self, key: str, *, least: int, most: int, default: int | None = None) -> int:
+    def read_integer(self, key: str, *, least: int, most: int, default: int | None = None) -> int:
         """A whole number within limits."""
         advice = f"Give a whole number from {least} to {most}."
         if key not in self and default is None:
             self.refuse(f"{key} is missing", advice=advice)
         value = self.content.get(key, default)
         if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
-            self.wrong(key, advice=advice)
+            self.refuse_value(key, advice=advice)
         return value
 
-    def number(
+    def read_number(
         self, key: str, *, default: float, above: float = -math.inf, most: float = math.inf
     ) -> float:
         """A number above one limit and up to another."""
         value = _number(self.content.get(key, default))
         if value is None or not above < value <= most:
-            self.wrong(key, advice=f"Give a number{_limits(above, most)}.")
+            self.refuse_value(key, advice=f"Give a number{_limits(above, most)}.")
         return value
 
-    def span(
+    def read_range(
         self, key: str, *, default: float, least: float = -math.inf, most: float = math.inf
     ) -> NumberRange:
         """A number, or a list of the least and the most it may be."""
@@ -141,10 +141,10 @@ class TomlTable:
         )
         numbers = [end for end in ends if end is not None and least <= end <= most]
         if len(ends) != 2 or numbers != sorted(numbers) or len(numbers) != len(ends):  # noqa: PLR2004 - the least and the most
-            self.wrong(key, advice=advice)
+            self.refuse_value(key, advice=advice)
         return NumberRange(*numbers)
 
-    def tables(self, key: str, *, name: str, known: Sequence[str]) -> tuple["TomlTable", ...]:
+    def read_tables(self, key: str, *, name: str, known: Sequence[str]) -> tuple["TomlTable", ...]:
         """The tables of a list of tables.
 
         Args:
@@ -154,7 +154,7 @@ class TomlTable:
         """
         value = self.content.get(key, [])
         if not isinstance(value, list):
-            self.wrong(key, advice=f"Begin each with a line [[{name}]].")
+            self.refuse_value(key, advice=f"Begin each with a line [[{name}]].")
         return tuple(
             TomlTable(one, where=f"{self.where}, [[{name}]] number {number}", known=known)
             for number, one in enumerate(value, start=1)

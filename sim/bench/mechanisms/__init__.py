@@ -5,15 +5,15 @@ from typing import cast
 
 from sim.bench.mechanism import Mechanism
 from sim.core.errors import BadRequest
-from sim.support.catalogue import members
+from sim.support.catalogue import list_members
 
 MECHANISMS: dict[str, Mechanism] = {
     name: cast("Mechanism", module.MECHANISM)
-    for name, module in members(sys.modules[__name__]).items()
+    for name, module in list_members(sys.modules[__name__]).items()
 }
 
 
-def mechanism(name: str) -> Mechanism:
+def find_mechanism(name: str) -> Mechanism:
     """Look up a mechanism.
 
     Raises:

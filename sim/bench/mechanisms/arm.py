@@ -5,14 +5,14 @@ of mass m at L has gravity over inertia g/L = 19.6 per second squared, and so ha
 """
 
 from sim.bench.mechanism import Mechanism, Sensor
-from sim.physics.motors import motor
+from sim.physics.motors import find_motor
 
 MECHANISM = Mechanism(
     name="arm",
     summary="one NEO at 60:1 with 4 kg half a meter out, read in radians from level",
     type="arm",
     units="radians",
-    motor=motor("neo"),
+    motor=find_motor("neo"),
     motor_count=1,
     ratio=60.0,
     radius=1.0,

@@ -4,14 +4,14 @@ Frictionless theory: kV 2.524 V·s/m, kA 0.191 V·s²/m, a timescale of 76 ms.
 """
 
 from sim.bench.mechanism import Mechanism, Sensor
-from sim.physics.motors import motor
+from sim.physics.motors import find_motor
 
 MECHANISM = Mechanism(
     name="drivetrain",
     summary="four Kraken X60 on 4 inch wheels, 60 kg, read in meters",
     type="simple",
     units="meters",
-    motor=motor("krakenX60"),
+    motor=find_motor("krakenX60"),
     motor_count=4,
     ratio=6.75,
     radius=0.0508,

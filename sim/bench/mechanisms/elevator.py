@@ -5,14 +5,14 @@ where nothing but the carriage is accelerated, and less where rotors are, too.
 """
 
 from sim.bench.mechanism import Mechanism, Sensor
-from sim.physics.motors import motor
+from sim.physics.motors import find_motor
 
 MECHANISM = Mechanism(
     name="elevator",
     summary="two NEO at 5:1 on a drum of 22 mm, 20 kg, read in meters",
     type="elevator",
     units="meters",
-    motor=motor("neo"),
+    motor=find_motor("neo"),
     motor_count=2,
     ratio=5.0,
     radius=0.0222,

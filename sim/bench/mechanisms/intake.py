@@ -7,7 +7,7 @@ longer than one loop of the robot program, so kA is the hard one here.
 import math
 
 from sim.bench.mechanism import Mechanism, Sensor
-from sim.physics.motors import motor
+from sim.physics.motors import find_motor
 
 TURN = 2.0 * math.pi  # [rad]
 
@@ -16,7 +16,7 @@ MECHANISM = Mechanism(
     summary="one NEO Vortex at 3:1 on rollers of 0.0013 kg·m², read in rotations",
     type="simple",
     units="rotations",
-    motor=motor("neoVortex"),
+    motor=find_motor("neoVortex"),
     motor_count=1,
     ratio=3.0,
     radius=1.0,

@@ -6,7 +6,7 @@ Frictionless theory: kV 0.1193 V·s/rot, kA 0.0319 V·s²/rot, a timescale of 26
 import math
 
 from sim.bench.mechanism import Mechanism, Sensor
-from sim.physics.motors import motor
+from sim.physics.motors import find_motor
 
 TURN = 2.0 * math.pi  # [rad]
 
@@ -15,7 +15,7 @@ MECHANISM = Mechanism(
     summary="two Kraken X60 on a flywheel of 0.006 kg·m², read in rotations",
     type="simple",
     units="rotations",
-    motor=motor("krakenX60"),
+    motor=find_motor("krakenX60"),
     motor_count=2,
     ratio=1.0,
     radius=1.0,

@@ -4,14 +4,14 @@ Frictionless theory: kV 0.659 V·s/rad, kA 0.052 V·s²/rad, a timescale of 78 m
 """
 
 from sim.bench.mechanism import Mechanism, Sensor
-from sim.physics.motors import motor
+from sim.physics.motors import find_motor
 
 MECHANISM = Mechanism(
     name="turret",
     summary="one Kraken X44 at 45:1 on 0.8 kg·m², a turn between its stops, read in degrees",
     type="simple",
     units="degrees",
-    motor=motor("krakenX44"),
+    motor=find_motor("krakenX44"),
     motor_count=1,
     ratio=45.0,
     radius=1.0,

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.against import against_physics, parts_of, taken_apart
-from sim.cli.fit.sides import sides_of
-from sim.cli.options import FILE, as_json, read_together, reading_options
+from sim.cli.fit.against import check_against_physics, check_sides_and_directions, read_parts
+from sim.cli.fit.sides import split_sides
+from sim.cli.options import FILE, as_json, read_logs_together, reading_options
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -120,31 +120,33 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
-    parts = parts_of(driven_by, count=count, ratio=ratio, radius=radius, load=load)
+    parts = read_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
 
     def read_one(side: str | None) -> "Log":
-        return read_together(files, units=units, type=type_, motor=side, entries=entries)
+        return read_logs_together(files, units=units, type=type_, motor=side, entries=entries)
 
     def find(log: "Log") -> "Fit":
         return find_gains(log, type=type_ or "", method=method, median=median)
 
     log = read_one(motor)
-    found = against_physics(find(log), log, parts=parts)
+    found = check_against_physics(find(log), log, parts=parts)
     notes: tuple[str, ...] = ()
     if not (as_json or paste):
-        pair = None if motor else sides_of(log, read_one)
-        found, notes = taken_apart(found, log, pair, find=find, patient=html is not None)
+        pair = None if motor else split_sides(log, read_one)
+        found, notes = check_sides_and_directions(
+            found, log, pair, find=find, patient=html is not None
+        )
     found = found.in_log_units()
     tried = try_feedback_gains(found, PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
-    told = _Told(files, found, log, preset, tried, notes)
+    told = _FitOutput(files, found, log, preset, tried, notes)
     _write(told, html=html, plot=plot)
     told.echo(as_json=as_json, paste=paste, season=int(season))
     return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
 
 
 @dataclass(frozen=True, eq=False)
-class _Told:
+class _FitOutput:
     """What the command found."""
 
     files: tuple[Path, ...]
@@ -157,9 +159,9 @@ class _Told:
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> None:
         """Print what was asked for: robot code, JSON, or text for people."""
         if paste:
-            from sim.report.robot_code_snippet import robot_code_snippet  # noqa: PLC0415 - only with --paste
+            from sim.report.robot_code_snippet import write_robot_code  # noqa: PLC0415 - only with --paste
 
-            click.echo(robot_code_snippet(self.found, language=paste, season=season), nl=False)
+            click.echo(write_robot_code(self.found, language=paste, season=season), nl=False)
         elif as_json:
             click.echo(json.dumps(self.to_json(), allow_nan=False))
         else:
@@ -172,7 +174,7 @@ class _Told:
         own = [
             {"loop": one.loop, "kP": one.gains.kp, "kD": one.gains.kd, **one.verdict.to_json()}
             for one in self.tried
-            if one.whose == OWN
+            if one.owner == OWN
         ]
         said = self.found.to_json(PRESETS[self.preset])
         return said | ({"own_feedback": own[0]} if own else {})
@@ -186,7 +188,7 @@ class _Told:
         show_fit(self.found, preset=preset, title=title, tried=self.tried, notes=self.notes)
 
 
-def _write(told: _Told, *, html: Path | None, plot: Path | None) -> None:
+def _write(told: _FitOutput, *, html: Path | None, plot: Path | None) -> None:
     """The files that were asked for."""
     if html is None and plot is None:
         return

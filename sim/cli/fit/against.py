@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.fit.sides import compare
+from sim.cli.fit.sides import compare_side_fits
 from sim.core.vocabulary import METHODS
 
 if TYPE_CHECKING:
@@ -19,22 +19,22 @@ if TYPE_CHECKING:
 MANY = 20_000  # samples: of a longer log the directions take seconds; only a page waits for them
 
 
-def parts_of(
+def read_parts(
     name: str | None, *, count: int, ratio: float | None, radius: float, load: float | None
 ) -> "Parts | None":
     """What drives it, if that was said."""
     if name is None:
         return None
     from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
-    from sim.physics.motors import motor  # noqa: PLC0415
+    from sim.physics.motors import find_motor  # noqa: PLC0415
 
-    found = motor(name)
+    found = find_motor(name)
     if ratio is None:
         raise click.UsageError("Missing option '--ratio': motor turns per turn of the output.")
     return Parts(found, count, ratio, radius=radius, load=load)
 
 
-def against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit":
+def check_against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit":
     """The fit with what physics has against it in front of its doubts."""
     import numpy as np  # noqa: PLC0415 - --help must not wait for it
 
@@ -44,7 +44,7 @@ def against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit"
     return _doubted(found, *physical_doubts(found, parts=parts, period=period), first=True)
 
 
-def taken_apart(
+def check_sides_and_directions(
     found: "Fit",
     log: "Log",
     pair: "tuple[Log, Log] | None",
@@ -63,7 +63,7 @@ def taken_apart(
             said = ("Forward and reverse were not compared: this log is long. --html does it.",)
     if pair is None:
         return found, said
-    doubts, notes = compare(pair, find)
+    doubts, notes = compare_side_fits(pair, find)
     return _doubted(found, *doubts), (*said, *notes)
 
 

@@ -16,7 +16,7 @@ ALONE = "one-motor"  # the doubt of a log that has one motor only, whoever asks
 OLD_TOOLS = ".json"  # whose drivetrains have two sides without saying so in a doubt
 
 
-def sides_of(log: "Log", read: Callable[[str], "Log"]) -> tuple["Log", "Log"] | None:
+def split_sides(log: "Log", read: Callable[[str], "Log"]) -> tuple["Log", "Log"] | None:
     """The log of either side, or None if there are no two of them.
 
     Args:
@@ -35,7 +35,7 @@ def sides_of(log: "Log", read: Callable[[str], "Log"]) -> tuple["Log", "Log"] | 
     return left, right
 
 
-def compare(
+def compare_side_fits(
     pair: tuple["Log", "Log"], find: Callable[["Log"], "Fit"]
 ) -> tuple[tuple["Doubt", ...], tuple[str, ...]]:
     """Fit either side alone; where they differ as doubts, or a sentence that they do not.

@@ -45,10 +45,10 @@ def physical_doubts(
         *timescale_doubts(si, period),
     )
     strays = any(doubt.code == "model-strays" for doubt in found.doubts)
-    return tuple(map(_settle_first, doubts)) if strays else doubts
+    return tuple(map(_advise_model_first, doubts)) if strays else doubts
 
 
-def _settle_first(doubt: Doubt) -> Doubt:
+def _advise_model_first(doubt: Doubt) -> Doubt:
     """The same doubt about a model that does not hold: the cause may be no part at all."""
     said = f"{doubt.message.removesuffix('.')}; but the simulation strays from this log, and what"
     return replace(doubt, message=f"{said} is missing there may be the cause: settle that first.")

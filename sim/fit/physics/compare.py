@@ -6,7 +6,7 @@ from dataclasses import replace
 from sim.core.doubt import Doubt
 from sim.core.errors import NotIdentifiable
 from sim.core.log import DIRECTIONS, Log
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit.output_error import fit_output_error
 from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.result import Fit, gain_unit
@@ -29,7 +29,7 @@ def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
         BadRequest: one measures a length, the other an angle.
     """
     one = fit_in_si(left)
-    return _differences(one, right.in_units(one.units), ("left", "right"), "side")
+    return _differing_gains(one, right.in_units(one.units), ("left", "right"), "side")
 
 
 def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 - SysId's word
@@ -53,12 +53,12 @@ def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 
             fits.append(fit_output_error(replace(log, runs=runs), type=type))
         except NotIdentifiable:
             return ()
-    return _differences(fits[0], fits[1], DIRECTIONS, "direction")
+    return _differing_gains(fits[0], fits[1], DIRECTIONS, "direction")
 
 
-def _differences(one: Fit, other: Fit, names: tuple[str, ...], what: str) -> tuple[Doubt, ...]:
+def _differing_gains(one: Fit, other: Fit, names: tuple[str, ...], what: str) -> tuple[Doubt, ...]:
     """Gains of two fits that differ by more than chance and more than a robot notices."""
-    per = unit(one.log_units)
+    per = find_unit(one.log_units)
     mirror = -1.0 if one.gains["kV"] * other.gains["kV"] < 0.0 else 1.0
     doubts = []
     for gain, why in SUSPECTS.items():

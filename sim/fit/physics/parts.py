@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit.result import Fit
 from sim.physics.motors import Motor, theoretical_kv
 
@@ -58,12 +58,12 @@ class Parts:
 
 def fit_in_si(found: Fit) -> Fit:
     """The same fit per meter or per radian."""
-    return found.in_units("radians" if unit(found.units).angular else "meters")
+    return found.in_units("radians" if find_unit(found.units).angular else "meters")
 
 
 def check_radius_unit(parts: Parts, found: Fit) -> None:
     """Refuse parts whose radius does not go with the unit of position."""
-    angular = unit(found.units).angular
+    angular = find_unit(found.units).angular
     if angular and parts.radius != 1.0:
         raise BadRequest(
             f"a radius of {parts.radius:g} m for a position that is an angle",

@@ -3,7 +3,7 @@
 import math
 
 from sim.core.doubt import Doubt
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit.physics.parts import BELOW, HEAVY, SURELY
 from sim.fit.result import Fit
 from sim.physics.motors import NOMINAL
@@ -22,7 +22,7 @@ def friction_doubts(found: Fit) -> list[Doubt]:
     surely = ks - SURELY * found.errors["kS"]
     share = f"kS = {ks:.2f} V, {ks / NOMINAL:.0%} of 12 V,"
     if surely > CRUISE * NOMINAL:
-        at = f" ({_shown(found, CRUISE * NOMINAL / kv)})" if kv > 0.0 else ""
+        at = f" ({_format_speed(found, CRUISE * NOMINAL / kv)})" if kv > 0.0 else ""
         return [
             Doubt(
                 "friction-stop",
@@ -44,16 +44,16 @@ def friction_doubts(found: Fit) -> list[Doubt]:
     ]
 
 
-def _shown(found: Fit, speed: float) -> str:
+def _format_speed(found: Fit, speed: float) -> str:
     """A speed in the unit of the log's owner."""
-    per = unit(found.log_units)
+    per = find_unit(found.log_units)
     return f"{speed / per.si:.3g} {per.symbol}/s"
 
 
 def gravity_doubts(found: Fit) -> list[Doubt]:
     """An elevator's weight against its inertia: both are the same mass."""
     kg, ka = found.gains.get("kG", 0.0), found.gains["kA"]
-    if found.type != "elevator" or unit(found.units).angular or kg <= 0.0 or ka <= 0.0:
+    if found.type != "elevator" or find_unit(found.units).angular or kg <= 0.0 or ka <= 0.0:
         return []
     lift = kg / ka
     unsure = SURELY * lift * math.hypot(found.errors["kG"] / kg, found.errors["kA"] / ka)

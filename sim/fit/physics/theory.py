@@ -7,7 +7,7 @@ opposite ways: that tells the two apart.
 import math
 
 from sim.core.doubt import Doubt
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.fit.physics.parts import BELOW, HEAVY, SURELY, Parts, check_radius_unit
 from sim.fit.result import Fit, gain_unit
 from sim.physics.motors import MOTORS
@@ -55,11 +55,11 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
     if kv <= 0.0:
         return []
     share, unsure = kv / parts.kv, SURELY * error / parts.kv
-    said = _against(found, "kV", parts.kv)
+    said = _describe_difference(found, "kV", parts.kv)
     said = f"{said} that 12 V over the free speed of {parts.count} × {parts.motor.name} promises"
-    named = [*_named(share, parts)]
+    named = [*_explain_ratio(share, parts)]
     if share + unsure < BELOW:
-        why = " or ".join(named) or f"a wrong unit, {_instead(kv, parts)}"
+        why = " or ".join(named) or f"a wrong unit, {_parts_instead(kv, parts)}"
         return [
             Doubt(
                 "kv-below-theory",
@@ -76,7 +76,7 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
                 "kv-above-theory",
                 f"{said}, more than drag explains: look first at the units, then whether the "
                 "voltage logged is the one applied, then at "
-                f"{_instead(kv, parts)}, and last for what rubs.",
+                f"{_parts_instead(kv, parts)}, and last for what rubs.",
             )
         ]
     if share - unsure > DRAG:
@@ -90,9 +90,9 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
     return []
 
 
-def _against(found: Fit, gain: str, theory: float) -> str:
+def _describe_difference(found: Fit, gain: str, theory: float) -> str:
     """A gain beside its theory, in the unit of the log's owner."""
-    per = unit(found.log_units)
+    per = find_unit(found.log_units)
     value, share = found.gains[gain], found.gains[gain] / theory
     far = f"{abs(share - 1.0):.0%} {'above' if share > 1.0 else 'below'}"
     if not 1.0 / TIGHT / TIGHT < share < TIGHT * TIGHT:
@@ -101,7 +101,7 @@ def _against(found: Fit, gain: str, theory: float) -> str:
     return f"{gain} = {value * per.si:.3g} {symbol} is {far} the {theory * per.si:.3g} {symbol}"
 
 
-def _named(share: float, parts: Parts) -> list[str]:
+def _explain_ratio(share: float, parts: Parts) -> list[str]:
     """The mistakes that would make such a quotient, the likeliest first."""
     geared = (
         (1.0 / parts.ratio, f"a ratio of {parts.ratio:g} forgotten in the log (the motor's turns)"),
@@ -117,7 +117,7 @@ def _named(share: float, parts: Parts) -> list[str]:
     return [f"{why} (a factor of {factor:.3g})" for _, factor, why in sorted(near)[:2]]
 
 
-def _instead(kv: float, parts: Parts) -> str:
+def _parts_instead(kv: float, parts: Parts) -> str:
     """The ratio, the radius and the motors whose own kV would be the one found."""
     share = kv / (parts.motor.back_emf * parts.ratio / parts.radius)
     would = [f"a ratio of {parts.ratio * share:.3g}"]
@@ -140,12 +140,13 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
     if theory is None or ka <= 0.0:
         return []
     share, unsure = ka / theory, SURELY * found.errors["kA"] / theory
-    size = f"{parts.load:g} {'kg·m²' if unit(found.units).angular else 'kg'}"
+    size = f"{parts.load:g} {'kg·m²' if find_unit(found.units).angular else 'kg'}"
     motors = f"{parts.count} × {parts.motor.name}"
-    said = f"{_against(found, 'kA', theory)} that {size} on {motors} take without their rotors"
-    where = _where(found.gains["kV"] / parts.kv, share)
+    difference = _describe_difference(found, "kA", theory)
+    said = f"{difference} that {size} on {motors} take without their rotors"
+    where = _place_to_look(found.gains["kV"] / parts.kv, share)
     if _kv_fits(found.gains["kV"] / parts.kv):
-        where = f"{where} ({_loads(share, parts, size.rpartition(' ')[2])} would fit)"
+        where = f"{where} ({_load_instead(share, parts, size.rpartition(' ')[2])} would fit)"
     if share + unsure < LIGHT:
         return [
             Doubt(
@@ -169,7 +170,7 @@ def _kv_fits(share: float) -> bool:
     return BELOW < share < DRAG
 
 
-def _where(kv: float, ka: float) -> str:
+def _place_to_look(kv: float, ka: float) -> str:
     """What to look at, from how far kV and kA are off: alike, opposite, or kA alone."""
     if _kv_fits(kv):
         return "kV fits, so look at the load, the number of motors and the voltage logged"
@@ -180,7 +181,7 @@ def _where(kv: float, ka: float) -> str:
     return "look at what kV's doubt names first, then at the load and the number of motors"
 
 
-def _loads(share: float, parts: Parts, per: str) -> str:
+def _load_instead(share: float, parts: Parts, per: str) -> str:
     """The load, or the number of motors, that would explain a kA."""
     load = f"{(parts.load or 0.0) * share:.3g} {per}"
     count = parts.count / share

@@ -1,7 +1,7 @@
 """Warnings about a log that SysId does not give and that are no fault of the catalogue.
 
-Each look is a function of the clues and gives doubts: a cause, a number and what to look at. They
-are quiet about a log that is as it should be.
+Each check is a function of the features and gives doubts: a cause, a number and what to look at.
+They are quiet about a log that is as it should be.
 """
 
 from contextlib import suppress
@@ -39,14 +39,14 @@ LOOKS = (
 )
 
 
-def diagnose_log(clues: LogFeatures) -> tuple[Doubt, ...]:
+def diagnose_log(features: LogFeatures) -> tuple[Doubt, ...]:
     """Everything odd about a log that no fault of the catalogue explains.
 
     Args:
-        clues: of the log.
+        features: of the log.
     """
     doubts: list[Doubt] = []
     for each in LOOKS:
         with suppress(np.linalg.LinAlgError):  # a log without a solution says nothing here
-            doubts += each(clues)
+            doubts += each(features)
     return tuple(doubts)

@@ -6,7 +6,7 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.log import DIRECTIONS, Array, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.inspect.log_features import MOVING, LogFeatures
 
 FEWEST = 10  # [samples in motion] less says little
@@ -26,16 +26,16 @@ class _Line:
     kv_error: float
 
 
-def check_directions(clues: LogFeatures) -> list[Doubt]:
+def check_directions(features: LogFeatures) -> list[Doubt]:
     """Forward and reverse ramps that need different voltages for the same speed."""
-    forward, reverse = (_line(clues, way) for way in DIRECTIONS)
+    forward, reverse = (_line(features, way) for way in DIRECTIONS)
     if forward is None or reverse is None:
         return []
     ks, kv = 0.5 * (forward.ks + reverse.ks), 0.5 * (forward.kv + reverse.kv)
     doubts = []
     apart = abs(forward.ks - reverse.ks)
     noise = SIGMAS * float(np.hypot(forward.ks_error, reverse.ks_error))
-    simple = clues.log.type not in ("elevator", "arm")
+    simple = features.log.type not in ("elevator", "arm")
     if simple and apart > max(APART_KS[0], APART_KS[1] * abs(ks), noise):
         doubts.append(
             Doubt(
@@ -61,27 +61,29 @@ def check_directions(clues: LogFeatures) -> list[Doubt]:
     return doubts
 
 
-def _line(clues: LogFeatures, way: str) -> _Line | None:
+def _line(features: LogFeatures, way: str) -> _Line | None:
     """The line through a direction's first ramp, gravity and acceleration taken off."""
-    runs = [i for i, run in enumerate(clues.log.runs) if run.test == f"quasistatic-{way}"]
-    if not runs or clues.baseline is None:
+    runs = [i for i, run in enumerate(features.log.runs) if run.test == f"quasistatic-{way}"]
+    if not runs or features.baseline is None:
         return None
-    run, balance = clues.log.runs[runs[0]], clues.baseline
+    run, baseline = features.log.runs[runs[0]], features.baseline
     if len(run) < FEWEST:
         return None
     sign = 1.0 if way == "forward" else -1.0
-    fast = sign * run.velocity > max(MOVING * run.top_speed, clues.still)
-    begins = run.time[int(np.argmax(fast))] + SETTLED * balance.timescale
+    fast = sign * run.velocity > max(MOVING * run.top_speed, features.still_speed)
+    begins = run.time[int(np.argmax(fast))] + SETTLED * baseline.timescale
     fast &= (run.time > begins) & (run.time < run.time[-1] - SMOOTH)
     if fast.sum() < 3 * FEWEST:
         return None
     load = np.zeros(len(run))
-    if clues.log.type in ("elevator", "arm"):
-        load = balance.gravity(run.position)
-    elif unit(clues.log.units).angular:  # it may be an arm; what differs is sought, not its mean
-        load = balance.gravity(run.position)
+    if features.log.type in ("elevator", "arm"):
+        load = baseline.gravity(run.position)
+    elif find_unit(
+        features.log.units
+    ).angular:  # it may be an arm; what differs is sought, not its mean
+        load = baseline.gravity(run.position)
         load = load - load.mean()
-    volts = (sign * (run.voltage - load - balance.ka * _acceleration(run, clues.period)))[fast]
+    volts = (sign * (run.voltage - load - baseline.ka * _acceleration(run, features.period)))[fast]
     speed = np.abs(run.velocity[fast])
     if not np.ptp(speed):  # readings so coarse that they know one speed only: no line
         return None

@@ -18,18 +18,18 @@ RISE = 2  # [samples] between 10 % and 90 % of the top speed
 INTERCEPT = 0.35  # [V] by which a fast ramp may shift the line one would draw by hand
 
 
-def check_r2_hides_misfit(clues: LogFeatures) -> list[Doubt]:
+def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
     """A simulated velocity R² above 0.9 over a simulation that leaves the log for a while."""
     try:
-        found = fit(clues.log, method="sysid")
+        found = fit(features.log, method="sysid")
     except Refusal:
         return []
     model = _model(found)
     if model is None or found.simulated_velocity_r2 < GOOD_R2:
         return []
     worst, said = ASTRAY, ""
-    for run in clues.log.runs:
-        strays = _strays(run, model, clues.period)
+    for run in features.log.runs:
+        strays = _replay_errors(run, model, features.period)
         if strays.size and strays.max() > worst:
             worst = float(strays.max())
             said = f"{run.test} at {run.time[int(np.argmax(strays))]:.2f} s"
@@ -55,7 +55,7 @@ def _model(found: Fit) -> BaselineModel | None:
     return BaselineModel(gains["kV"], gains["kA"], max(gains["kS"], 0.0), np.array(load), 0.0)
 
 
-def _strays(run: Run, model: BaselineModel, period: float) -> Array:
+def _replay_errors(run: Run, model: BaselineModel, period: float) -> Array:
     """(n,) [share of the top speed] how far a replay is off, for longer than a moment."""
     top = run.top_speed
     wide = 2 * round(0.5 * MOMENT / period) + 1
@@ -71,14 +71,14 @@ def _strays(run: Run, model: BaselineModel, period: float) -> Array:
     return np.asarray(np.lib.stride_tricks.sliding_window_view(off, wide).min(axis=1))
 
 
-def check_repeated_tests(clues: LogFeatures) -> list[Doubt]:
+def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
     """A test that was recorded more than once and did not go the same way."""
     doubts = []
-    for test in dict.fromkeys(run.test for run in clues.log.runs):
-        runs = [i for i, run in enumerate(clues.log.runs) if run.test == test]
-        if len(runs) < 2 or not clues.expected:  # noqa: PLR2004 - of one run there is no second
+    for test in dict.fromkeys(run.test for run in features.log.runs):
+        runs = [i for i, run in enumerate(features.log.runs) if run.test == test]
+        if len(runs) < 2 or not features.predicted_velocities:  # noqa: PLR2004 - of one run there is no second
             continue
-        ahead = [_ahead(clues, i) for i in runs]
+        ahead = [_speed_excess(features, i) for i in runs]
         apart = max(ahead) - min(ahead)
         if apart > SAME:
             doubts.append(
@@ -92,23 +92,25 @@ def check_repeated_tests(clues: LogFeatures) -> list[Doubt]:
     return doubts
 
 
-def _ahead(clues: LogFeatures, index: int) -> float:
+def _speed_excess(features: LogFeatures, index: int) -> float:
     """[share of its top speed] by which a run usually goes faster than its voltage says."""
-    run, moving = clues.log.runs[index], clues.moving[index]
+    run, moving = features.log.runs[index], features.moving[index]
     if not moving.any():
         return 0.0
-    ahead = (run.velocity - clues.expected[index]) * np.sign(clues.expected[index])
+    ahead = (run.velocity - features.predicted_velocities[index]) * np.sign(
+        features.predicted_velocities[index]
+    )
     return float(np.median(ahead[moving])) / run.top_speed
 
 
-def check_too_little_motion(clues: LogFeatures) -> list[Doubt]:
+def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
     """Tests that hardly move, and steps that are over before they are seen."""
     doubts = []
-    runs = [run for run in clues.log.runs if len(run)]
+    runs = [run for run in features.log.runs if len(run)]
     if runs and all(not np.ptp(run.position) and not run.velocity.any() for run in runs):
         return [_nothing_moves(runs)]
-    for index, run in enumerate(clues.log.runs):
-        moving = int((clues.moving[index] & (np.abs(run.velocity) > clues.still)).sum())
+    for index, run in enumerate(features.log.runs):
+        moving = int((features.moving[index] & (np.abs(run.velocity) > features.still_speed)).sum())
         if moving < FEWEST and run.kind in ("quasistatic", "dynamic"):
             doubts.append(
                 Doubt(
@@ -117,7 +119,7 @@ def check_too_little_motion(clues: LogFeatures) -> list[Doubt]:
                     f"says next to nothing. {_more_motion(run)}",
                 )
             )
-        elif run.kind == "dynamic" and (samples := _rising(run)) < RISE:
+        elif run.kind == "dynamic" and (samples := _rise_samples(run)) < RISE:
             doubts.append(
                 Doubt(
                     "short-rise",
@@ -151,34 +153,34 @@ def _nothing_moves(runs: list[Run]) -> Doubt:
     )
 
 
-def _rising(run: Run) -> int:
+def _rise_samples(run: Run) -> int:
     """[samples] between 10 % and 90 % of the top speed; many if it starts in motion."""
     speed, top = np.abs(run.velocity), run.top_speed
     up, done = int(np.argmax(speed > MOVING * top)), int(np.argmax(speed > 0.9 * top))
     return done - up if speed[0] <= MOVING * top else len(run)
 
 
-def check_ramp_rate(clues: LogFeatures) -> list[Doubt]:
+def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
     """Ramps so fast that the line through their voltages misses kS."""
-    ramps = [run for run in clues.log.runs if run.kind == "quasistatic" and len(run) > FEWEST]
-    if clues.baseline is None or not ramps:
+    ramps = [run for run in features.log.runs if run.kind == "quasistatic" and len(run) > FEWEST]
+    if features.baseline is None or not ramps:
         return []
-    rate = float(np.median([_rate(run) for run in ramps]))
-    shift = clues.baseline.timescale * rate
+    rate = float(np.median([_ramp_rate(run) for run in ramps]))
+    shift = features.baseline.timescale * rate
     if shift < INTERCEPT:
         return []
     return [
         Doubt(
             "fast-ramp",
             f"The ramp rises by {rate:.2g} V/s on a mechanism with a timescale of "
-            f"{clues.baseline.timescale:.2g} s. SysId allows for that, but a line drawn through "
+            f"{features.baseline.timescale:.2g} s. SysId allows for that, but a line drawn through "
             f"voltage over velocity gives a kS that is {shift:.2f} V too large: to draw one, "
             f"halve the ramp to {0.5 * rate:.2g} V/s.",
         )
     ]
 
 
-def _rate(run: Run) -> float:
+def _ramp_rate(run: Run) -> float:
     """[V/s] of a ramp, before a battery or the end of the test can flatten it."""
     size = np.abs(run.voltage)
     low, high = (int(np.argmax(size > share * size.max())) for share in (0.1, 0.6))

@@ -3,8 +3,8 @@
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.units import unit
-from sim.fit.sysid_rows import noise_floor
+from sim.core.units import find_unit
+from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.log_features import LogFeatures
 
 LAG = 0.02, 1.5  # [s, periods] what is no filter yet
@@ -23,10 +23,10 @@ FULL = 12.0  # [V]
 FAR = 2.5  # [times] what is this far off is a fault, not a look
 
 
-def check_velocity_lag(clues: LogFeatures) -> list[Doubt]:
+def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
     """Velocities that come later than the positions beside them, by matching integrals."""
-    found = clues.velocity_lag
-    least = max(LAG[0], LAG[1] * clues.period)
+    found = features.velocity_lag
+    least = max(LAG[0], LAG[1] * features.period)
     if found is None or not found.matched or found.lag <= least:
         return []
     if SIGMAS * found.error > found.lag:
@@ -45,9 +45,9 @@ def check_velocity_lag(clues: LogFeatures) -> list[Doubt]:
     ]
 
 
-def check_velocity_scale(clues: LogFeatures) -> list[Doubt]:
+def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
     """Velocity and position that count the same motion a little differently."""
-    usual = float(np.median(clues.scales)) if clues.scales else 1.0
+    usual = float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
     if abs(usual - 1.0) < SCALE or not 1.0 / FAR < usual < FAR:
         return []
     return [
@@ -60,27 +60,27 @@ def check_velocity_scale(clues: LogFeatures) -> list[Doubt]:
     ]
 
 
-def check_plausible_speed(clues: LogFeatures) -> list[Doubt]:
+def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
     """A length that nothing on a robot covers in a second."""
-    per = unit(clues.log.units)
-    if clues.baseline is None or per.angular or FULL / clues.baseline.kv <= FASTEST:
+    per = find_unit(features.log.units)
+    if features.baseline is None or per.angular or FULL / features.baseline.kv <= FASTEST:
         return []
     return [
         Doubt(
             "too-fast",
-            f"At {FULL:g} V it would go {FULL / clues.baseline.kv:.3g} m/s: its position is hardly "
-            f"in {per.name}. Say --units radians, rotations or degrees, whichever it is.",
+            f"At {FULL:g} V it would go {FULL / features.baseline.kv:.3g} m/s: its position is "
+            f"hardly in {per.name}. Say --units radians, rotations or degrees, whichever it is.",
         )
     ]
 
 
-def check_rest_noise(clues: LogFeatures) -> list[Doubt]:
+def check_rest_noise(features: LogFeatures) -> list[Doubt]:
     """Standstill whose noise is small, and yet enough to pass SysId's own threshold."""
-    both = zip(clues.log.runs, clues.standing, strict=True)
+    both = zip(features.log.runs, features.rest_lengths, strict=True)
     ramps = {run: n for run, n in both if run.kind == "quasistatic" and len(run) > FEWEST}
     if not ramps:
         return []
-    threshold = min(noise_floor(run.velocity) for run in ramps)
+    threshold = min(estimate_noise_floor(run.velocity) for run in ramps)
     rests = [run.velocity[:still] for run, still in ramps.items()]
     noisy = [rest for rest in rests if rest.size and np.any(np.diff(rest))]
     passed = sum(int(np.sum(np.abs(rest) >= threshold)) for rest in noisy)

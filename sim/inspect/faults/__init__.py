@@ -3,18 +3,19 @@
 import sys
 
 from sim.core.errors import BadRequest
-from sim.inspect.fault import Fault, fault_of
-from sim.support.catalogue import members
+from sim.inspect.fault import Fault, load_fault
+from sim.support.catalogue import list_members
 
 FAULTS: dict[str, Fault] = {
     found.name: found
     for found in (
-        fault_of(module, name=name) for name, module in members(sys.modules[__name__]).items()
+        load_fault(module, name=name)
+        for name, module in list_members(sys.modules[__name__]).items()
     )
 }
 
 
-def fault(name: str) -> Fault:
+def find_fault(name: str) -> Fault:
     """Look up a fault.
 
     Raises:

@@ -21,7 +21,15 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
 from sim.inspect.anomalies import Anomaly
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
+from sim.inspect.fault import (
+    Damage,
+    DamagedLog,
+    Fault,
+    FaultStrike,
+    LogInterval,
+    replace_run,
+    rescale_motion,
+)
 from sim.inspect.log_features import DRIVEN, LogFeatures
 
 CUT = 0.3  # [s] without motors at severity 1
@@ -33,7 +41,7 @@ CHOPPED = 3  # cuts in one run; one or two may be somebody letting go of the but
 AT_ONCE = 2  # [samples] between the dip and its cut
 TOGETHER = 2.0  # [s] cuts no further apart than this are one story
 SEEN, CUT_SEEN = 0.98, 0.9  # confidence where the bus voltage tells it, and where it is not logged
-SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
+SLACK = 0.06  # [s] how exactly an anomaly tells where it begins and ends
 LOWEST = 0.6  # [V] a motor that is asked for less pulls no battery down; a dead band looks alike
 MOVED = 5  # [samples] before a cut in which it was on its way
 ENDS = 12  # ends of the cut that are tried at first
@@ -46,51 +54,53 @@ SURE = 0.9  # [share explained] at the start of a run, where current limits look
 FASTEST = 1.2  # [times the usual speed] a cut can make what falls go, before the model is in doubt
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the mechanism go on without its motor for a moment."""
-    clues = LogFeatures(log)
+    features = LogFeatures(log)
     run = log.runs[blow.run]
     start = float(run.time[0]) + blow.start
     lasts = CUT * blow.severity * rng.uniform(0.9, 1.1)
     end = start + min(lasts, (float(run.time[-1]) - start) / 2.0)
     cut = (run.time >= start) & (run.time < end)
-    if clues.baseline is None or not cut.any():
-        return Spoilt(log, ())
+    if features.baseline is None or not cut.any():
+        return DamagedLog(log, ())
     first = int(np.argmax(cut))
-    velocity = clues.expected[blow.run][first]
+    velocity = features.predicted_velocities[blow.run][first]
     as_it_was, without = (
-        clues.baseline.replay(run, voltage=volts, first=first, last=len(run), velocity=velocity)
+        features.baseline.replay(run, voltage=volts, first=first, last=len(run), velocity=velocity)
         for volts in (run.voltage, np.where(cut, 0.0, run.voltage))
     )
-    moves = np.abs(as_it_was) > clues.still
+    moves = np.abs(as_it_was) > features.still_speed
     if not np.any(moves & (as_it_was != without)):
-        return Spoilt(log, ())
+        return DamagedLog(log, ())
     pace = np.ones(len(run))
     pace[first:][moves] = np.clip(without[moves] / as_it_was[moves], -FASTEST, FASTEST)
     spoilt = rescale_motion(run, pace)
     if run.bus_voltage is not None:
         bus = np.where(cut, np.minimum(run.bus_voltage, DIP), run.bus_voltage)
         spoilt = replace(spoilt, bus_voltage=bus)
-    return Spoilt(replace_run(log, blow.run, spoilt), (Stretch(blow.run, run.test, start, end),))
+    return DamagedLog(
+        replace_run(log, blow.run, spoilt), (LogInterval(blow.run, run.test, start, end),)
+    )
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find cuts: by the bus voltage, by the applied voltage, else by the motion."""
-    seen = [found for index in range(len(clues.log.runs)) for found in _cuts(clues, index)]
+    seen = [found for index in range(len(features.log.runs)) for found in _cuts(features, index)]
     yield from seen
-    for surprise in clues.anomalies:
-        found = None if surprise.again else _unpowered(clues, surprise)
+    for anomaly in features.anomalies:
+        found = None if anomaly.recurs else _unpowered(features, anomaly)
         if found and not any(_shared(found.where, other.where) for other in seen):
             yield found
 
 
-def _shared(one: Stretch, other: Stretch) -> bool:
+def _shared(one: LogInterval, other: LogInterval) -> bool:
     return one.run == other.run and min(one.end, other.end) > max(one.start, other.start)
 
 
-def _cuts(clues: LogFeatures, index: int) -> list[Damage]:
+def _cuts(features: LogFeatures, index: int) -> list[Damage]:
     """Stretches in which the recorded voltages themselves tell of a brownout."""
-    run = clues.log.runs[index]
+    run = features.log.runs[index]
     size = np.abs(run.voltage)
     off = _gaps(size > DRIVEN * size.max(initial=0.0), run.time)
     if run.bus_voltage is None:
@@ -107,7 +117,7 @@ def _cuts(clues: LogFeatures, index: int) -> list[Damage]:
     if not at.size:
         return []
     parts = np.split(at, np.flatnonzero(np.diff(run.time[at]) > TOGETHER) + 1)
-    return [_seen(clues, index, int(part[0]), int(part[-1])) for part in parts]
+    return [_seen(features, index, int(part[0]), int(part[-1])) for part in parts]
 
 
 def _gaps(on: NDArray[np.bool_], time: Array) -> list[tuple[int, int]]:
@@ -121,9 +131,9 @@ def _gaps(on: NDArray[np.bool_], time: Array) -> list[tuple[int, int]]:
     ]
 
 
-def _seen(clues: LogFeatures, index: int, first: int, last: int) -> Damage:
+def _seen(features: LogFeatures, index: int, first: int, last: int) -> Damage:
     """What the voltages tell of the samples ``first`` to ``last`` of a run."""
-    run = clues.log.runs[index]
+    run = features.log.runs[index]
     behind = min(last + 1, len(run) - 1)
     start, end = float(run.time[first]), float(run.time[behind])
     size = np.abs(run.voltage[first:behind])
@@ -137,7 +147,7 @@ def _seen(clues: LogFeatures, index: int, first: int, last: int) -> Damage:
         happened += f"controller switches the motors off{': ' * bool(off)}{without}"
     return Damage(
         fault="brownout",
-        where=Stretch(index, run.test, start, end),
+        where=LogInterval(index, run.test, start, end),
         confidence=SEEN if bus is not None else CUT_SEEN,
         evidence=f"{happened}.",
         advice=_advice(run),
@@ -154,29 +164,29 @@ def _advice(run: Run) -> str:
     )
 
 
-def _unpowered(clues: LogFeatures, surprise: Anomaly) -> Damage | None:
+def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
     """An anomaly that a cut of the whole voltage explains, if nothing speaks against a cut."""
-    share, first, last = _best(clues, surprise)
-    run = clues.log.runs[surprise.run]
+    share, first, last = _best(features, anomaly)
+    run = features.log.runs[anomaly.run]
     before = np.abs(run.velocity[max(first - MOVED, 0) : first])
-    moved = before.size > 0 and float(np.median(before)) > clues.still
-    if share < (SURE if surprise.starting else BELIEVED) or not moved:
+    moved = before.size > 0 and float(np.median(before)) > features.still_speed
+    if share < (SURE if anomaly.at_start else BELIEVED) or not moved:
         return None
     volts = float(np.median(np.abs(run.voltage[first:last])))
     bus = None if run.bus_voltage is None else float(run.bus_voltage[first:last].min())
     if volts < LOWEST or (bus is not None and bus > RECOVERED):
         return None
-    if not _went_less(clues, surprise.run, first, last):
+    if not _went_less(features, anomaly.run, first, last):
         return None
     start = float(run.time[first])
     end = float(run.time[min(last, len(run) - 1)])
     if bus is None and end - start < SHORTEST:
         return None
-    back = bool(np.any(np.abs(run.velocity[last:]) > 2.0 * clues.still))
+    back = bool(np.any(np.abs(run.velocity[last:]) > 2.0 * features.still_speed))
     said = f"; the battery is down to {bus:.1f} V" if bus is not None else ""
     return Damage(
         fault="brownout",
-        where=Stretch(surprise.run, run.test, start, end),
+        where=LogInterval(anomaly.run, run.test, start, end),
         confidence=_confidence(share, back=back, seen=bus is not None),
         evidence=f"For {end - start:.2f} s the mechanism slows down as if its motors were off, "
         f"while the log shows {volts:.1f} V{said}.",
@@ -184,10 +194,10 @@ def _unpowered(clues: LogFeatures, surprise: Anomaly) -> Damage | None:
     )
 
 
-def _went_less(clues: LogFeatures, index: int, first: int, last: int) -> bool:
+def _went_less(features: LogFeatures, index: int, first: int, last: int) -> bool:
     """Whether the position, too, shows that it went less far than the voltage would take it."""
-    run, part = clues.log.runs[index], slice(first, min(last + 1, len(clues.log.runs[index])))
-    time, expected = run.time[part], clues.expected[index][part]
+    run, part = features.log.runs[index], slice(first, min(last + 1, len(features.log.runs[index])))
+    time, expected = run.time[part], features.predicted_velocities[index][part]
     promised, read = (
         float(np.sum(0.5 * np.diff(time) * (speed[1:] + speed[:-1])))
         for speed in (expected, run.velocity[part])
@@ -203,39 +213,39 @@ def _confidence(share: float, *, back: bool, seen: bool) -> float:
     return 1.0 - (1.0 - share) / (FREE * (1.0 + seen))
 
 
-def _best(clues: LogFeatures, surprise: Anomaly) -> tuple[float, int, int]:
+def _best(features: LogFeatures, anomaly: Anomaly) -> tuple[float, int, int]:
     """Share explained by a cut, its first sample of the run, and the one behind its last."""
-    best = (0.0, surprise.first, surprise.last + 1)
-    if float(surprise.left @ np.sign(surprise.expected)) >= 0.0:
+    best = (0.0, anomaly.first, anomaly.last + 1)
+    if float(anomaly.residual @ np.sign(anomaly.expected)) >= 0.0:
         return best
-    slack = max(3, round(SLACK / clues.period))
-    stride = max(1, slack // 3)
-    ends = np.unique(np.linspace(surprise.first + 1, surprise.last + 1, ENDS).astype(int))
-    for first in range(surprise.first - slack, surprise.first + 1, stride):
-        if first >= surprise.begin:
+    margin = max(3, round(SLACK / features.period))
+    stride = max(1, margin // 3)
+    ends = np.unique(np.linspace(anomaly.first + 1, anomaly.last + 1, ENDS).astype(int))
+    for first in range(anomaly.first - margin, anomaly.first + 1, stride):
+        if first >= anomaly.begin:
             best = max(
-                best, *((_share(clues, surprise, first, e), first, e) for e in ends.tolist())
+                best, *((_share(features, anomaly, first, e), first, e) for e in ends.tolist())
             )
     _, first, last = best
-    near = range(max(last - slack, first + 1), min(last + slack, surprise.end))
-    return max([best, *((_share(clues, surprise, first, end), first, end) for end in near)])
+    near = range(max(last - margin, first + 1), min(last + margin, anomaly.end))
+    return max([best, *((_share(features, anomaly, first, end), first, end) for end in near)])
 
 
-def _share(clues: LogFeatures, surprise: Anomaly, first: int, last: int) -> float:
+def _share(features: LogFeatures, anomaly: Anomaly, first: int, last: int) -> float:
     """How much a cut of these samples of the run explains."""
-    run, balance = clues.log.runs[surprise.run], clues.baseline
-    if balance is None:
+    run, baseline = features.log.runs[anomaly.run], features.baseline
+    if baseline is None:
         return 0.0
     volts = run.voltage.copy()
     volts[first:last] = 0.0
-    without = balance.replay(
+    without = baseline.replay(
         run,
         voltage=volts,
-        first=surprise.begin,
-        last=surprise.end,
-        velocity=float(surprise.expected[0]),
+        first=anomaly.begin,
+        last=anomaly.end,
+        velocity=float(anomaly.expected[0]),
     )
-    return surprise.explained(without - surprise.expected)
+    return anomaly.explained_share(without - anomaly.expected)
 
 
 FAULT = Fault(

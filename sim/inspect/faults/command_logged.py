@@ -24,7 +24,15 @@ import numpy as np
 
 from sim.core.log import Array, Log, Run
 from sim.inspect.baseline_model import BaselineModel
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
+from sim.inspect.fault import (
+    Damage,
+    DamagedLog,
+    Fault,
+    FaultStrike,
+    LogInterval,
+    replace_run,
+    rescale_motion,
+)
 from sim.inspect.log_features import DRIVEN, LogFeatures
 
 KEEPS = 1.0 / 3.0  # [share] of its acceleration that a start keeps at severity 1; by the cube
@@ -43,31 +51,31 @@ LATEST = 0.08  # [s] after the voltage a sensor may still be silent
 BENT = 0.0012  # [share of a timescale's way, RMS] by which a start without a limit must miss
 BETTER = 0.3  # [share] of its squared error that may be left with one
 FLAT = 0.2  # [share] of the acceleration that must be lacking at first
-TRUE = 1.25  # [times] the balance's own speed is still the one it was found with
+TRUE = 1.25  # [times] the baseline model's own speed is still the one it was found with
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:  # noqa: ARG001 - the contract
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
     """Clip the current while each dynamic test starts, and log the step as it was asked for."""
-    clues, where = LogFeatures(log), []
-    for index, run in enumerate(clues.log.runs):
+    features, where = LogFeatures(log), []
+    for index, run in enumerate(features.log.runs):
         if run.kind == log.runs[blow.run].kind:
-            spoilt = _clipped(clues, index, keeps=float(KEEPS ** np.cbrt(blow.severity)))
+            spoilt = _clipped(features, index, keeps=float(KEEPS ** np.cbrt(blow.severity)))
             if spoilt is not None:
                 log = replace_run(log, index, spoilt)
                 where.append(_whole(index, run))
-    return Spoilt(log, tuple(where))
+    return DamagedLog(log, tuple(where))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find perfect steps that the mechanism starts as if it did not get all of them.
 
     A limit knows no direction: where only one of several steps starts like that, it had an accident
     of its own.
     """
     found, judged = [], 0
-    for index, run in enumerate(clues.log.runs):
+    for index, run in enumerate(features.log.runs):
         first = _step(run) if run.kind == "dynamic" else None
-        start = None if first is None else _start(clues, index, first)
+        start = None if first is None else _start(features, index, first)
         if start is None:
             continue
         judged += 1
@@ -98,7 +106,7 @@ class _Start:
         volts: [V] of the step.
         steady: (m,) [V] that friction and gravity take, at every ``step`` [s].
         step: [s]
-        balance: what the rest of the log says.
+        baseline: what the rest of the log says.
     """
 
     time: Array
@@ -106,15 +114,15 @@ class _Start:
     volts: float
     steady: Array
     step: float
-    balance: BaselineModel
+    baseline: BaselineModel
 
     @property
     def length(self) -> float:
         """[m or rad] how far the step's own speed would take it in one timescale."""
         return (
             (self.volts - float(np.median(self.steady)))
-            / self.balance.kv
-            * (self.balance.timescale)
+            / self.baseline.kv
+            * (self.baseline.timescale)
         )
 
 
@@ -124,7 +132,7 @@ class _Shape:
 
     Args:
         error: [m or rad] root of the mean square.
-        scale: [times] the speed that the balance promises.
+        scale: [times] the speed that the baseline model predicts.
         ka: [V·s²/m or V·s²/rad].
         lacks: [share] of the acceleration at first.
         delay: [s] before it moves.
@@ -137,19 +145,19 @@ class _Shape:
     delay: float
 
 
-def _clipped(clues: LogFeatures, index: int, *, keeps: float) -> Run | None:
+def _clipped(features: LogFeatures, index: int, *, keeps: float) -> Run | None:
     """The run with a start that keeps a share of its acceleration; None if it has no step."""
-    run, balance = clues.log.runs[index], clues.baseline
+    run, baseline = features.log.runs[index], features.baseline
     driven = np.flatnonzero(np.abs(run.voltage) > DRIVEN * np.abs(run.voltage).max(initial=0.0))
-    if balance is None or driven.size < FEWEST:
+    if baseline is None or driven.size < FEWEST:
         return None
     first, last = int(driven[0]), int(driven[-1]) + 1
     asked = float(np.median(run.voltage[first:last]))
     since = run.time[first:] - run.time[first]
     place, asks = float(run.position[first]), np.full(since.size, asked)
-    free = _rise(since, run.voltage[first:], place, balance, keeps=1.0)  # clipped, too, perhaps
-    held = _rise(since, asks, place, balance, keeps=keeps)
-    moves = free > clues.still
+    free = _rise(since, run.voltage[first:], place, baseline, keeps=1.0)  # clipped, too, perhaps
+    held = _rise(since, asks, place, baseline, keeps=keeps)
+    moves = free > features.still_speed
     pace = np.ones(len(run))
     pace[first:][moves] = np.clip(held[moves] / free[moves], 0.0, 1.0)
     voltage = run.voltage.copy()
@@ -162,7 +170,7 @@ def _clipped(clues: LogFeatures, index: int, *, keeps: float) -> Run | None:
 
 
 def _rise(
-    since: Array, voltage: Array, place: float, balance: BaselineModel, *, keeps: float
+    since: Array, voltage: Array, place: float, baseline: BaselineModel, *, keeps: float
 ) -> Array:
     """(n,) [m/s or rad/s] from rest at a place, in the direction of the voltage (n,) [V]."""
     way = float(np.sign(np.median(voltage)))
@@ -170,11 +178,13 @@ def _rise(
     step, speed, speeds, most = fine[1], 0.0, [], np.inf
     for volts in (way * np.interp(fine, since, voltage)).tolist():
         speeds.append(speed)
-        steady = balance.ks + way * float(balance.gravity(np.array(place)))
+        steady = baseline.ks + way * float(baseline.gravity(np.array(place)))
         if most == np.inf and keeps < 1.0:
             most = steady + keeps * (volts - steady)
         most = max(most, steady)
-        speed = max(speed + step * (min(volts - balance.kv * speed, most) - steady) / balance.ka, 0)
+        speed = max(
+            speed + step * (min(volts - baseline.kv * speed, most) - steady) / baseline.ka, 0
+        )
         place += way * step * speed
     return np.asarray(np.interp(since, fine, speeds))
 
@@ -191,35 +201,35 @@ def _step(run: Run) -> int | None:
     return int(driven[0]) if stray <= max(PERFECT * abs(asked), ROUNDING) else None
 
 
-def _start(clues: LogFeatures, index: int, first: int) -> _Start | None:
+def _start(features: LogFeatures, index: int, first: int) -> _Start | None:
     """The part of a test that tells how it starts."""
-    run, balance = clues.log.runs[index], clues.baseline
-    if balance is None:
+    run, baseline = features.log.runs[index], features.baseline
+    if baseline is None:
         return None
-    lasts = min(WIDE * balance.timescale, LONGEST)
+    lasts = min(WIDE * baseline.timescale, LONGEST)
     end = int(np.searchsorted(run.time, run.time[first] + lasts, side="right"))
     picked = slice(first, max(end, first + FEWEST + 1), max(1, (end - first) // MOST))
     time = run.time[picked] - run.time[first]
     if time.size <= FEWEST:
         return None
     way = float(np.sign(run.voltage[first]))
-    step = max(balance.timescale / SMOOTH, float(time[-1]) / (WIDE * SMOOTH))
+    step = max(baseline.timescale / SMOOTH, float(time[-1]) / (WIDE * SMOOTH))
     fine = np.arange(0.0, float(time[-1]) + 3.0 * step, step)
     place = np.interp(fine, time, run.position[picked])
     return _Start(
         time,
         way * (run.position[picked] - run.position[picked].mean()),
         abs(float(run.voltage[first])),
-        balance.ks + way * balance.gravity(place),
+        baseline.ks + way * baseline.gravity(place),
         step,
-        balance,
+        baseline,
     )
 
 
 def _search(start: _Start, *, lacks: Array) -> _Shape:
     """The shape that fits best: on a coarse grid, then on finer ones around its best point."""
     period = float(np.median(np.diff(start.time)))
-    kas, delays = start.balance.ka * np.geomspace(0.15, 1.6, 24), np.linspace(-period, LATEST, 25)
+    kas, delays = start.baseline.ka * np.geomspace(0.15, 1.6, 24), np.linspace(-period, LATEST, 25)
     best = _best(start, kas, lacks, delays)
     for narrow in FINER:
         kas = best.ka * np.geomspace(1.0 / (1.0 + 0.2 * narrow), 1.0 + 0.2 * narrow, 9)
@@ -252,7 +262,7 @@ def _best(start: _Start, kas: Array, lacks: Array, delays: Array) -> _Shape:
 
 def _ways(start: _Start, ka: Array, lack: Array) -> Array:
     """(steps, shapes) [m or rad] how far the model has gone, for many kA and limits at once."""
-    kv, steady = start.balance.kv, start.steady
+    kv, steady = start.baseline.kv, start.steady
     most = np.where(lack > 0.0, start.volts - lack * (start.volts - steady[0]), np.inf)
     keep = np.exp(-start.step * kv / ka)
     speed, way = np.zeros(ka.size), np.zeros(ka.size)
@@ -281,8 +291,8 @@ def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
     )
 
 
-def _whole(index: int, run: Run) -> Stretch:
-    return Stretch(index, run.test, float(run.time[0]), float(run.time[-1]))
+def _whole(index: int, run: Run) -> LogInterval:
+    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

@@ -18,7 +18,15 @@ import numpy as np
 
 from sim.core.log import Array, Log
 from sim.inspect.anomalies import Anomaly
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
+from sim.inspect.fault import (
+    Damage,
+    DamagedLog,
+    Fault,
+    FaultStrike,
+    LogInterval,
+    replace_run,
+    rescale_motion,
+)
 from sim.inspect.log_features import LogFeatures
 
 SLIP = 0.4  # [s] as long as a slip lasts, or half of what is left of the run
@@ -26,8 +34,8 @@ HOP = 0.08  # [s] as long as a skipped tooth takes, at least four samples
 SKIPS = 0.25  # [share] of slips that are skipped teeth
 LOSS = 0.7  # reads exp(-LOSS·severity) of the speed: one half at severity 1
 SKIP = 1.3  # [times the speed] that a tooth skipped at severity 1 takes off or adds
-SLACK = 0.06  # [s] how exactly a surprise tells where it begins and ends
-BRIEF = 0.15  # [s] a longer surprise that swells and fades is no slip
+SLACK = 0.06  # [s] how exactly an anomaly shows where it begins and ends
+BRIEF = 0.15  # [s] a longer anomaly that swells and fades is no slip
 LEAST = 0.15  # [share of the speed] a smaller loss is not told from an effect
 SURE = 0.97  # the same at the start of a run, and of a few samples, where less proves nothing
 FEWEST = 3  # [samples]
@@ -37,7 +45,7 @@ BELIEVED = 0.92  # [share explained] less is something else
 AT_END = 0.005  # [share of the travel] within which it stands, at the end of it
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the sensor read too little, or hop, for a moment."""
     run = log.runs[blow.run]
     start = float(run.time[0]) + blow.start
@@ -50,29 +58,29 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
         lasts, pace = min(SLIP, left / 2.0), float(np.exp(-LOSS * blow.severity))
     slips = (run.time > start) & (run.time <= start + lasts)
     if not np.any(run.velocity[slips]):
-        return Spoilt(log, ())
+        return DamagedLog(log, ())
     spoilt = rescale_motion(run, np.where(slips, pace, 1.0))
-    where = Stretch(blow.run, run.test, start, min(start + lasts, float(run.time[-1])))
-    return Spoilt(replace_run(log, blow.run, spoilt), (where,))
+    where = LogInterval(blow.run, run.test, start, min(start + lasts, float(run.time[-1])))
+    return DamagedLog(replace_run(log, blow.run, spoilt), (where,))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
-    """Find surprises that a share of the speed explains, which goes and comes back at once."""
-    for surprise in clues.anomalies:
-        if surprise.again:
+def detect(features: LogFeatures) -> Iterable[Damage]:
+    """Find anomalies that a share of the speed explains, which goes and comes back at once."""
+    for anomaly in features.anomalies:
+        if anomaly.recurs:
             continue
-        share, loss, first, last = _best(surprise, clues.period)
-        run = clues.log.runs[surprise.run]
-        back = surprise.begin + last <= len(run) - BACK
-        proof = SURE if surprise.starting or last - first < FEWEST else BELIEVED
-        start, end = (float(run.time[surprise.begin + i]) for i in (first, last - 1))
+        share, loss, first, last = _best(anomaly, features.period)
+        run = features.log.runs[anomaly.run]
+        back = anomaly.begin + last <= len(run) - BACK
+        proof = SURE if anomaly.at_start or last - first < FEWEST else BELIEVED
+        start, end = (float(run.time[anomaly.begin + i]) for i in (first, last - 1))
         if share < proof or abs(loss) < LEAST or not back or end - start > MOST:
             continue
-        if _stands_at_its_end(clues, run.position[surprise.begin + first : surprise.begin + last]):
+        if _stands_at_its_end(features, run.position[anomaly.begin + first : anomaly.begin + last]):
             continue
         yield Damage(
             fault="encoder-slip",
-            where=Stretch(surprise.run, run.test, start, end),
+            where=LogInterval(anomaly.run, run.test, start, end),
             confidence=share,
             evidence=f"For {end - start:.2f} s the velocity reads {abs(loss):.0%} too "
             f"{'low' if loss > 0 else 'high'}, from one sample to the next, and then it fits "
@@ -82,22 +90,22 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
         )
 
 
-def _stands_at_its_end(clues: LogFeatures, position: Array) -> bool:
+def _stands_at_its_end(features: LogFeatures, position: Array) -> bool:
     """Whether it stands where it can go no further: steps up and down end on a stop."""
-    every = np.concatenate([run.position for run in clues.log.runs])
+    every = np.concatenate([run.position for run in features.log.runs])
     lowest, highest = float(every.min()), float(every.max())
     near = AT_END * (highest - lowest)
     usual = float(np.median(position))
     return usual - lowest < near or highest - usual < near
 
 
-def _best(surprise: Anomaly, period: float) -> tuple[float, float, int, int]:
+def _best(anomaly: Anomaly, period: float) -> tuple[float, float, int, int]:
     """Share explained, share of the speed lost, first sample and the one behind the last.
 
     What swells and fades over a longer time is no slip, whatever share of it a slip explains.
     """
     sudden, swelling = (
-        _over_spans(surprise, swells=swells, slack=max(3, round(SLACK / period)))
+        _over_spans(anomaly, swells=swells, margin=max(3, round(SLACK / period)))
         for swells in (False, True)
     )
     if swelling[0] <= sudden[0]:
@@ -106,28 +114,28 @@ def _best(surprise: Anomaly, period: float) -> tuple[float, float, int, int]:
     return swelling if brief else (0.0, *sudden[1:])
 
 
-def _over_spans(surprise: Anomaly, *, swells: bool, slack: int) -> tuple[float, float, int, int]:
+def _over_spans(anomaly: Anomaly, *, swells: bool, margin: int) -> tuple[float, float, int, int]:
     """The same over all spans, for one of the two shapes."""
     best = (0.0, 0.0, 0, 1)
-    for span in surprise.spans(slack=slack):
-        best = max(best, _loss(surprise, span, swells=swells))
-    for span in surprise.spans_near(best[2:], slack=slack):
-        best = max(best, _loss(surprise, span, swells=swells))
+    for span in anomaly.candidate_spans(margin=margin):
+        best = max(best, _loss(anomaly, span, swells=swells))
+    for span in anomaly.refine_spans(best[2:], margin=margin):
+        best = max(best, _loss(anomaly, span, swells=swells))
     return best
 
 
 def _loss(
-    surprise: Anomaly, span: tuple[int, int], *, swells: bool
+    anomaly: Anomaly, span: tuple[int, int], *, swells: bool
 ) -> tuple[float, float, int, int]:
     """The same for one span: all at once, or swelling and fading."""
     first, last = span
-    shape = np.zeros(surprise.left.size)
-    shape[first:last] = surprise.expected[first:last]
+    shape = np.zeros(anomaly.residual.size)
+    shape[first:last] = anomaly.expected[first:last]
     if swells:
         shape[first:last] *= np.hanning(last - first + 2)[1:-1]
     size = float(shape @ shape)
-    loss = -float(shape @ surprise.left) / size if size > 0.0 else 0.0
-    return (surprise.explained(-loss * shape), loss, first, last)
+    loss = -float(shape @ anomaly.residual) / size if size > 0.0 else 0.0
+    return (anomaly.explained_share(-loss * shape), loss, first, last)
 
 
 FAULT = Fault(

@@ -20,10 +20,10 @@ from sim.core.log import Array, Log, Run
 from sim.inspect.anomalies import find_first_motion
 from sim.inspect.fault import (
     Damage,
+    DamagedLog,
     Fault,
-    Spoilt,
-    Stretch,
-    Strike,
+    FaultStrike,
+    LogInterval,
     replace_run,
     rescale_motion,
     select_samples,
@@ -48,7 +48,7 @@ LEANS = 0.7  # confidence: a chain that is pulled taut looks the same
 GIVES = 0.25  # [share of the way it would have gone] a stop that gives more is none
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Put a stop in the way, and let the voltage push on for a while."""
     pressed = PRESSED * blow.severity * rng.uniform(0.9, 1.1)
     run = log.runs[blow.run]
@@ -56,7 +56,7 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     impact = int(np.searchsorted(longer.time, run.time[0] + blow.start, side="right"))
     end = int(np.searchsorted(longer.time, run.time[0] + blow.start + pressed, side="right"))
     if impact >= end - 1 or not np.any(longer.velocity[impact:end]):
-        return Spoilt(log, ())
+        return DamagedLog(log, ())
     cut = select_samples(longer, slice(end))
     since = cut.time - cut.time[impact]
     pace = np.where(since < 0.0, 1.0, -BOUNCE * np.exp(-since / FADES) * (since < 4.0 * FADES))
@@ -67,16 +67,18 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
         for index in range(blow.run + 1, len(log.runs)):
             follows = log.runs[index]
             damaged = replace_run(damaged, index, replace(follows, time=follows.time + late))
-    where = Stretch(blow.run, run.test, float(spoilt.time[impact]), float(spoilt.time[-1]))
-    return Spoilt(damaged, (where,))
+    where = LogInterval(blow.run, run.test, float(spoilt.time[impact]), float(spoilt.time[-1]))
+    return DamagedLog(damaged, (where,))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find runs that end at a stop with the voltage still on, or begin leaning on one."""
-    yield from _leaning(clues)
-    for index, run in enumerate(clues.log.runs):
+    yield from _leaning(features)
+    for index, run in enumerate(features.log.runs):
         for fast in (FAST, BRISK):
-            found = _stopped(index, run, fast=fast, still=clues.still, period=clues.period)
+            found = _stopped(
+                index, run, fast=fast, still=features.still_speed, period=features.period
+            )
             if found:
                 yield found
                 break
@@ -106,7 +108,7 @@ def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) 
         return None
     return Damage(
         fault="hard-stop",
-        where=Stretch(index, run.test, float(run.time[impact]), float(run.time[-1])),
+        where=LogInterval(index, run.test, float(run.time[impact]), float(run.time[-1])),
         confidence=share,
         evidence=f"The mechanism stops from {_percent(speed, run)} of its top speed within "
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although "
@@ -126,38 +128,38 @@ def _at_once(run: Run, impact: int, *, speed: float, still: float) -> bool:
     return bool(size[impact - 1] > WHOLE * speed and np.all(size[impact + 1 :] < still))
 
 
-def _leaning(clues: LogFeatures) -> Iterable[Damage]:
+def _leaning(features: LogFeatures) -> Iterable[Damage]:
     """Find runs that begin pressed onto a stop which gives, and come off it too late."""
-    balance = clues.baseline
-    if balance is None or clues.log.type == "simple":
+    baseline = features.baseline
+    if baseline is None or features.log.type == "simple":
         return
-    positions = np.concatenate([run.position for run in clues.log.runs])
+    positions = np.concatenate([run.position for run in features.log.runs])
     lowest, highest = float(positions.min()), float(positions.max())
-    for index, run in enumerate(clues.log.runs):
+    for index, run in enumerate(features.log.runs):
         if run.kind != "quasistatic" or not len(run):
             continue
-        off = find_first_motion(run, still=clues.still)
+        off = find_first_motion(run, still=features.still_speed)
         way, volts = np.sign(run.voltage[off]), abs(float(run.voltage[off]))
-        pressed = float(way * balance.gravity(run.position[:1])[0])
+        pressed = float(way * baseline.gravity(run.position[:1])[0])
         given = float(way * (run.position[off] - run.position[0])) / max(highest - lowest, 1e-300)
         end = lowest if way > 0.0 else highest
         gone = np.abs(run.position[: off + 1] - run.position[0])
         creeps = float(run.time[off] - run.time[int(np.argmax(gone > CREPT * gone[-1]))])
         if (
-            pressed > PRESSES * balance.ks
+            pressed > PRESSES * baseline.ks
             and abs(float(run.position[0]) - end) < AT_END * (highest - lowest)
             and GIVEN[0] < given < GIVEN[1]
             and creeps > CREEPS
-            and volts - pressed - balance.ks > max(LATE, PRESSES * balance.ks)
+            and volts - pressed - baseline.ks > max(LATE, PRESSES * baseline.ks)
         ):
             yield Damage(
                 fault="hard-stop",
-                where=Stretch(index, run.test, float(run.time[0]), float(run.time[off])),
+                where=LogInterval(index, run.test, float(run.time[0]), float(run.time[off])),
                 confidence=LEANS,
                 evidence="For the first "
                 f"{run.time[off] - run.time[0]:.1f} s the mechanism leans on the end of its "
                 f"travel: gravity presses it there. It moves by only {given:.1%} of its travel, "
-                f"and comes off at {volts:.2f} V where {pressed + balance.ks:.2f} V would do.",
+                f"and comes off at {volts:.2f} V where {pressed + baseline.ks:.2f} V would do.",
                 advice="Cut these seconds out, or begin the run a little off the stop.",
             )
 

@@ -16,7 +16,15 @@ from collections.abc import Iterable
 import numpy as np
 
 from sim.core.log import Log
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, select_samples
+from sim.inspect.fault import (
+    Damage,
+    DamagedLog,
+    Fault,
+    FaultStrike,
+    LogInterval,
+    replace_run,
+    select_samples,
+)
 from sim.inspect.log_features import LogFeatures
 
 SHORTEST, LONGEST = 0.04, 0.3  # [s] a stall; shorter ones are jitter, longer ones trip a watchdog
@@ -29,7 +37,7 @@ PROOF = 2.0  # [usual steps] lost in all: one might be a hiccup, ten are none
 HARMLESS = 0.01  # [share of the run's time] 5 % of such gaps make kA 9 % too large; this, 2 %
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Lose the samples of a few stalls."""
     run = log.runs[blow.run]
     start = float(run.time[0]) + blow.start
@@ -46,15 +54,15 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
             stalls.append(np.flatnonzero(lost))
         moment = until + rng.uniform(0.5, 1.5) * BETWEEN
     if not stalls:
-        return Spoilt(log, ())
+        return DamagedLog(log, ())
     first, last = run.time[stalls[0][0] - 1], run.time[stalls[-1][-1] + 1]
     spoilt = replace_run(log, blow.run, select_samples(run, keep))
-    return Spoilt(spoilt, (Stretch(blow.run, run.test, float(first), float(last)),))
+    return DamagedLog(spoilt, (LogInterval(blow.run, run.test, float(first), float(last)),))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find steps in time that no jitter explains."""
-    for index, run in enumerate(clues.log.runs):
+    for index, run in enumerate(features.log.runs):
         step = np.diff(run.time)
         if step.size < 2:  # noqa: PLR2004 - of one step nobody can say that it is unusual
             continue
@@ -66,7 +74,7 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
             lost = float(np.sum(step[gaps] / usual - 1.0))
             yield Damage(
                 fault="loop-overrun",
-                where=Stretch(
+                where=LogInterval(
                     index, run.test, float(run.time[gaps[0]]), float(run.time[gaps[-1] + 1])
                 ),
                 confidence=1.0 - 0.5 ** (1.0 + lost / PROOF),

@@ -16,14 +16,14 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import FOUR_TESTS, Log, Run
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import DRIVEN, RAMP, LogFeatures
 
 ALL = 2.0  # [severity] from which no test keeps its name
 CONFIDENCE = 0.95  # a ramp cannot look like a step; a team's own forward may be another's reverse
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the struck run change names with another one; from severity 2 on, all of them move on."""
     runs = list(log.runs)
     names = [run.test for run in runs]
@@ -36,14 +36,16 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     for place, source in zip(moved, np.roll(moved, 1), strict=True):
         runs[place] = replace(runs[place], test=names[int(source)])
     where = [_whole(i, runs[i]) for i in sorted(moved) if runs[i].test != names[i]]
-    return Spoilt(replace(log, runs=tuple(runs)), tuple(where))
+    return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Compare every run's name with what its voltage does."""
-    if _turned_round(clues):
+    if _turned_round(features):
         return
-    for index, (run, seems) in enumerate(zip(clues.log.runs, clues.seems, strict=True)):
+    for index, (run, seems) in enumerate(
+        zip(features.log.runs, features.recognized_tests, strict=True)
+    ):
         if seems != run.test:
             yield Damage(
                 fault="mislabelled-test",
@@ -54,11 +56,11 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
             )
 
 
-def _turned_round(clues: LogFeatures) -> bool:
+def _turned_round(features: LogFeatures) -> bool:
     """Whether every test goes the other way: that is how this team counts, and no mistake."""
     pairs = [
         (run.test, seems)
-        for run, seems in zip(clues.log.runs, clues.seems, strict=True)
+        for run, seems in zip(features.log.runs, features.recognized_tests, strict=True)
         if run.test in FOUR_TESTS
     ]
     other = {"forward": "reverse", "reverse": "forward"}
@@ -80,8 +82,8 @@ def _voltage(run: Run) -> str:
     )
 
 
-def _whole(index: int, run: Run) -> Stretch:
-    return Stretch(index, run.test, float(run.time[0]), float(run.time[-1]))
+def _whole(index: int, run: Run) -> LogInterval:
+    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

@@ -16,7 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import FOUR_TESTS, Log
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
 
 CONFIDENCE = 0.98  # what is not in a log may still be in another one
@@ -27,19 +27,19 @@ _COST = {
 }
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Lose the struck test, and beyond severity 1 others with it; one test always stays."""
     struck = log.runs[blow.run].test
     others = sorted({run.test for run in log.runs} - {struck})
     further = rng.permutation(len(others))[: max(0, min(round(blow.severity), len(others)) - 1)]
     lost = {struck, *(others[index] for index in further)} if others else set()
     kept = tuple(run for run in log.runs if run.test not in lost)
-    return Spoilt(replace(log, runs=kept), tuple(_nowhere(test) for test in sorted(lost)))
+    return DamagedLog(replace(log, runs=kept), tuple(_nowhere(test) for test in sorted(lost)))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Name those of the four tests that are neither filed nor recognized."""
-    there = {run.test for run in clues.log.runs} | set(clues.seems)
+    there = {run.test for run in features.log.runs} | set(features.recognized_tests)
     if not there & set(FOUR_TESTS):
         return
     for test in FOUR_TESTS:
@@ -51,7 +51,7 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
                 confidence=CONFIDENCE,
                 evidence=f"Only {len(there & set(FOUR_TESTS))} of the four tests are there, and no "
                 f"{test}: {_COST[kind]}, and each direction its own friction.",
-                advice=f"Run {test}{_like(clues.log, kind)}, and give its file together with this "
+                advice=f"Run {test}{_like(features.log, kind)}, and give its file with this "
                 "one; if the mechanism cannot do it, write that down with the gains.",
             )
 
@@ -64,9 +64,9 @@ def _like(log: Log, kind: str) -> str:
     return f" with up to {max(volts):.1f} V, as the other direction had"
 
 
-def _nowhere(test: str) -> Stretch:
+def _nowhere(test: str) -> LogInterval:
     """A stretch for what is not there: it has a name and no time."""
-    return Stretch(None, test, 0.0, 0.0)
+    return LogInterval(None, test, 0.0, 0.0)
 
 
 FAULT = Fault(

@@ -17,8 +17,8 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log, Run
-from sim.fit.sysid_rows import noise_floor
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.fit.sysid_rows import estimate_noise_floor
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
 
 ORDINARY = 0.06  # [share of the log's top speed] standard deviation at severity 1
@@ -29,14 +29,14 @@ HERE = 0.3  # [share of the log's noise at rest] that a run must have to be name
 SURE = 3.0  # [times LOUD] at which the confidence is 0.95
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the velocity tremble while the mechanism stands, in every quasistatic test."""
     ramps = [i for i, run in enumerate(log.runs) if run.kind == "quasistatic"]
-    still = LogFeatures(log).standing
+    still = LogFeatures(log).rest_lengths
     if all(still[i] < FEWEST for i in ramps):
         rested = (_with_rest(run) if i in ramps else run for i, run in enumerate(log.runs))
         log = replace(log, runs=tuple(rested))
-        still = LogFeatures(log).standing
+        still = LogFeatures(log).rest_lengths
     runs = list(log.runs)
     size = ORDINARY * blow.severity * max(run.top_speed for run in runs)
     where = []
@@ -47,15 +47,15 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
             velocity[: still[index]] += size * rng.standard_normal(still[index])
             runs[index] = replace(run, velocity=velocity)
             where.append(_stretch(index, run, still[index]))
-    return Spoilt(replace(log, runs=tuple(runs)), tuple(where))
+    return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Measure the velocity at the beginning of every ramp, while the position stands."""
-    top = max((run.top_speed for run in clues.log.runs), default=0.0)
+    top = max((run.top_speed for run in features.log.runs), default=0.0)
     rests = {}
-    for index, run in enumerate(clues.log.runs):
-        still = clues.standing[index] if run.kind == "quasistatic" else 0
+    for index, run in enumerate(features.log.runs):
+        still = features.rest_lengths[index] if run.kind == "quasistatic" else 0
         if still >= FEWEST:
             rests[index] = run.velocity[:still]
     noise = _noise(list(rests.values()))
@@ -64,7 +64,7 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
     confidence = 1.0 - 0.5 * 10.0 ** (-noise / (SURE * LOUD * top))
     for index, rest in rests.items():
         if _noise([rest]) > HERE * noise:
-            yield _damage(index, clues.log.runs[index], rest, noise, confidence)
+            yield _damage(index, features.log.runs[index], rest, noise, confidence)
 
 
 def _noise(rests: list[Array]) -> float:
@@ -95,7 +95,7 @@ def _with_rest(run: Run) -> Run:
 
 
 def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) -> Damage:
-    threshold = noise_floor(run.velocity)
+    threshold = estimate_noise_floor(run.velocity)
     passed = int(np.sum(np.abs(rest) >= threshold))
     return Damage(
         fault="noisy-standstill",
@@ -109,8 +109,8 @@ def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) 
     )
 
 
-def _stretch(index: int, run: Run, still: int) -> Stretch:
-    return Stretch(index, run.test, float(run.time[0]), float(run.time[still - 1]))
+def _stretch(index: int, run: Run, still: int) -> LogInterval:
+    return LogInterval(index, run.test, float(run.time[0]), float(run.time[still - 1]))
 
 
 FAULT = Fault(

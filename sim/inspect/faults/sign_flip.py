@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log, Run
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import Flags, LogFeatures, majority_sign
 
 ONE_WAY, BOTH_WAYS = 0.7, 2.0  # [severity] from which all tests of a direction, or all, are struck
@@ -28,7 +28,7 @@ FEWEST = 5  # [samples] driven and moving; fewer prove nothing
 FALLS = 3.0  # [times] faster the other way with as much voltage: gravity decides, not a sign
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Turn a signal round: in one run, in one direction's runs, or in all."""
     signals = (("voltage",), ("position", "velocity"), ("velocity",))[int(rng.integers(3))]
     struck = log.runs[blow.run]
@@ -39,18 +39,18 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
             flipped = {name: -getattr(run, name) for name in signals}
             runs[index] = replace(run, **flipped)
             where.append(_whole(index, run))
-    return Spoilt(replace(log, runs=tuple(runs)), tuple(where))
+    return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Compare the signs of voltage, velocity and the slope of position in every run."""
-    for index, run in enumerate(clues.log.runs):
-        if clues.copied[index]:  # a velocity that is a position has no sign of its own
+    for index, run in enumerate(features.log.runs):
+        if features.copied[index]:  # a velocity that is a position has no sign of its own
             continue
-        slope, moving = clues.slopes[index], clues.moving[index]
+        slope, moving = features.position_slopes[index], features.moving[index]
         against_slope = _against(run.velocity, slope, moving & _hard(slope))
         against_push = _opposed(run, run.velocity, moving)
-        if against_push and not against_slope and _falls(run, clues.log):
+        if against_push and not against_slope and _falls(run, features.log):
             continue
         said = []
         if against_push:
@@ -84,7 +84,7 @@ def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
 def _falls(run: Run, log: Log) -> bool:
     """Whether the other direction of the same test goes the same way, several times as fast."""
     mate = f"{run.kind}-{'reverse' if run.direction == 'forward' else 'forward'}"
-    for other in log.of(mate):
+    for other in log.runs_of_test(mate):
         goes = majority_sign(other.velocity) * majority_sign(run.velocity) > 0
         if goes and other.top_speed > FALLS * run.top_speed:
             return True
@@ -116,8 +116,8 @@ def _typical(values: Array) -> float:
     return float(np.median(hard)) if hard.size else 0.0
 
 
-def _whole(index: int, run: Run) -> Stretch:
-    return Stretch(index, run.test, float(run.time[0]), float(run.time[-1]))
+def _whole(index: int, run: Run) -> LogInterval:
+    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

@@ -20,7 +20,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log, Run
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import Counts, Flags, LogFeatures, find_held_samples
 
 ORDINARY = 3.0  # [samples] that repeat each reading at severity 1: 20 ms frames logged at 5 ms
@@ -31,28 +31,28 @@ OWN_PACE = 0.064  # [s] of a velocity alone: REV measures one every 32 ms, and a
 STALE = 2  # [samples] that the usual reading is held; a clean log repeats one only now and then
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let every reading of the sensor stand until the next frame arrives."""
     held = max(STALE, 1 + round(ORDINARY * blow.severity))
     phases = rng.integers(held, size=len(log.runs))
     runs = [_hold(run, held, int(phase)) for run, phase in zip(log.runs, phases, strict=True)]
-    return Spoilt(
+    return DamagedLog(
         replace(log, runs=tuple(runs)),
         tuple(_whole(index, run) for index, run in enumerate(runs) if len(run)),
     )
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find runs whose usual reading is held for several samples while they move."""
-    steps = {"velocity": clues.velocity_step, "position": clues.position_step}
+    steps = {"velocity": features.velocity_step, "position": features.position_step}
     held = {
         name: [
             _held(getattr(run, name), moving, step=step)
-            for run, moving in zip(clues.log.runs, clues.moving, strict=True)
+            for run, moving in zip(features.log.runs, features.moving, strict=True)
         ]
         for name, step in steps.items()
     }
-    for index, run in enumerate(clues.log.runs):
+    for index, run in enumerate(features.log.runs):
         stale = {name: runs[index] for name, runs in held.items() if _stale(runs, index)}
         if stale:
             yield _damage(index, run, stale)
@@ -109,8 +109,8 @@ def _hold(run: Run, held: int, phase: int) -> Run:
     return replace(run, position=run.position[latest], velocity=run.velocity[latest])
 
 
-def _whole(index: int, run: Run) -> Stretch:
-    return Stretch(index, run.test, float(run.time[0]), float(run.time[-1]))
+def _whole(index: int, run: Run) -> LogInterval:
+    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Log, Run
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import MOVING, Counts, LogFeatures, find_held_samples
 
 ORDINARY = 0.15  # [share of the run] that is frozen at severity 1
@@ -30,7 +30,7 @@ WENT = 0.4  # [share] of the way that two speeds promise, which the jump at the 
 AFTER = 3  # [samples] that tell how fast it went on
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:  # noqa: ARG001 - the contract
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
     """Freeze the reading of one moment; nothing happens where nothing moves."""
     run = log.runs[blow.run]
     left = float(run.time[-1] - run.time[0]) - blow.start
@@ -42,31 +42,31 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:  # noqa: 
     frozen[first : last + 1] = first
     hidden = float(np.abs(run.position[first : last + 1] - run.position[first]).max())
     if last - first < FEWEST or hidden <= FAR * LogFeatures(log).position_step:
-        return Spoilt(log, ())
+        return DamagedLog(log, ())
     stuck = replace(run, position=run.position[frozen], velocity=run.velocity[frozen])
     runs = tuple(stuck if other is run else other for other in log.runs)
-    return Spoilt(replace(log, runs=runs), (_stretch(blow.run, run, first, last),))
+    return DamagedLog(replace(log, runs=runs), (_stretch(blow.run, run, first, last),))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find long stretches in which neither reading changes although it moves."""
-    for index, run in enumerate(clues.log.runs):
+    for index, run in enumerate(features.log.runs):
         together = np.stack((run.position, run.velocity))
         changed = np.any(np.diff(together, axis=1) != 0.0, axis=0)
         starts, lengths = find_held_samples(np.concatenate(([0], np.cumsum(changed))).astype(float))
-        shortest = max(FEWEST, UNUSUAL * _usual(clues, index))
+        shortest = max(FEWEST, UNUSUAL * _usual(features, index))
         for first, length in zip(starts[lengths >= shortest], lengths[lengths >= shortest]):  # noqa: B905 - one mask cuts both
             last = int(first + length - 1)
             if run.time[min(last + 1, len(run) - 1)] - run.time[first] < SHORTEST:
                 continue
-            hidden = _hidden(run, int(first), last, step=clues.position_step)
+            hidden = _hidden(run, int(first), last, step=features.position_step)
             if hidden > 0.0:
                 yield _damage(index, run, int(first), last, hidden)
 
 
-def _usual(clues: LogFeatures, index: int) -> float:
+def _usual(features: LogFeatures, index: int) -> float:
     """[samples] that a reading usually stands in motion, the slower one of the two."""
-    run, moving = clues.log.runs[index], clues.moving[index]
+    run, moving = features.log.runs[index], features.moving[index]
     return max(
         _median_hold(*find_held_samples(v), moving.nonzero()[0])
         for v in (run.position, run.velocity)
@@ -110,8 +110,8 @@ def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damag
     )
 
 
-def _stretch(index: int, run: Run, first: int, last: int) -> Stretch:
-    return Stretch(index, run.test, float(run.time[first]), float(run.time[last]))
+def _stretch(index: int, run: Run, first: int, last: int) -> LogInterval:
+    return LogInterval(index, run.test, float(run.time[first]), float(run.time[last]))
 
 
 FAULT = Fault(

@@ -21,8 +21,8 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import FOUR_TESTS, Log, Run
-from sim.core.units import unit
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.core.units import find_unit
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
 
 TURN = 2.0 * math.pi
@@ -48,21 +48,23 @@ KNOWN: Mapping[str, float] = {
 MILD, ORDINARY, GROSS = (TURN,), (60.0, 360.0 / TURN), (360.0, TURN * 60.0)  # by severity
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Count velocity in another unit, in every run; a harder blow takes a larger factor."""
     factors = MILD if blow.severity < 0.7 else ORDINARY if blow.severity < 2.0 else GROSS  # noqa: PLR2004 - thirds of the scale
     factor = float(rng.choice(factors)) ** int(rng.choice((-1, 1)))
     runs = tuple(replace(run, velocity=run.velocity * factor) for run in log.runs)
-    return Spoilt(
+    return DamagedLog(
         replace(log, runs=runs), tuple(_whole(i, run) for i, run in enumerate(runs) if len(run))
     )
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Compare the velocity with the position, and a drivetrain's speed with what there can be."""
-    usual = _usual(clues)
-    for index, (run, ratio) in enumerate(zip(clues.log.runs, clues.scales, strict=True)):
-        times = clues.copied[index]
+    usual = _usual(features)
+    for index, (run, ratio) in enumerate(
+        zip(features.log.runs, features.distance_ratios, strict=True)
+    ):
+        times = features.copied[index]
         said = _named(ratio) if _named(usual) else ""
         if times:
             yield Damage(
@@ -84,31 +86,31 @@ def detect(clues: LogFeatures) -> Iterable[Damage]:
                 advice="Set both conversion factors of the encoder alike, and divide the recorded "
                 f"velocity by {ratio:.4g}.",
             )
-    yield from _no_such_drive(clues)
+    yield from _no_such_drive(features)
 
 
-def _usual(clues: LogFeatures) -> float:
+def _usual(features: LogFeatures) -> float:
     """The scale of most runs: a conversion factor is the same in all of them."""
-    return float(np.median(clues.scales)) if clues.scales else 1.0
+    return float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
 
 
-def _no_such_drive(clues: LogFeatures) -> Iterable[Damage]:
+def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
     """A drivetrain faster or slower than any: both readings are in another unit than it says."""
-    per, name = unit(clues.log.units), clues.log.mechanism
+    per, name = find_unit(features.log.units), features.log.mechanism
     if per.angular or DRIVE not in name.lower():
         return
     speeds = [
         FULL * run.top_speed / float(np.abs(run.voltage).max())
-        for run in clues.log.runs
+        for run in features.log.runs
         if run.test in FOUR_TESTS and run.top_speed and run.voltage.any()
     ]
     speed = float(np.median(speeds)) if speeds else 0.0
-    if not speed or SLOWEST <= speed <= FASTEST or _named(_usual(clues)):
+    if not speed or SLOWEST <= speed <= FASTEST or _named(_usual(features)):
         return
     bound = f"faster than {FASTEST:g}" if speed > FASTEST else f"slower than {SLOWEST:g}"
     yield Damage(
         fault="unit-error",
-        where=Stretch(None, "", 0.0, 0.0),
+        where=LogInterval(None, "", 0.0, 0.0),
         confidence=0.9,
         evidence=f"With {FULL:g} V this drivetrain would go about {speed:.3g} m/s, and no FRC "
         f"robot is {bound} m/s: position and velocity are not in meters, or their factor is wrong.",
@@ -129,8 +131,8 @@ def _named(ratio: float) -> str:
     return "no unit's factor, so a gear ratio or a circumference that only one of them counts"
 
 
-def _whole(index: int, run: Run) -> Stretch:
-    return Stretch(index, run.test, float(run.time[0]), float(run.time[-1]))
+def _whole(index: int, run: Run) -> LogInterval:
+    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

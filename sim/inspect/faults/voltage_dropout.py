@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sim.core.log import Array, Log, Run
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike
+from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.launch import step_start
 from sim.inspect.log_features import LogFeatures
 
@@ -43,14 +43,14 @@ SERIES = 3  # drop-outs that are one story rather than so many
 
 @dataclass(frozen=True)
 class _Drop:
-    """Samples ``first`` to ``last`` of a run, where ``ought`` [V] should have been read."""
+    """Samples ``first`` to ``last`` of a run, where ``expected`` [V] should have been read."""
 
     first: int
     last: int
-    ought: float
+    expected: float
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the voltage drop out at a rhythm, from the blow to the end of the run."""
     run = log.runs[blow.run]
     voltage = run.voltage.copy()
@@ -65,21 +65,21 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
             voltage[first : first + width] *= HALF if blow.severity < MILD else 0.0
         moment += max(EVERY * rng.uniform(0.9, 1.1), 3.0 * width * period)
     runs = tuple(replace(r, voltage=voltage) if r is run else r for r in log.runs)
-    return Spoilt(replace(log, runs=runs), tuple(s for s, _ in _stories(blow.run, run, drops)))
+    return DamagedLog(replace(log, runs=runs), tuple(s for s, _ in _stories(blow.run, run, drops)))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find short falls of the voltage that the velocity does not answer."""
-    for index, run in enumerate(clues.log.runs):
+    for index, run in enumerate(features.log.runs):
         if run.kind not in FAULT.kinds or len(run) < NARROWEST:
             continue
-        drops = _drops(run, clues.period)
+        drops = _drops(run, features.period)
         answers = [_answer(run, drop) for drop in drops]
         if len(drops) < SERIES:
             drops = [
                 drop
                 for drop, answer in zip(drops, answers, strict=True)
-                if answer < _due(run, drop, clues.timescale) and not _launches(run, drop)
+                if answer < _due(run, drop, features.timescale) and not _launches(run, drop)
             ]
         for where, story in _stories(index, run, drops):
             yield _damage(run, where, story, answer=float(np.median(answers)))
@@ -141,17 +141,17 @@ def _answer(run: Run, drop: _Drop) -> float:
 def _due(run: Run, drop: _Drop, timescale: float) -> float:
     """[share of its speed] from which on a loss is an answer of the mechanism, not noise."""
     lasted = float(run.time[drop.last + 1] - run.time[drop.first])
-    lost = 1.0 - abs(float(np.mean(run.voltage[drop.first : drop.last + 1]) / drop.ought))
+    lost = 1.0 - abs(float(np.mean(run.voltage[drop.first : drop.last + 1]) / drop.expected))
     due = lost * -np.expm1(-lasted / timescale) if timescale > 0.0 else 0.0
     return max(ANSWER * float(due), CLEAR)
 
 
-def _stories(index: int, run: Run, drops: list[_Drop]) -> list[tuple[Stretch, list[_Drop]]]:
+def _stories(index: int, run: Run, drops: list[_Drop]) -> list[tuple[LogInterval, list[_Drop]]]:
     """What to report: a series as one, a few drop-outs one by one."""
     stories = [drops] if len(drops) >= SERIES else [[drop] for drop in drops]
     return [
         (
-            Stretch(
+            LogInterval(
                 index,
                 run.test,
                 float(run.time[story[0].first]),
@@ -163,9 +163,11 @@ def _stories(index: int, run: Run, drops: list[_Drop]) -> list[tuple[Stretch, li
     ]
 
 
-def _damage(run: Run, where: Stretch, story: list[_Drop], *, answer: float) -> Damage:
+def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) -> Damage:
     lasts = 1e3 * sum(float(run.time[drop.last + 1] - run.time[drop.first]) for drop in story)
-    deepest = min(float(np.abs(run.voltage[d.first : d.last + 1] / d.ought).min()) for d in story)
+    deepest = min(
+        float(np.abs(run.voltage[d.first : d.last + 1] / d.expected).min()) for d in story
+    )
     if len(story) == 1:
         said = f"Once, for {lasts:.0f} ms, the voltage falls to {deepest:.0%} of what it was"
     else:

@@ -24,9 +24,17 @@ from dataclasses import replace
 import numpy as np
 
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
+from sim.core.units import find_unit
 from sim.inspect.baseline_model import BaselineModel
-from sim.inspect.fault import Damage, Fault, Spoilt, Stretch, Strike, replace_run, rescale_motion
+from sim.inspect.fault import (
+    Damage,
+    DamagedLog,
+    Fault,
+    FaultStrike,
+    LogInterval,
+    replace_run,
+    rescale_motion,
+)
 from sim.inspect.launch import CLIMBS, FALLS, find_launch_event, step_start
 from sim.inspect.log_features import Counts, LogFeatures, find_held_samples
 from sim.inspect.wheel_model import SAMPLES, StepRise, spin_wheels
@@ -49,23 +57,23 @@ CLEAR = 0.04  # [share of top speed] a plain rise misses by at least this much
 CAUTION = 0.8  # [share of the voltage that still held] for the next step
 
 
-def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
+def spoil(log: Log, blow: FaultStrike, rng: np.random.Generator) -> DamagedLog:
     """Let the wheels of a step break loose; where the blow falls, the step decides."""
-    clues = LogFeatures(log)
-    run, balance = log.runs[blow.run], clues.baseline
+    features = LogFeatures(log)
+    run, baseline = log.runs[blow.run], features.baseline
     held = HELD ** (blow.severity * rng.uniform(0.9, 1.1))
-    if balance is None:
-        return Spoilt(log, ())
+    if baseline is None:
+        return DamagedLog(log, ())
     first = step_start(run)
     since = run.time - run.time[first]
     speed = _smooth(np.abs(run.velocity))
-    moves = (speed > clues.still) & (since > 0.0)
+    moves = (speed > features.still_speed) & (since > 0.0)
     if not moves.any():
-        return Spoilt(log, ())
-    late = max(float(since[int(np.argmax(moves))]) - STARTS * balance.timescale, 0.0)
-    lasts = min(float(since[-1]), SETTLED * balance.timescale)
-    grid = np.arange(0.0, lasts, clues.period / FINE)
-    push = _push(run, balance)
+        return DamagedLog(log, ())
+    late = max(float(since[int(np.argmax(moves))]) - STARTS * baseline.timescale, 0.0)
+    lasts = min(float(since[-1]), SETTLED * baseline.timescale)
+    grid = np.arange(0.0, lasts, features.period / FINE)
+    push = _push(run, baseline)
     limit = float(
         np.max(push - speed, initial=0.0)
     )  # of the motor's current, if not of its voltage
@@ -74,14 +82,14 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     spun = spin_wheels(
         asked,
         grid,
-        scales=np.array((balance.timescale,)),
+        scales=np.array((baseline.timescale,)),
         held=np.array((held * limit,)),
         limit=limit if limited else math.inf,
     )
     loose = np.flatnonzero(spun.loose[0])
     grips = float(grid[loose[-1]]) + late if loose.size else 0.0
-    if grips < SHOWS * clues.period:
-        return Spoilt(log, ())
+    if grips < SHOWS * features.period:
+        return DamagedLog(log, ())
     pace = np.ones(len(run))
     slipping = np.interp(since - late, grid, spun.speed[0])
     moves &= since < lasts
@@ -90,28 +98,28 @@ def spoil(log: Log, blow: Strike, rng: np.random.Generator) -> Spoilt:
     if limited:  # faster wheels leave the limit sooner
         more = np.interp(since, grid, spun.push[0]) - push
         more *= np.sign(run.voltage[first]) * ((since >= 0.0) & (since < lasts))
-        spoilt = replace(spoilt, voltage=run.voltage + balance.kv * more)
+        spoilt = replace(spoilt, voltage=run.voltage + baseline.kv * more)
     start = float(run.time[first])
-    where = Stretch(blow.run, run.test, start, min(start + grips, float(run.time[-1])))
-    return Spoilt(replace_run(log, blow.run, spoilt), (where,))
+    where = LogInterval(blow.run, run.test, start, min(start + grips, float(run.time[-1])))
+    return DamagedLog(replace_run(log, blow.run, spoilt), (where,))
 
 
-def detect(clues: LogFeatures) -> Iterable[Damage]:
+def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find steps in which the speed falls or waits, or that slipping wheels explain best."""
-    if clues.log.type not in ("", *FAULT.types):
+    if features.log.type not in ("", *FAULT.types):
         return
-    for index, run in enumerate(clues.log.runs):
+    for index, run in enumerate(features.log.runs):
         if run.kind == "dynamic" and len(run) >= FEWEST:
-            found = _modeled(clues, index, run) or (
-                _launched(index, run) if _rolls(clues) else None
+            found = _modeled(features, index, run) or (
+                _launched(index, run) if _rolls(features) else None
             )
             if found:
                 yield found
 
 
-def _rolls(clues: LogFeatures) -> bool:
+def _rolls(features: LogFeatures) -> bool:
     """Whether it may have wheels on a floor: it covers a length, or is named a drive."""
-    return not unit(clues.log.units).angular or "drive" in clues.log.mechanism.lower()
+    return not find_unit(features.log.units).angular or "drive" in features.log.mechanism.lower()
 
 
 def _launched(index: int, run: Run) -> Damage | None:
@@ -130,7 +138,7 @@ def _launched(index: int, run: Run) -> Damage | None:
     )
     return Damage(
         fault="wheel-slip",
-        where=Stretch(index, run.test, event.start, event.end),
+        where=LogInterval(index, run.test, event.start, event.end),
         confidence=1.0 - 0.5 * least / event.size,
         evidence=f"The speed rises to {event.speed:.3g} m/s, {happened}, under a steady "
         f"{volts:.1f} V: the wheels spin, and the robot catches up later.",
@@ -140,12 +148,12 @@ def _launched(index: int, run: Run) -> Damage | None:
     )
 
 
-def _modeled(clues: LogFeatures, index: int, run: Run) -> Damage | None:
+def _modeled(features: LogFeatures, index: int, run: Run) -> Damage | None:
     """A surge and a lull that slipping wheels explain better than any plain rise."""
-    if clues.baseline is None:
+    if features.baseline is None:
         return None
     first = step_start(run)
-    lasts = max(LASTS * clues.baseline.timescale, LEAST * clues.period)
+    lasts = max(LASTS * features.baseline.timescale, LEAST * features.period)
     end = int(np.searchsorted(run.time, run.time[first] + lasts))
     part = _fresh(run, first, end) if end - first >= FEWEST else np.zeros(0, dtype=np.intp)
     if part.size < FEWEST:
@@ -153,8 +161,8 @@ def _modeled(clues: LogFeatures, index: int, run: Run) -> Damage | None:
     rise = StepRise(
         np.abs(run.velocity[part]),
         run.time[part] - run.time[first],
-        _push(run, clues.baseline)[part],
-        clues.baseline.timescale,
+        _push(run, features.baseline)[part],
+        features.baseline.timescale,
     )
     plain = min(rise.fit(ALL)[0], rise.fit_limited())
     if plain <= CLEAR * float(rise.speed.max()):
@@ -167,7 +175,7 @@ def _modeled(clues: LogFeatures, index: int, run: Run) -> Damage | None:
     most = CAUTION * held * float(np.abs(run.voltage).max())
     return Damage(
         fault="wheel-slip",
-        where=Stretch(index, run.test, start, min(start + grips, float(run.time[-1]))),
+        where=LogInterval(index, run.test, start, min(start + grips, float(run.time[-1]))),
         confidence=share,
         evidence=f"The speed jumps to {1.0 - held:.0%} of its top, waits there for about "
         f"{grips:.2f} s, and only then climbs as a heavy robot does: the wheels spin first.",
@@ -184,9 +192,9 @@ def _fresh(run: Run, first: int, last: int) -> Counts:
     return first + starts[:: max(1, starts.size // SAMPLES)]
 
 
-def _push(run: Run, balance: BaselineModel) -> Array:
+def _push(run: Run, baseline: BaselineModel) -> Array:
     """(n,) [m/s or rad/s] the speed at which each voltage would end, in the step's direction."""
-    return np.asarray(balance.top_speed(run) * np.sign(run.voltage[step_start(run)]))
+    return np.asarray(baseline.steady_speed(run) * np.sign(run.voltage[step_start(run)]))
 
 
 def _smooth(values: Array) -> Array:

@@ -13,16 +13,16 @@ from pathlib import Path
 from sim.core.errors import BadRequest, MissingSignal, Refusal
 from sim.core.log import Log
 from sim.core.units import UNITS
-from sim.io.entries.discovery import driven_interval, find_devices, test_in_name
+from sim.io.entries.discovery import find_devices, find_driven_interval, find_test_in_name
 from sim.io.entries.entry import Entry
-from sim.io.entries.motors import motors_of
-from sim.io.entries.names import quote_names, type_said
+from sim.io.entries.motors import find_motors
+from sim.io.entries.names import find_type_in_name, quote_names
 from sim.io.entries.runs import cut_runs
-from sim.io.entries.state import RunInterval, StateEntry, run_intervals, state_entries
+from sim.io.entries.state import RunInterval, StateEntry, find_run_intervals, find_state_entries
 from sim.io.format import ReadOptions
 
 
-def log_of_entries(
+def assemble_log(
     entries: Sequence[Entry], *, asked: ReadOptions, where: str
 ) -> tuple[Log, tuple[RunInterval, ...]]:
     """The log of one mechanism, and the times of its runs.
@@ -39,27 +39,29 @@ def log_of_entries(
     """
     state = _state(entries, asked=asked, where=where)
     if asked.type is None:
-        return _typed(entries, state, asked=asked, where=where)
-    return _of(state, entries, asked=asked, where=where)
+        return _set_type(entries, state, asked=asked, where=where)
+    return _assemble_mechanism(state, entries, asked=asked, where=where)
 
 
-def _typed(
+def _set_type(
     entries: Sequence[Entry], state: StateEntry, *, asked: ReadOptions, where: str
 ) -> tuple[Log, tuple[RunInterval, ...]]:
     """The log of a mechanism whose type nobody said; its name may."""
-    said = type_said(state.mechanism)
-    log, spans = _of(state, entries, asked=replace(asked, type=said or None), where=where)
+    said = find_type_in_name(state.mechanism)
+    log, spans = _assemble_mechanism(
+        state, entries, asked=replace(asked, type=said or None), where=where
+    )
     if said == "arm" and not UNITS[log.units].angular:  # what moves in meters is no arm
         log = replace(log, type="")
     return log, spans
 
 
-def _of(
+def _assemble_mechanism(
     state: StateEntry, entries: Sequence[Entry], *, asked: ReadOptions, where: str
 ) -> tuple[Log, tuple[RunInterval, ...]]:
     """The log of one mechanism, as the tests that are named for it tell it."""
-    found, strange = run_intervals(state, where=where)
-    motors, doubts = motors_of(state, entries, found, asked=asked, where=where)
+    found, strange = find_run_intervals(state, where=where)
+    motors, doubts = find_motors(state, entries, found, asked=asked, where=where)
     result = cut_runs(motors, found, asked=asked, where=where)
     if not result.runs:
         names = quote_names([entry.name for entry in motors[0].signals.values()])
@@ -86,7 +88,7 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
         BadRequest: there are several, and what was asked for does not tell which.
     """
     try:
-        found = state_entries(entries, asked=asked, where=where)
+        found = find_state_entries(entries, asked=asked, where=where)
     except MissingSignal:
         named = None if asked.entries else _state_of_file_name(Path(where), entries)
         if named is None:
@@ -107,18 +109,18 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
 
 def _state_of_file_name(path: Path, entries: Sequence[Entry]) -> StateEntry | None:
     """The one test of a file whose name tells it: the longest time that something is driven."""
-    test = test_in_name(path.stem)
+    test = find_test_in_name(path.stem)
     devices = find_devices(entries)
-    interval = driven_interval(test, devices) if test else None
+    interval = find_driven_interval(test, devices) if test else None
     if interval is None:
         return None
-    entry = next(one.signals["voltage"] for one in devices if one.whole)
+    entry = next(one.signals["voltage"] for one in devices if one.is_complete)
     return StateEntry("", "", entry, (interval,))
 
 
 def _has_motor(state: StateEntry, entries: Sequence[Entry], asked: ReadOptions) -> bool:
     """Whether a mechanism has the motor that is asked for."""
     with suppress(Refusal):
-        tests, _ = run_intervals(state, where="")
-        return bool(motors_of(state, entries, tests, asked=asked, where=""))
+        tests, _ = find_run_intervals(state, where="")
+        return bool(find_motors(state, entries, tests, asked=asked, where=""))
     return False

@@ -31,7 +31,7 @@ class Series:
     time: Numbers
     values: Array
 
-    def within(self, begin: int, end: int) -> "Series":
+    def between(self, begin: int, end: int) -> "Series":
         """The samples with begin <= t < end."""
         first, last = np.searchsorted(self.time, (begin, end))
         return Series(self.time[first:last], self.values[first:last])
@@ -40,12 +40,12 @@ class Series:
         return int(self.time.size)
 
     @property
-    def moments(self) -> int:
+    def time_count(self) -> int:
         """How many different times there are."""
         return int(np.count_nonzero(np.diff(self.time)) + min(len(self), 1))
 
 
-def changes_only(signals: Sequence[Series], spans: Sequence[tuple[int, int]]) -> bool:
+def logs_only_changes(signals: Sequence[Series], spans: Sequence[tuple[int, int]]) -> bool:
     """Whether values were logged only when they changed.
 
     In such a log no signal ever repeats a value, and one that rests falls silent while the others
@@ -55,11 +55,11 @@ def changes_only(signals: Sequence[Series], spans: Sequence[tuple[int, int]]) ->
         signals: voltage, position and velocity of each motor.
         spans: begin and end [µs] of each run.
     """
-    parts = [[signal.within(*span) for span in spans] for signal in signals]
+    parts = [[signal.between(*span) for span in spans] for signal in signals]
     if any(np.any(part.values[1:] == part.values[:-1]) for row in parts for part in row):
         return False
     return any(
-        few and _silent(row, parts, spans)
+        few and _has_silence(row, parts, spans)
         for row, few in zip(parts, find_sparse_signals(parts), strict=True)
     )
 
@@ -74,7 +74,7 @@ def find_sparse_signals(parts: Sequence[Sequence[Series]]) -> list[bool]:
     return [bool(few) for few in np.any(counts * FEWER < counts.max(axis=0), axis=1)]
 
 
-def _silent(
+def _has_silence(
     row: Sequence[Series], parts: Sequence[Sequence[Series]], spans: Sequence[tuple[int, int]]
 ) -> bool:
     """Whether a signal pauses in some run for much longer than it usually does."""
@@ -89,13 +89,13 @@ def _silent(
     return False
 
 
-def loop_times(signals: Sequence[Series], begin: int, end: int) -> Numbers:
+def find_loop_times(signals: Sequence[Series], begin: int, end: int) -> Numbers:
     """When any of the signals changed in a run, once a loop, from when on all of them are known.
 
     Returns:
         (n,) [µs]; the last change of each loop, so that all of that loop have been made.
     """
-    changes = np.concatenate([signal.within(begin, end).time for signal in signals])
+    changes = np.concatenate([signal.between(begin, end).time for signal in signals])
     time: Numbers = np.unique(changes)
     last = np.diff(time, append=end) > 0
     last[:-1] = np.diff(time) > SAME_LOOP
@@ -108,7 +108,7 @@ def hold_last_value(signal: Series, time: Numbers) -> Array:
     return signal.values[np.searchsorted(signal.time, time, side="right") - 1]
 
 
-def covered_times(parts: Sequence[Series], time: Numbers) -> Numbers:
+def select_covered_times(parts: Sequence[Series], time: Numbers) -> Numbers:
     """Those times of a run at which every signal is known, or all but.
 
     A line may be drawn a little beyond a signal's ends, as its times differ from the voltage's; a

@@ -17,9 +17,9 @@ import numpy as np
 from sim.core.log import TESTS
 from sim.core.vocabulary import DIRECTIONS, KINDS
 from sim.io.entries.entry import NEEDED, NUMBERS, Entry, ValuesEntry
-from sim.io.entries.names import words_of
+from sim.io.entries.names import split_words
 from sim.io.entries.state import RunInterval
-from sim.io.entries.units import said_unit, stated_unit
+from sim.io.entries.units import find_unit_in_metadata, parse_signal_unit
 
 ROLES: Mapping[str, frozenset[str]] = {  # signal -> words of which one is in its name
     "bus_voltage": frozenset({"bus", "battery", "supply", "input"}),
@@ -70,7 +70,7 @@ class Device:
     signals: Mapping[str, Entry]
 
     @property
-    def whole(self) -> bool:
+    def is_complete(self) -> bool:
         """Whether it has all that a fit needs."""
         return all(signal in self.signals for signal in NEEDED)
 
@@ -79,7 +79,7 @@ def find_devices(entries: Sequence[Entry]) -> list[Device]:
     """The devices of a log, each with the signals that its entries' names and units tell."""
     found: dict[str, dict[str, Entry]] = {}
     for entry in entries:
-        if entry.type in NUMBERS and len(entry) and (told := signal_of(entry)):
+        if entry.type in NUMBERS and len(entry) and (told := identify_signal(entry)):
             device, signal = told
             own = found.setdefault(device, {})
             if signal not in own or len(entry) > len(own[signal]):
@@ -87,13 +87,13 @@ def find_devices(entries: Sequence[Entry]) -> list[Device]:
     return [Device(name, _with_voltage(signals)) for name, signals in found.items()]
 
 
-def signal_of(entry: Entry) -> tuple[str, str] | None:
+def identify_signal(entry: Entry) -> tuple[str, str] | None:
     """Device and signal of an entry; None if it is none of a motor's."""
     path, last = re.fullmatch(r"(.*[/:])?(.*)", entry.name, re.DOTALL).groups("")  # type: ignore[union-attr]
-    words = words_of(last)
+    words = split_words(last)
     if OTHERS.intersection(words):
         return None
-    signal = _signal(words, said_unit(entry.metadata))
+    signal = _signal(words, find_unit_in_metadata(entry.metadata))
     if not signal:
         return None
     spent = {
@@ -107,20 +107,20 @@ def signal_of(entry: Entry) -> tuple[str, str] | None:
     return (path + "-".join(rest)).rstrip("/:"), signal
 
 
-def driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[Device]:
+def select_driven_devices(devices: Sequence[Device], tests: Sequence[RunInterval]) -> list[Device]:
     """The devices that are driven while tests run, and whose velocity goes with their position."""
-    levels = [(device, _voltage_in(device, tests)) for device in devices if device.whole]
+    levels = [(device, _voltage_in(device, tests)) for device in devices if device.is_complete]
     most = max((level for _, level in levels), default=0.0)
     return [
         device
         for device, level in levels
-        if most > ZERO and level >= DRIVEN * most and _moves(device, tests)
+        if most > ZERO and level >= DRIVEN * most and _velocity_matches_position(device, tests)
     ]
 
 
-def test_in_name(stem: str) -> str:
+def find_test_in_name(stem: str) -> str:
     """The test that a file's name tells; empty if it tells none, or several."""
-    words = [_SAME.get(word, word) for word in words_of(stem)]
+    words = [_SAME.get(word, word) for word in split_words(stem)]
     kinds, ways = set(KINDS).intersection(words), set(DIRECTIONS).intersection(words)
     if len(kinds) != 1 or len(ways) != 1:
         return ""
@@ -128,13 +128,13 @@ def test_in_name(stem: str) -> str:
     return test if test in TESTS else ""
 
 
-def driven_interval(test: str, devices: Sequence[Device]) -> RunInterval | None:
+def find_driven_interval(test: str, devices: Sequence[Device]) -> RunInterval | None:
     """The longest time for which some device is driven, as the time of a test."""
     stretches = [
         stretch
         for device in devices
-        if device.whole
-        for stretch in _driven(device.signals["voltage"])
+        if device.is_complete
+        for stretch in _driven_intervals(device.signals["voltage"])
     ]
     if not stretches:
         return None
@@ -154,7 +154,7 @@ def _signal(words: Sequence[str], unit: str) -> str:
     if own & DUTY and not unit:
         return "duty_cycle"
     for signal in NEEDED:
-        if unit and stated_unit(unit, signal):
+        if unit and parse_signal_unit(unit, signal):
             return signal
     return ""
 
@@ -162,7 +162,7 @@ def _signal(words: Sequence[str], unit: str) -> str:
 def _unit_words(words: Sequence[str], signal: str) -> Iterator[str]:
     """Those words at the end of a name that are its unit."""
     for first in range(len(words)):
-        if stated_unit(" ".join(words[first:]), signal):
+        if parse_signal_unit(" ".join(words[first:]), signal):
             yield from words[first:]
             return
 
@@ -178,7 +178,7 @@ def _with_voltage(signals: Mapping[str, Entry]) -> dict[str, Entry]:
     return found
 
 
-def _within(entry: Entry, tests: Sequence[RunInterval]) -> list[slice]:
+def _samples_between(entry: Entry, tests: Sequence[RunInterval]) -> list[slice]:
     return [slice(*np.searchsorted(entry.time, (test.begin, test.end))) for test in tests]
 
 
@@ -186,17 +186,17 @@ def _voltage_in(device: Device, tests: Sequence[RunInterval]) -> float:
     """[V] root mean square of a device's voltage while tests run."""
     entry = device.signals["voltage"]
     values = entry.numbers()
-    parts = [values[part] for part in _within(entry, tests)]
+    parts = [values[part] for part in _samples_between(entry, tests)]
     every = np.concatenate(parts) if parts else np.empty(0)
     return float(np.sqrt(np.mean(np.square(every)))) if every.size else 0.0
 
 
-def _moves(device: Device, tests: Sequence[RunInterval]) -> bool:
+def _velocity_matches_position(device: Device, tests: Sequence[RunInterval]) -> bool:
     """Whether its velocity goes with the slope of its position while tests run."""
     position, velocity = device.signals["position"], device.signals["velocity"]
     x, v = position.numbers(), velocity.numbers()
     slopes, speeds = [], []
-    for part in _within(velocity, tests):
+    for part in _samples_between(velocity, tests):
         time = velocity.time[part]
         if time.size > 2:  # noqa: PLR2004 - a slope needs three
             slopes.append(np.gradient(np.interp(time, position.time, x), np.arange(time.size)))
@@ -208,7 +208,7 @@ def _moves(device: Device, tests: Sequence[RunInterval]) -> bool:
     return size > 0.0 and float(slope @ speed) > MOVES * size
 
 
-def _driven(voltage: Entry) -> Iterator[tuple[int, int]]:
+def _driven_intervals(voltage: Entry) -> Iterator[tuple[int, int]]:
     """Begin and end [µs] of each time for which a voltage drives, short pauses included."""
     values = voltage.numbers()
     on = np.flatnonzero(np.abs(values) > ZERO)

@@ -11,9 +11,15 @@ from dataclasses import dataclass
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
-from sim.io.entries.discovery import driven_devices, find_devices
+from sim.io.entries.discovery import find_devices, select_driven_devices
 from sim.io.entries.entry import NEEDED, NUMBERS, OPTIONAL, Entry
-from sim.io.entries.names import asked_for, explain_unfit_entry, quote_names, split_name, words_of
+from sim.io.entries.names import (
+    explain_unfit_entry,
+    find_requested_entry,
+    quote_names,
+    split_name,
+    split_words,
+)
 from sim.io.entries.state import WORD, RunInterval, StateEntry
 from sim.io.format import ReadOptions
 
@@ -42,7 +48,7 @@ class MotorEntries:
     signals: Mapping[str, Entry]
 
     @property
-    def whole(self) -> bool:
+    def is_complete(self) -> bool:
         """Whether it has all that a fit needs."""
         return all(signal in self.signals for signal in NEEDED)
 
@@ -58,7 +64,7 @@ class _Search:
     where: str
 
 
-def motors_of(
+def find_motors(
     state: StateEntry,
     entries: Sequence[Entry],
     tests: Sequence[RunInterval],
@@ -86,7 +92,7 @@ def motors_of(
     rivals = tuple(name for name in named if name.endswith(f"-{state.mechanism}"))
     search = _Search(entries, state, rivals, asked, where)
     given = {
-        signal: asked_for(name, role=signal, kinds=NUMBERS, entries=entries, where=where)
+        signal: find_requested_entry(name, role=signal, kinds=NUMBERS, entries=entries, where=where)
         for signal, name in asked.entries.items()
         if signal in NEEDED + OPTIONAL
     }
@@ -94,12 +100,12 @@ def motors_of(
         return (MotorEntries(asked.motor or "", given),), ()
     found = [MotorEntries(name, signals | given) for name, signals in _by_motor(search).items()]
     noted: tuple[Doubt, ...] = ()
-    if not given and not any(motor.whole for motor in found):
+    if not given and not any(motor.is_complete for motor in found):
         other = _of_other_loggers(search, tests)
         found, noted = other or found, (_taken(other, where),) if other else ()
     if asked.motor is not None:
         found = [_chosen(found, search)]
-    whole = tuple(motor for motor in found if motor.whole)
+    whole = tuple(motor for motor in found if motor.is_complete)
     if not (whole or given or found or split_name(state.entry.name, WORD)):
         raise _no_motor(search)
     if not whole:
@@ -110,9 +116,9 @@ def motors_of(
 
 def _of_other_loggers(search: _Search, tests: Sequence[RunInterval]) -> list[MotorEntries]:
     """The motors that another logger recorded, and that the tests drove."""
-    driven = driven_devices(find_devices(search.entries), tests)
-    words = set(words_of(search.state.mechanism))
-    named = [one for one in driven if words & set(words_of(one.name))]
+    driven = select_driven_devices(find_devices(search.entries), tests)
+    words = set(split_words(search.state.mechanism))
+    named = [one for one in driven if words & set(split_words(one.name))]
     return [MotorEntries(one.name, one.signals) for one in named or driven]
 
 

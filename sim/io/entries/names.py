@@ -28,21 +28,21 @@ def split_name(name: str, word: str) -> EntryName | None:
     return EntryName(*found.groups()) if found else None
 
 
-def words_of(name: str) -> list[str]:
+def split_words(name: str) -> list[str]:
     """The words of a name, lower case: ``DriveVelocityRadPerSec`` is drive velocity rad per sec."""
     return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+", name)]
 
 
-def type_said(mechanism: str) -> str:
+def find_type_in_name(mechanism: str) -> str:
     """``elevator`` or ``arm`` where that is a word of a mechanism's name; empty if not, or both.
 
     ``left-Elevator``, ``ElevatorSubsystem`` and ``ARM_1`` say it, ``alarm`` does not.
     """
-    said = {"elevator", "arm"}.intersection(words_of(mechanism))
+    said = {"elevator", "arm"}.intersection(split_words(mechanism))
     return said.pop() if len(said) == 1 else ""
 
 
-def asked_for(
+def find_requested_entry(
     name: str, *, role: str, kinds: Collection[str], entries: Sequence[Entry], where: str
 ) -> Entry:
     """The entry that a person named to play a role.

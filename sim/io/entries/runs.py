@@ -13,18 +13,18 @@ from sim.core.log import Array, Run
 from sim.core.units import UNITS
 from sim.io.entries.clock import (
     Series,
-    changes_only,
-    covered_times,
+    find_loop_times,
     find_sparse_signals,
     hold_last_value,
     interpolate_linear,
-    loop_times,
+    logs_only_changes,
+    select_covered_times,
 )
 from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
 from sim.io.entries.motors import MotorEntries
 from sim.io.entries.state import RunInterval
-from sim.io.entries.units import EntryScale, scale_of
-from sim.io.format import ReadOptions, sound_run
+from sim.io.entries.units import EntryScale, choose_scale
+from sim.io.format import ReadOptions, make_run
 
 SECOND = 1e6  # [µs]
 ENOUGH = 2  # samples of a run; one alone shows no motion
@@ -35,7 +35,7 @@ Signals: TypeAlias = Mapping[str, Sequence[Series]]  # signal -> its series, mot
 
 
 @dataclass(frozen=True)
-class Cut:
+class CutRuns:
     """What the tests of a mechanism come to.
 
     Args:
@@ -72,7 +72,7 @@ def cut_runs(
     *,
     asked: ReadOptions,
     where: str,
-) -> Cut:
+) -> CutRuns:
     """Cut the signals of a mechanism's motors into its runs; several motors count as their mean.
 
     Raises:
@@ -83,28 +83,30 @@ def cut_runs(
     signals = _signals(motors, scales)
     needed = [series for signal in NEEDED for series in signals[signal]]
     spans = [(stretch.begin, stretch.end) for stretch in stretches]
-    held = changes_only(needed, spans)
+    held = logs_only_changes(needed, spans)
     doubts = [doubt for scale in scales for doubt in scale.doubts]
-    doubts += _rhythm(signals, spans, held=held, where=where)
-    sampled = [(_held if held else _drawn)(signals, stretch) for stretch in stretches]
+    doubts += _doubt_sparse_signals(signals, spans, held=held, where=where)
+    sampled = [
+        (_sample_held if held else _sample_interpolated)(signals, stretch) for stretch in stretches
+    ]
     whole = [run for run in sampled if run.time.size >= ENOUGH]
     doubts += _too_short(sampled, where)
-    doubts += _combined(motors, whole, where)
+    doubts += _doubt_combined_motors(motors, whole, where)
     runs = []
     for run in whole:
         si = UNITS[scales[0].units].si
-        found, said = sound_run(run.test, _columns(run), si=si, where=where)
+        found, said = make_run(run.test, _columns(run), si=si, where=where)
         runs.append(found)
         doubts += said
-    return Cut(tuple(runs), scales[0].units, tuple(doubts))
+    return CutRuns(tuple(runs), scales[0].units, tuple(doubts))
 
 
 def _scales(motors: Sequence[MotorEntries], *, asked: ReadOptions, where: str) -> list[EntryScale]:
     """The scale of each motor, all into the unit of the first."""
-    first = scale_of(motors[0].signals, asked=asked, where=where)
+    first = choose_scale(motors[0].signals, asked=asked, where=where)
     scales = [first]
     for motor in motors[1:]:
-        scale = scale_of(motor.signals, asked=asked, where=where)
+        scale = choose_scale(motor.signals, asked=asked, where=where)
         if UNITS[scale.units].angular != UNITS[first.units].angular:
             raise BadRequest(
                 f"motor {motors[0].name!r} is logged in {first.units}, {motor.name!r} in "
@@ -135,10 +137,10 @@ def _signals(
     return signals
 
 
-def _held(signals: Signals, stretch: RunInterval) -> _Sampled:
+def _sample_held(signals: Signals, stretch: RunInterval) -> _Sampled:
     """One run of a log that only holds changes."""
     needed = [series for name in NEEDED for series in signals[name]]
-    time = loop_times(needed, stretch.begin, stretch.end)
+    time = find_loop_times(needed, stretch.begin, stretch.end)
     known = {
         name: np.array([hold_last_value(one, time) for one in several])
         for name, several in signals.items()
@@ -147,21 +149,21 @@ def _held(signals: Signals, stretch: RunInterval) -> _Sampled:
     return _Sampled(stretch.test, time, known)
 
 
-def _drawn(signals: Signals, stretch: RunInterval) -> _Sampled:
+def _sample_interpolated(signals: Signals, stretch: RunInterval) -> _Sampled:
     """One run at the times of the (first motor's) voltage, as SysId takes them."""
     parts = {
-        name: [one.within(stretch.begin, stretch.end) for one in several]
+        name: [one.between(stretch.begin, stretch.end) for one in several]
         for name, several in signals.items()
     }
     usable = {
         name: several
         for name, several in parts.items()
-        if all(part.moments >= ENOUGH for part in several)
+        if all(part.time_count >= ENOUGH for part in several)
     }
     every = parts["voltage"][0].time
     if not usable.keys() >= set(NEEDED):
         return _Sampled(stretch.test, every[:0], {})
-    time = covered_times([part for name in NEEDED for part in usable[name]], every)
+    time = select_covered_times([part for name in NEEDED for part in usable[name]], every)
     columns = {
         name: np.array([interpolate_linear(part, time) for part in several])
         for name, several in usable.items()
@@ -170,7 +172,7 @@ def _drawn(signals: Signals, stretch: RunInterval) -> _Sampled:
 
 
 def _columns(run: _Sampled) -> dict[str, Array]:
-    """The columns of a run as ``sound_run`` takes them: seconds, and the mean of the motors."""
+    """The columns of a run as ``make_run`` takes them: seconds, and the mean of the motors."""
     columns = {"time": run.time / SECOND}
     for name, rows in run.signals.items():
         columns[name] = rows[0] if len(rows) == 1 else rows.mean(axis=0)
@@ -193,12 +195,12 @@ def _too_short(runs: Sequence[_Sampled], where: str) -> Iterator[Doubt]:
             )
 
 
-def _rhythm(
+def _doubt_sparse_signals(
     signals: Signals, spans: Sequence[tuple[int, int]], *, held: bool, where: str
 ) -> Iterator[Doubt]:
     """Doubts about signals that were not all logged every loop."""
     needed = [(name, series) for name in NEEDED for series in signals[name]]
-    parts = [[series.within(*span) for span in spans] for _, series in needed]
+    parts = [[series.between(*span) for span in spans] for _, series in needed]
     counts = {name: sum(map(len, row)) for (name, _), row in zip(needed, parts, strict=True)}
     many = ", ".join(f"{count} of {name}" for name, count in counts.items())
     if held:
@@ -216,7 +218,7 @@ def _rhythm(
         )
 
 
-def _combined(
+def _doubt_combined_motors(
     motors: Sequence[MotorEntries], runs: Sequence[_Sampled], where: str
 ) -> Iterator[Doubt]:
     """A doubt that several motors count as their mean.

@@ -11,7 +11,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
 from sim.core.log import TESTS
 from sim.io.entries.entry import STRING, Entry
-from sim.io.entries.names import asked_for, quote_names, split_name
+from sim.io.entries.names import find_requested_entry, quote_names, split_name
 from sim.io.format import ReadOptions
 
 WORD = "sysid-test-state"
@@ -50,7 +50,7 @@ class RunInterval:
     end: int
 
 
-def state_entries(
+def find_state_entries(
     entries: Sequence[Entry], *, asked: ReadOptions, where: str
 ) -> tuple[StateEntry, ...]:
     """The entries that name tests, one for each mechanism.
@@ -60,7 +60,7 @@ def state_entries(
         BadRequest: one mechanism has several.
     """
     if "state" in asked.entries:
-        entry = asked_for(
+        entry = find_requested_entry(
             asked.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
         )
         if not names_tests(entry):
@@ -89,7 +89,7 @@ def state_entries(
     return tuple(_only(telling, mechanism, where=where) for mechanism in mechanisms)
 
 
-def run_intervals(
+def find_run_intervals(
     state: StateEntry, *, where: str
 ) -> tuple[tuple[RunInterval, ...], tuple[Doubt, ...]]:
     """The time of each run: from the first record of a test to the first that names another.

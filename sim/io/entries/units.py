@@ -16,7 +16,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.units import UNITS
 from sim.io.entries.entry import NEEDED, Entry
-from sim.io.entries.names import words_of
+from sim.io.entries.names import split_words
 from sim.io.format import ReadOptions
 
 _WORDS = {  # unit of ours -> what others call it
@@ -76,7 +76,7 @@ class EntryScale:
     doubts: tuple[Doubt, ...]
 
 
-def said_unit(metadata: str) -> str:
+def find_unit_in_metadata(metadata: str) -> str:
     """The unit a piece of metadata names, as written; empty if it names none."""
     text = metadata.strip()
     if not text.startswith("{"):
@@ -91,35 +91,39 @@ def said_unit(metadata: str) -> str:
     return found.strip() if isinstance(found, str) else ""
 
 
-def stated_unit(text: str, signal: str) -> StatedUnit | None:
+def parse_signal_unit(text: str, signal: str) -> StatedUnit | None:
     """What the unit of a signal is; None if it is not understood."""
-    read = {"voltage": voltage_unit, "position": position_unit, "velocity": velocity_unit}
+    read = {
+        "voltage": parse_voltage_unit,
+        "position": parse_position_unit,
+        "velocity": parse_velocity_unit,
+    }
     return read[signal](text) if signal in read else None
 
 
-def unit_text(entry: Entry, signal: str) -> str:
+def find_unit_text(entry: Entry, signal: str) -> str:
     """The unit that metadata states, or else the end of a name; empty if neither."""
-    text = said_unit(entry.metadata)
+    text = find_unit_in_metadata(entry.metadata)
     if text:
         return text
-    words = words_of(re.split(r"[/:]", entry.name)[-1])
+    words = split_words(re.split(r"[/:]", entry.name)[-1])
     ends = (" ".join(words[first:]) for first in range(len(words)))
-    return next((end for end in ends if stated_unit(end, signal)), "")
+    return next((end for end in ends if parse_signal_unit(end, signal)), "")
 
 
-def voltage_unit(text: str) -> StatedUnit | None:
+def parse_voltage_unit(text: str) -> StatedUnit | None:
     """What a voltage's unit is; None if it is not understood."""
     factor = VOLTAGES.get(text.lower())
     return StatedUnit(VOLTS, factor) if factor else None
 
 
-def position_unit(text: str) -> StatedUnit | None:
+def parse_position_unit(text: str) -> StatedUnit | None:
     """What a position's unit is; None if it is not understood."""
     found = LENGTHS.get(text.lower())
     return StatedUnit(*found) if found else None
 
 
-def velocity_unit(text: str) -> StatedUnit | None:
+def parse_velocity_unit(text: str) -> StatedUnit | None:
     """What a velocity's unit is; None if it is not understood."""
     plain = re.sub(r"[_\s]+", " ", text.lower().replace("/", " per "))
     length, _, per = SHORT.get(plain, plain).partition(" per ")
@@ -127,14 +131,14 @@ def velocity_unit(text: str) -> StatedUnit | None:
     return StatedUnit(found[0], found[1] * rate) if found and rate else None
 
 
-def scale_of(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str) -> EntryScale:
+def choose_scale(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str) -> EntryScale:
     """In which unit a motor was logged: what a person says, else its metadata, else the default.
 
     Raises:
         BadRequest: its position is an angle and its velocity a length, or the other way round.
     """
-    texts = {signal: unit_text(signals[signal], signal) for signal in NEEDED}
-    said = {signal: stated_unit(text, signal) for signal, text in texts.items()}
+    texts = {signal: find_unit_text(signals[signal], signal) for signal in NEEDED}
+    said = {signal: parse_signal_unit(text, signal) for signal, text in texts.items()}
     stated = [found.units for found in (said["position"], said["velocity"]) if found]
     if asked.units is None and len({UNITS[units].angular for units in stated}) > 1:
         raise BadRequest(

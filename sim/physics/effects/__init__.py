@@ -5,18 +5,23 @@ from typing import cast
 
 from sim.core.errors import BadRequest
 from sim.physics.effect import Effect
-from sim.support.catalogue import members
+from sim.support.catalogue import list_members
 
 EFFECTS: dict[str, Effect] = {
-    name: cast("Effect", module.EFFECT) for name, module in members(sys.modules[__name__]).items()
+    name: cast("Effect", module.EFFECT)
+    for name, module in list_members(sys.modules[__name__]).items()
 }
 
 
-def effect(name: str) -> Effect:
+def find_effect(name: str) -> Effect:
     """Look up an effect.
 
     Raises:
         BadRequest: no such effect; the message lists those there are.
+
+    Examples:
+        >>> find_effect("drag").names
+        ('drag',)
     """
     if name not in EFFECTS:
         raise BadRequest(f"unknown effect {name!r}", advice=f"Choose one of: {', '.join(EFFECTS)}.")

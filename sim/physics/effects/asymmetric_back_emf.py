@@ -16,14 +16,14 @@ def force(v: float, lean: float) -> float:
     return lean * abs(v)
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """An eighth of kV, for size 1."""
     return {"lean": 0.125 * scale.kv * size}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The share of |v| in what is missing."""
-    (lean,) = seen.share(np.abs(seen.velocity))
+    (lean,) = seen.fit_columns(np.abs(seen.velocity))
     yield {"lean": float(lean)}
 
 
@@ -41,8 +41,8 @@ EFFECT = Effect(
         "asymmetric-friction": "Compare two speeds: back-EMF's difference grows with speed.",
         "constant-load": "Compare two speeds: a load's difference does not grow with speed.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"force": force},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"force": force},
     symmetric=False,
 )

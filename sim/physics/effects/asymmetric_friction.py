@@ -20,18 +20,18 @@ def coulomb_friction(way: float, lean: float) -> float:
     return lean * way
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """Two thirds of kS, for size 1."""
     return {"lean": 0.67 * scale.ks * size}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The mean of what is missing: more forward, less in reverse."""
-    (lean,) = seen.share(np.ones_like(seen.missing))
+    (lean,) = seen.fit_columns(np.ones_like(seen.missing))
     yield {"lean": float(lean)}
 
 
-def everyday(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float]) -> bool:
     """No gear and no bearing runs alike both ways."""
     return abs(values["lean"]) <= EVERYDAY
 
@@ -49,9 +49,9 @@ EFFECT = Effect(
         "the two are the same.",
         "asymmetric-back-emf": "Compare two speeds: friction's difference stays, back-EMF's grows.",
     },
-    example=ordinary,
-    starts=starts,
-    everyday=everyday,
-    acts={"coulomb_friction": coulomb_friction},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    is_ordinary=is_ordinary,
+    hooks={"coulomb_friction": coulomb_friction},
     symmetric=False,
 )

@@ -15,26 +15,26 @@ MOMENTS = (0.001, 0.002, 0.004, 0.008, 0.016, 0.03)  # [s] that a log can show a
 LIGHT, HEAVY = 0.2, 0.5  # [1] shares of the motor: a search from one seldom finds the other
 
 
-def slack(slack: float) -> float:
+def backlash_gap(slack: float) -> float:
     """[unit] from tooth to tooth."""
     return slack
 
 
-def share(share: float) -> float:
+def motor_inertia_share(share: float) -> float:
     """[1] of the inertia on the motor's side."""
     return share
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """The way of 10 ms at the speed of a step, a quarter of the inertia before it, for size 1."""
     return {"slack": 0.01 * scale.speed * size, "share": 0.25}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Ways of some milliseconds at the top speed; how heavy the motor is shows beside all of kA."""
     for share in (LIGHT, HEAVY):
         for moment in MOMENTS:
-            yield {"slack": moment * max(seen.speed, 1e-6), "share": share}
+            yield {"slack": moment * max(seen.top_speed, 1e-6), "share": share}
 
 
 EFFECT = Effect(
@@ -52,7 +52,7 @@ EFFECT = Effect(
         "compliance": "Turn at two sizes of step, logged at 5 ms: play stays, a spring gives more.",
         "stribeck": "A triangle: play shows at each turn, Stribeck friction at each start.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"slack": slack, "share": share},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"backlash_gap": backlash_gap, "motor_inertia_share": motor_inertia_share},
 )

@@ -24,22 +24,22 @@ def transform_voltage(u: float, v: float, kv: float, share: float) -> float:
     return emf + (u - emf) / (1.0 + share * duty * duty)
 
 
-def ordinary(_: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
     """Four Kraken X60 on 20 milliohms, for size 1."""
     return {"share": 2.4 * size}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """What is missing where much current flows, and two sizes to try besides."""
     duty = np.minimum(np.abs(seen.voltage) / NOMINAL, 1.0)
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
-    (share,) = seen.share(torque * duty**2)
+    (share,) = seen.fit_columns(torque * duty**2)
     yield {"share": float(np.clip(share, 0.05, 30.0))}
     yield {"share": 1.0}
     yield {"share": 6.0}
 
 
-def everyday(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float]) -> bool:
     """What a good battery and good plugs make of it."""
     return values["share"] <= EVERYDAY
 
@@ -56,9 +56,9 @@ EFFECT = Effect(
         "drag": "Add a second step level, or log the applied voltage: sag grows with the step.",
         "current-limit": "Add a second step level: a limit cuts at one current, sag bends.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"transform_voltage": transform_voltage},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"transform_voltage": transform_voltage},
     order=3,
-    everyday=everyday,
+    is_ordinary=is_ordinary,
 )

@@ -25,28 +25,28 @@ def force(x: float, cosine: float, sine: float, turns: float) -> float:
     return cosine * math.cos(turns * x) + sine * math.sin(turns * x)
 
 
-def stored(x: float, cosine: float, sine: float, turns: float) -> float:
+def stored_energy(x: float, cosine: float, sine: float, turns: float) -> float:
     """[V·unit] held at a place."""
     return (cosine * math.sin(turns * x) - sine * math.cos(turns * x)) / turns
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """A fifth of a volt, twelve times along the travel, for size 1."""
     turns = 2.0 * math.pi * 12.0 / scale.reach
     return {"cosine": 0.16 * size, "sine": 0.12 * size, "turns": turns}
 
 
-def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+def fastest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
     """[s] in which one period passes at the speed of 6 V, over 2π."""
     return gains["kV"] / (6.0 * max(values["turns"], 1e-9))
 
 
-def span(values: Mapping[str, float]) -> float:
+def shortest_length(values: Mapping[str, float]) -> float:
     """[unit] a period over 2π."""
     return 1.0 / max(values["turns"], 1e-9)
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The strongest lines in the spectrum of what is missing over position.
 
     What comes back less than four times is not seen to come back: a bump, or a brake along a part
@@ -57,12 +57,12 @@ def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         return
     tried = 2.0 * math.pi * np.arange(FEWEST, MOST, FINER) / length
     some = slice(None, None, max(seen.position.size // ENOUGH, 1))
-    few = seen.every(some)
+    few = seen.thin(some)
     turned = np.exp(1j * (tried[1] - tried[0]) * few.position)  # by which each wave is ahead
     waves = np.repeat(turned[:, None], tried.size, axis=1)
     waves[:, 0] = np.exp(1j * tried[0] * few.position)
     waves = np.multiply.accumulate(waves, axis=1)
-    cosine, sine = few.shares(waves.real, waves.imag)
+    cosine, sine = few.fit_column_sums(waves.real, waves.imag)
     left = np.hypot(cosine, sine)
     for _ in range(SHOWN):
         best = int(np.argmax(left))
@@ -74,7 +74,7 @@ def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         left[max(best - 3, 0) : best + 4] = 0.0
 
 
-def everyday(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float]) -> bool:
     """The ripple that teeth and magnets leave in any mechanism."""
     return math.hypot(values["cosine"], values["sine"]) <= EVERYDAY
 
@@ -97,12 +97,12 @@ EFFECT = Effect(
         "compliance": "Run at another speed: cogging keeps its places, a vibration its times.",
         "gravity-cosine": "Use the full travel: gravity has one wave per turn of the arm.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"force": force},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"force": force},
     symmetric=False,
-    stores=stored,
-    pace=pace,
-    span=span,
-    everyday=everyday,
+    stored_energy=stored_energy,
+    fastest_time=fastest_time,
+    shortest_length=shortest_length,
+    is_ordinary=is_ordinary,
 )

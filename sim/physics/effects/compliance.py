@@ -18,23 +18,23 @@ two of them a search finds its way, unless the motor is light; up to 43 Hz, whic
 LIGHT, HALF = 0.15, 0.5  # [1] shares of the motor: a search from one seldom finds the other
 
 
-def softness(softness: float) -> float:
+def joint_compliance(softness: float) -> float:
     """[unit/V] that it gives."""
     return softness
 
 
-def share(share: float) -> float:
+def motor_inertia_share(share: float) -> float:
     """[1] of the inertia on the motor's side."""
     return share
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """The load swings at 5 Hz on a motor that is held, for size 1; slower for more."""
     stiff = 0.7 * scale.ka * (2.0 * math.pi * 5.0) ** 2
     return {"softness": size / stiff, "share": 0.3}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Swings of every pace that a log can show, of a light motor and of half the inertia."""
     for share in (LIGHT, HALF):
         reduced = share * (1.0 - share) * abs(seen.gains["kA"])
@@ -58,7 +58,7 @@ EFFECT = Effect(
         "backlash": "Turn at two sizes of step, logged at 5 ms: a spring gives more, play stays.",
         "cogging": "Run at another speed: a vibration keeps its times, cogging its places.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"softness": softness, "share": share},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"joint_compliance": joint_compliance, "motor_inertia_share": motor_inertia_share},
 )

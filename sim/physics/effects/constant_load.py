@@ -20,23 +20,23 @@ def force(load: float) -> float:
     return load
 
 
-def stored(x: float, load: float) -> float:
+def stored_energy(x: float, load: float) -> float:
     """[V·unit] of lifting it."""
     return load * x
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """An eighth of the step, for size 1."""
     return {"load": 0.125 * scale.step * size}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The mean of what is missing."""
-    (load,) = seen.share(np.ones_like(seen.missing))
+    (load,) = seen.fit_columns(np.ones_like(seen.missing))
     yield {"load": float(load)}
 
 
-def everyday(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float]) -> bool:
     """No floor is level, and no gear runs alike both ways."""
     return abs(values["load"]) <= EVERYDAY
 
@@ -55,10 +55,10 @@ EFFECT = Effect(
         "spring": "Use the full travel: a spring's force changes with position.",
         "gravity-cosine": "Use the full travel: gravity on an arm changes with its angle.",
     },
-    example=ordinary,
-    starts=starts,
-    everyday=everyday,
-    acts={"force": force},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    is_ordinary=is_ordinary,
+    hooks={"force": force},
     symmetric=False,
-    stores=stored,
+    stored_energy=stored_energy,
 )

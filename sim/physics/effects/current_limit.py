@@ -19,12 +19,12 @@ def transform_voltage(u: float, v: float, kv: float, limit: float) -> float:
     return emf + min(max(u - emf, -limit), limit)
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """Just over half of the step, for size 1."""
     return {"limit": max(0.55 * scale.step / size, 1.2 * scale.ks)}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The torque volts that the acceleration shows at most, and shares of the largest."""
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     most = float(np.max(np.abs(torque), initial=0.0))
@@ -48,8 +48,8 @@ EFFECT = Effect(
         "battery-sag": "Add a second step level: a limit cuts at one current, sag bends.",
         "delay": "Log at 5 ms, or add a second step level: a delay is the same for both.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"transform_voltage": transform_voltage},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"transform_voltage": transform_voltage},
     order=4,
 )

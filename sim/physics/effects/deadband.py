@@ -20,17 +20,17 @@ def transform_voltage(u: float, band: float) -> float:
     return u if abs(u) >= band else 0.0
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """A third of a volt beyond what friction holds anyway, for size 1."""
     return {"band": scale.ks + 0.33 * size}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The voltages at which the ramps began to move: it acts by a threshold, so a grid is due.
 
     What a load draws along moves before any voltage does, until a ramp turns it.
     """
-    started = STARTED * seen.speed
+    started = STARTED * seen.top_speed
     onset = [
         abs(float(run.voltage[np.argmax(run.velocity * np.sign(run.voltage) > started)]))
         for run in seen.log.runs
@@ -53,8 +53,8 @@ EFFECT = Effect(
         "stribeck": "Let the voltage fall (triangle, coast): a deadband cuts it off.",
         "delay": "Compare two ramps: a deadband starts at one voltage, a delay after one time.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"transform_voltage": transform_voltage},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"transform_voltage": transform_voltage},
     order=1,
 )

@@ -15,21 +15,21 @@ from sim.physics.voltage_residual import VoltageResidual
 EVERYDAY = 0.006  # [s]
 
 
-def late(lag: float) -> float:
+def command_delay(lag: float) -> float:
     """[s] by which a command comes late."""
     return lag
 
 
-def ordinary(_: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
     """A loop and a half of the robot program, for size 1."""
     return {"lag": 0.03 * size}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """A late command looks like missing volts where the voltage changes; and a few to try."""
     steps = []
     for run in seen.log.runs:
-        moving = np.abs(run.velocity) > 0.05 * seen.speed
+        moving = np.abs(run.velocity) > 0.05 * seen.top_speed
         if run.kind == "dynamic" and moving.any():
             steps.append(float(run.time[np.argmax(moving)] - run.time[0]))
     if steps:
@@ -39,7 +39,7 @@ def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         yield {"lag": lag}
 
 
-def everyday(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float]) -> bool:
     """What a CAN bus and a loop of 200 Hz make of it anyway."""
     return values["lag"] <= EVERYDAY
 
@@ -57,8 +57,8 @@ EFFECT = Effect(
         "current-limit": "Log at 5 ms, or add a second step level.",
         "deadband": "Compare two ramps: a deadband starts at one voltage, a delay after one time.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"late": late},
-    everyday=everyday,
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"command_delay": command_delay},
+    is_ordinary=is_ordinary,
 )

@@ -16,15 +16,15 @@ def force(v: float, drag: float) -> float:
     return drag * v * abs(v)
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """Half a volt at the speed of an ordinary step, for size 1."""
     return {"drag": 0.5 * size / scale.speed**2}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The share of v·|v| in what is missing."""
-    (drag,) = seen.share(seen.velocity * abs(seen.velocity))
-    yield {"drag": max(float(drag), 0.05 / max(seen.speed, 1e-9) ** 2)}
+    (drag,) = seen.fit_columns(seen.velocity * abs(seen.velocity))
+    yield {"drag": max(float(drag), 0.05 / max(seen.top_speed, 1e-9) ** 2)}
 
 
 EFFECT = Effect(
@@ -40,7 +40,7 @@ EFFECT = Effect(
         "stribeck": "A faster ramp or step: drag keeps growing, Stribeck friction stays small.",
         "voltage-limit": "A coast: drag slows it while no voltage is applied.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"force": force},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"force": force},
 )

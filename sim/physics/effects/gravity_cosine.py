@@ -19,30 +19,30 @@ def force(x: float, level: float, upright: float) -> float:
     return level * math.cos(x) + upright * math.sin(x)
 
 
-def stored(x: float, level: float, upright: float) -> float:
+def stored_energy(x: float, level: float, upright: float) -> float:
     """[V·rad] of lifting it."""
     return level * math.sin(x) - upright * math.cos(x)
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """A seventh of the step when level, with the zero a little off, for size 1."""
     return {"level": 0.14 * scale.step * size, "upright": 0.04 * scale.step * size}
 
 
-def only_angles(scale: Scale) -> str:
+def require_angle(scale: Scale) -> str:
     """Positions in meters have no cosine."""
     return "" if scale.angular else "its positions are lengths, not angles"
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The shares of cos x and sin x in what is missing."""
     if not seen.position.size:
         return
-    level, upright = seen.share(np.cos(seen.position), np.sin(seen.position))
+    level, upright = seen.fit_columns(np.cos(seen.position), np.sin(seen.position))
     yield {"level": float(level), "upright": float(upright)}
 
 
-def simplified(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
+def simplify(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
     """A straight line over position, as steep as the cosine in the middle of the way."""
     middle = float(np.median(seen.position)) if seen.position.size else 0.0
     pull_there = values["level"] * math.cos(middle) + values["upright"] * math.sin(middle)
@@ -65,12 +65,12 @@ EFFECT = Effect(
         "spring": "Use the full travel, or start elsewhere: a cosine bends, a spring does not.",
         "constant-load": "Use the full travel: a constant load does not change with the angle.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"force": force},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"force": force},
     symmetric=False,
-    stores=stored,
-    cannot=only_angles,
+    stored_energy=stored_energy,
+    reason_against=require_angle,
     simpler="spring",
-    simplified=simplified,
+    simplify=simplify,
 )

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.physics.effect import Effect, Parameter, Scale
-from sim.physics.voltage_residual import VoltageResidual, share_a_clock
+from sim.physics.voltage_residual import VoltageResidual, shares_clock
 
 COOLING = 90.0  # [s] in which a motor's winding gives its heat to the case
 
@@ -23,27 +23,27 @@ def transform_voltage(u: float, v: float, kv: float, memory: float) -> float:
     return emf + (u - emf) / (1.0 + memory)
 
 
-def remembers(memory: float, dt: float, u: float, v: float, kv: float, rate: float) -> float:
+def update_memory(memory: float, dt: float, u: float, v: float, kv: float, rate: float) -> float:
     """[1] the winding's resistance beyond a cold one's, as a share."""
     drop = (u - kv * v) * (1.0 + memory)
     fade = math.exp(-dt / COOLING)
     return memory * fade + rate * drop * drop * COOLING * (1.0 - fade)
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """A tenth more resistance after ten seconds under a quarter of the step, for size 1."""
     return {"rate": 0.01 * size / (0.25 * scale.step) ** 2}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """How much missing volts go with the heat made so far."""
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     steps = np.diff(seen.clock, prepend=seen.clock[:1])
     heat = np.cumsum(np.clip(steps, 0.0, 0.1) * torque**2)
-    if not share_a_clock(seen.log):  # each run began cold
+    if not shares_clock(seen.log):  # each run began cold
         begins = np.searchsorted(seen.run, seen.run)
         heat -= heat[begins]
-    (rate,) = seen.share(torque * heat)
+    (rate,) = seen.fit_columns(torque * heat)
     yield {"rate": float(np.clip(rate, 1e-4, 1.0))}
     yield {"rate": 0.003}
     yield {"rate": 0.02}
@@ -62,8 +62,8 @@ EFFECT = Effect(
         "once.",
         "battery-sag": "Repeat the first test at the end: heat stays, sag does not.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"transform_voltage": transform_voltage, "remembers": remembers},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"transform_voltage": transform_voltage, "update_memory": update_memory},
     order=5,
 )

@@ -37,21 +37,21 @@ def impact(shared: float) -> float:
     return shared
 
 
-def changes(clock: float, onset: float, until: float) -> float:
+def next_change(clock: float, onset: float, until: float) -> float:
     """[s] of the clock at which it begins or ends."""
     if clock < onset:
         return onset
     return until if clock < until else math.inf
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """Half as much again, from about the first dynamic test of a routine on, for size 1."""
     ramps = 2.0 * min(10.0, math.sqrt(2.0 * scale.reach * scale.kv / RAMP)) + 2.0
     onset = ramps + 0.3 * scale.reach / scale.speed
     return {"extra": 0.5 * scale.ka * size, "onset": onset, "until": LATER, "shared": 1.0}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The moments at which most changes: in each run to its end, and in the log for good.
 
     Before them, those at which velocity drops from one sample to the next: what joins at rest.
@@ -99,7 +99,7 @@ def _drops(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 def _tried(seen: VoltageResidual, onset: float, until: float) -> tuple[float, float, float, float]:
     """What a change at that moment explains [V²], its size, and the moments."""
     during = (seen.clock >= onset) & (seen.clock < until)
-    extra, gained = seen.explained(np.where(during, seen.acceleration, 0.0))
+    extra, gained = seen.fit_one_column(np.where(during, seen.acceleration, 0.0))
     return gained, extra, onset, until
 
 
@@ -147,7 +147,7 @@ EFFECT = Effect(
         "velocity-filter": "Look at the position: a filter does not change it.",
         "heating": "Repeat the first test at the end: heat grows slowly, a load comes at once.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"added_inertia": added_inertia, "impact": impact, "changes": changes},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"added_inertia": added_inertia, "impact": impact, "next_change": next_change},
 )

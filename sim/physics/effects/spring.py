@@ -18,31 +18,31 @@ def force(x: float, rate: float, preload: float) -> float:
     return rate * x + preload
 
 
-def stored(x: float, rate: float, preload: float) -> float:
+def stored_energy(x: float, rate: float, preload: float) -> float:
     """[V·unit] in the spring."""
     return 0.5 * rate * x * x + preload * x
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """Half a volt from one end to the other, nothing in the middle, for size 1."""
     return {"rate": 0.5 * size / scale.reach, "preload": -0.25 * size}
 
 
-def only_bounded(scale: Scale) -> str:
+def require_travel_limits(scale: Scale) -> str:
     """Without end no spring lasts."""
     return "" if scale.bounded else "it turns without end, and a spring does not"
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """A straight line through what is missing, over position."""
-    if not seen.position.size or seen.endless:
+    if not seen.position.size or seen.is_unbounded:
         return
-    rate, preload = seen.share(seen.position, np.ones_like(seen.position))
+    rate, preload = seen.fit_columns(seen.position, np.ones_like(seen.position))
     least = 0.02 / max(float(np.ptp(seen.position)), 1e-9)
     yield {"rate": max(float(rate), least), "preload": float(preload)}
 
 
-def simplified(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
+def simplify(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
     """The same pull everywhere: that in the middle."""
     middle = float(np.median(seen.position)) if seen.position.size else 0.0
     return {"load": values["rate"] * middle + values["preload"]}
@@ -63,12 +63,12 @@ EFFECT = Effect(
         "gravity-cosine": "Use the full travel, or start elsewhere: a cosine bends.",
         "constant-load": "Use the full travel: a constant load is the same everywhere.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"force": force},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"force": force},
     symmetric=False,
-    stores=stored,
-    cannot=only_bounded,
+    stored_energy=stored_energy,
+    reason_against=require_travel_limits,
     simpler="constant-load",
-    simplified=simplified,
+    simplify=simplify,
 )

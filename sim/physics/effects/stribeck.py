@@ -21,25 +21,25 @@ def coulomb_friction(v: float, extra: float, slow: float) -> float:
     return extra * math.exp(-abs(v) / slow)
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """A quarter of a volt to break away, gone at a tenth of the step's speed, for size 1."""
     return {"extra": 0.25 * size, "slow": 0.08 * scale.speed}
 
 
-def pace(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+def fastest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
     """[s] in which it lets go: falling friction pushes the motion on."""
     return gains["kA"] * values["slow"] / max(values["extra"], 1e-9)
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The best of a few speeds over which it may fade."""
     for part in (0.06, 0.02, 0.2):
-        slow = max(part * seen.speed, 1e-6)
-        (extra,) = seen.share(np.sign(seen.velocity) * np.exp(-np.abs(seen.velocity) / slow))
+        slow = max(part * seen.top_speed, 1e-6)
+        (extra,) = seen.fit_columns(np.sign(seen.velocity) * np.exp(-np.abs(seen.velocity) / slow))
         yield {"extra": max(float(extra), 0.02), "slow": slow}
 
 
-def everyday(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float]) -> bool:
     """Every gearbox starts a little harder than it runs."""
     return values["extra"] <= EVERYDAY
 
@@ -60,9 +60,9 @@ EFFECT = Effect(
         "slows it.",
         "drag": "A faster run: drag grows with speed, Stribeck friction fades.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"coulomb_friction": coulomb_friction},
-    pace=pace,
-    everyday=everyday,
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"coulomb_friction": coulomb_friction},
+    fastest_time=fastest_time,
+    is_ordinary=is_ordinary,
 )

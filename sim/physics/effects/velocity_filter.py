@@ -38,12 +38,12 @@ def transform_velocity(
     return float((position[now] - back) / window)
 
 
-def ordinary(_: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
     """A lag of 40 ms, for size 1."""
     return {"window": 0.08 * size}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """How long the velocity runs behind the slope of the position, and three sizes to try."""
     lags = []
     for run in seen.log.runs:
@@ -71,8 +71,8 @@ EFFECT = Effect(
         "delay": "Look at the position: a delay moves it too, a filter does not.",
         "inertia-change": "Look at the position: its second difference is not filtered.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"transform_velocity": transform_velocity},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"transform_velocity": transform_velocity},
     order=1,
 )

@@ -18,12 +18,12 @@ def transform_velocity(seen: float, scale: float) -> float:
     return scale * seen
 
 
-def ordinary(_: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
     """A tenth too fast, for size 1."""
     return {"scale": 1.0 + 0.1 * size}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The velocity over the slope of the position."""
     way = time = 0.0
     for run in seen.log.runs:
@@ -48,8 +48,8 @@ EFFECT = Effect(
         "asymmetric-back-emf": "Compare velocity and slope of the position: only a scale parts "
         "them.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"transform_velocity": transform_velocity},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"transform_velocity": transform_velocity},
     order=2,
 )

@@ -19,12 +19,12 @@ def transform_voltage(u: float, limit: float) -> float:
     return min(max(u, -limit), limit)
 
 
-def ordinary(scale: Scale, size: float) -> Mapping[str, float]:
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """Four fifths of the step, for size 1."""
     return {"limit": max(scale.step * (1.0 - 0.2 * size), 2.0 * scale.ks)}
 
 
-def starts(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """The voltage that the motion shows at most, and shares of the largest asked for."""
     had = np.abs(seen.voltage - seen.missing)
     most = float(np.max(np.abs(seen.voltage), initial=0.0))
@@ -46,8 +46,8 @@ EFFECT = Effect(
         "drag": "A coast: drag slows it while no voltage is applied, a limit does not.",
         "current-limit": "A ramp: a current limit lets it reach full speed, slowly.",
     },
-    example=ordinary,
-    starts=starts,
-    acts={"transform_voltage": transform_voltage},
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"transform_voltage": transform_voltage},
     order=2,
 )

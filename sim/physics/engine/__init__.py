@@ -15,19 +15,19 @@ import numpy as np
 
 from sim.core.log import Array
 from sim.physics.effects import EFFECTS
-from sim.physics.engine.compose import compose, is_compiled
+from sim.physics.engine.compose import compose_engine, is_compiled
 from sim.physics.engine.kernel import Kernel
 from sim.physics.engine.model_arrays import (
     COARSEST,
     EXACT,
     ORDER,
     effect_arrays,
-    finest_step,
+    find_finest_step,
+    is_pure_delay,
     model_constants,
-    only_delays,
     search_step_limits,
-    slack_of,
     step_limits,
+    total_backlash,
 )
 from sim.physics.engine.run_batch import RunBatch
 from sim.physics.engine.stepping import (
@@ -39,7 +39,7 @@ from sim.physics.engine.stepping import (
     POSITION,
     SEEN,
     VELOCITY,
-    empty,
+    allocate_output,
 )
 from sim.physics.engine.two_body_modes import WAYS
 from sim.physics.model import Model
@@ -48,7 +48,7 @@ __all__ = [
     "COARSEST",
     "EXACT",
     "EXPECTED",
-    "NO_TRUST",
+    "NO_CORRECTION",
     "NO_WIRES",
     "ORDER",
     "RunBatch",
@@ -56,17 +56,17 @@ __all__ = [
     "Track",
     "effect_arrays",
     "engine_is_cached",
-    "finest_step",
-    "follow",
+    "filter_runs",
+    "find_finest_step",
     "load_engine",
     "model_constants",
-    "move",
+    "simulate_run",
 ]  # fmt: skip
 
 ONE_AT_A_TIME = Lock()
 NO_WIRES: Array = np.zeros(9)
 UNSEEN: Array = np.zeros((0, 2))
-NO_TRUST: Array = np.zeros((2, 2))
+NO_CORRECTION: Array = np.zeros((2, 2))
 
 
 @dataclass(eq=False)
@@ -84,7 +84,7 @@ class State:
     clock: float = 0.0
 
     @classmethod
-    def at(cls, position: float, velocity: float = 0.0) -> "State":
+    def cold_at(cls, position: float, velocity: float = 0.0) -> "State":
         """A cold mechanism at a place [m or rad] and a velocity [m/s or rad/s]."""
         return cls(np.array([position, velocity, position, velocity, 0.0]))
 
@@ -114,7 +114,7 @@ class Track:
     expected: Array
 
     @classmethod
-    def of(cls, out: Array) -> "Track":
+    def from_array(cls, out: Array) -> "Track":
         """The motion that the engine wrote, (n, 8)."""
         return cls(
             out[:, POSITION], out[:, VELOCITY], out[:, LOAD_POSITION], out[:, APPLIED],
@@ -122,16 +122,16 @@ class Track:
         )  # fmt: skip
 
     @property
-    def read(self) -> Array:
+    def sensor_readings(self) -> Array:
         """(n, 2) position and velocity as the sensors report them."""
         return np.column_stack((self.position, self.seen))
 
-    def until(self, end: int) -> "Track":
+    def truncate(self, end: int) -> "Track":
         """The first ``end`` samples."""
         return Track(*(getattr(self, one.name)[:end] for one in fields(self)))
 
 
-def move(
+def simulate_run(
     model: Model,
     *,
     time: Array,
@@ -141,7 +141,7 @@ def move(
     step: float | None = None,
     plain: bool = False,
     measured: Array = UNSEEN,
-    trust: Array = NO_TRUST,
+    trust: Array = NO_CORRECTION,
 ) -> Track:
     """Move a model along a voltage.
 
@@ -156,31 +156,45 @@ def move(
         measured: (n, 2) position and velocity that correct the motion as it goes, nan where there
             is none; none goes its way.
         trust: (2, 2) by how much: from both deviations to the corrections of both.
+
+    Examples:
+        >>> time = np.linspace(0.0, 5.0, 251)
+        >>> model = Model("simple", {"kS": 0.2, "kV": 2.0, "kA": 0.5})
+        >>> track = simulate_run(model, time=time, voltage=np.full(251, 6.2), state=State())
+        >>> float(track.velocity[-1].round(3))  # (6.2 V - kS)/kV [m/s]
+        3.0
     """
     on, parameters = effect_arrays(model)
-    out = empty(time.size)
-    simple = not wires.any() and model.type != "arm" and all(map(only_delays, model.parts))
+    out = allocate_output(time.size)
+    simple = not wires.any() and model.type != "arm" and all(map(is_pure_delay, model.parts))
     longest = EXACT if simple else step_limits(model)
     if step:
         longest = np.array([step, math.inf, step])
-    kernel = _plain() if plain else _compiled()
+    kernel = _plain_engine() if plain else _compiled_engine()
     kernel.move(
-        np.array([0.0, time.size]), _doubles(time), _doubles(voltage), state.body[None],
+        np.array([0.0, time.size]), _as_contiguous(time), _as_contiguous(voltage), state.body[None],
         np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1),
         model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
-        np.array([state.clock]), longest, simple, _doubles(measured), _doubles(trust), out,
+        np.array([state.clock]), longest, simple, _as_contiguous(measured), _as_contiguous(trust),
+        out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
-    return Track.of(out)
+    return Track.from_array(out)
 
 
-def _doubles(array: Array) -> Array:
+def _as_contiguous(array: Array) -> Array:
     """The same numbers, in one piece."""
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-def follow(
-    model: Model, course: RunBatch, *, trust: Array, beside: Array, meshed: Array, rubs: Array
+def filter_runs(
+    model: Model,
+    batch: RunBatch,
+    *,
+    kalman_gain: Array,
+    position_offset: Array,
+    backlash_phase: Array,
+    friction_offset: Array,
 ) -> Array:
     """Move a model along many runs, quickly: what a search does some hundred times a second.
 
@@ -189,35 +203,36 @@ def follow(
 
     Args:
         model: what moves.
-        course: the runs.
-        trust: (2, 2) by how much measurements correct; ``NO_TRUST`` leaves it alone.
-        beside: (runs,) [m or rad] by which each begins, and has its stops, beside where it says.
-        meshed: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where a weight
-            decides.
-        rubs: (runs,) [V] dry friction of each beyond kS.
+        batch: the runs.
+        kalman_gain: (2, 2) by how much measurements correct; ``NO_CORRECTION`` leaves it alone.
+        position_offset: (runs,) [m or rad] by which each begins, and has its stops, beside where it
+            says.
+        backlash_phase: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where a
+            weight decides.
+        friction_offset: (runs,) [V] dry friction of each beyond kS.
 
     Returns:
         (n, 8) of all runs, one after another, as ``Track.of`` takes it; the last two columns, from
         ``EXPECTED`` on, are what was expected before a measurement corrected it.
     """
     on, parameters = effect_arrays(model)
-    simple = model.type != "arm" and all(map(only_delays, model.parts))
+    simple = model.type != "arm" and all(map(is_pure_delay, model.parts))
     longest = EXACT if simple else search_step_limits(model)
-    begin = course.position + beside
-    load = begin - 0.5 * slack_of(model) * _leans(model, begin, meshed)
-    bodies = np.column_stack([begin, course.velocity, load, course.velocity, np.zeros(begin.size)])
-    aside = beside + (load - begin)
-    out = empty(course.time.size)
-    _compiled().move(
-        course.edges, course.time, course.voltage, bodies, course.low + aside, course.high + aside,
-        _doubles(rubs), course.sessions, model_constants(model), NO_WIRES, on, parameters,
-        np.zeros(len(EFFECTS)), np.zeros(WAYS), course.clocks, longest, simple,
-        course.measured if trust.any() else UNSEEN, _doubles(trust), out,
+    begin = batch.position + position_offset
+    load = begin - 0.5 * total_backlash(model) * _backlash_position(model, begin, backlash_phase)
+    bodies = np.column_stack([begin, batch.velocity, load, batch.velocity, np.zeros(begin.size)])
+    aside = position_offset + (load - begin)
+    out = allocate_output(batch.time.size)
+    _compiled_engine().move(
+        batch.edges, batch.time, batch.voltage, bodies, batch.low + aside, batch.high + aside,
+        _as_contiguous(friction_offset), batch.sessions, model_constants(model), NO_WIRES, on,
+        parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS), batch.clocks, longest, simple,
+        batch.measured if kalman_gain.any() else UNSEEN, _as_contiguous(kalman_gain), out,
     )  # fmt: skip
     return out
 
 
-def _leans(model: Model, position: Array, meshed: Array) -> Array:
+def _backlash_position(model: Model, position: Array, meshed: Array) -> Array:
     """(runs,) where in its free play each motor is: a weight hangs on its motor's teeth."""
     load = np.full(position.size, model.gains.get("kG", 0.0))
     if model.type == "arm":
@@ -233,23 +248,23 @@ def engine_is_cached() -> bool:
 def load_engine() -> None:
     """Compile the engine, or load it."""
     gains = {"kS": 0.0, "kV": 1.0, "kA": 1.0}
-    move(Model("simple", gains), time=np.zeros(1), voltage=np.zeros(1), state=State())
+    simulate_run(Model("simple", gains), time=np.zeros(1), voltage=np.zeros(1), state=State())
 
 
-def _compiled() -> Kernel | ModuleType:
+def _compiled_engine() -> Kernel | ModuleType:
     """The compiled engine, made once whoever asks first."""
     with ONE_AT_A_TIME:
-        return _made()
+        return _build_engine()
 
 
 @cache
-def _made() -> Kernel | ModuleType:
+def _build_engine() -> Kernel | ModuleType:
     """The compiled engine; a person at a terminal is told why the first time takes a while."""
     if sys.stderr.isatty() and not engine_is_cached():
         sys.stderr.write("Compiling the simulation, once; this takes about ten seconds…\n")
-    return compose(EFFECTS)
+    return compose_engine(EFFECTS)
 
 
 @cache
-def _plain() -> Kernel | ModuleType:
-    return compose(EFFECTS, compiled=False)
+def _plain_engine() -> Kernel | ModuleType:
+    return compose_engine(EFFECTS, compiled=False)

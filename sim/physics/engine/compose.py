@@ -25,19 +25,19 @@ CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets t
 
 HOOKS: Mapping[str, tuple[str, str, str]] = {
     # hook: arguments of the composed function, value to begin with, how an effect's answer joins
-    "late": ("on, p", "0.0", "{0} + {1}"),
+    "command_delay": ("on, p", "0.0", "{0} + {1}"),
     "transform_voltage": ("on, p, memory, u, v, kv", "u", "{1}"),
     "force": ("on, p, x, v", "0.0", "{0} + {1}"),
     "coulomb_friction": ("on, p, v, way", "0.0", "{0} + {1}"),
     "added_inertia": ("on, p, clock", "0.0", "{0} + {1}"),
     "impact": ("on, p", "0.0", "max({0}, {1})"),
-    "changes": ("on, p, clock", "math.inf", "min({0}, {1})"),
-    "slack": ("on, p", "0.0", "{0} + {1}"),
-    "softness": ("on, p", "0.0", "{0} + {1}"),
-    "share": ("on, p", "0.0", "max({0}, {1})"),
+    "next_change": ("on, p, clock", "math.inf", "min({0}, {1})"),
+    "backlash_gap": ("on, p", "0.0", "{0} + {1}"),
+    "joint_compliance": ("on, p", "0.0", "{0} + {1}"),
+    "motor_inertia_share": ("on, p", "0.0", "max({0}, {1})"),
     "transform_velocity": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
 }
-SHAPES = {  # of the arrays that `runs` asks for, but for what effects remember
+SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects remember
     "edges": "(count + 1,)",
     "time": "(n,)",
     "asked": "(n,)",
@@ -68,7 +68,7 @@ def parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
     return found
 
 
-def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel | ModuleType:
+def compose_engine(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel | ModuleType:
     """The engine for these effects: something with ``move``.
 
     Args:
@@ -79,16 +79,16 @@ def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel |
         BadRequest: an effect is written wrongly; the message says which, and what is wrong.
     """
     for name, effect in effects.items():
-        if wrong := effect.faults():
+        if wrong := effect.contract_breaches():
             raise BadRequest(
                 wrong[0],
                 where=f"effect {name}",
-                advice="Compare with sim/physics/effects/drag.py, and with ASKS in "
+                advice="Compare with sim/physics/effects/drag.py, and with HOOK_ARGUMENTS in "
                 "sim/physics/effect.py.",
             )
-    text = "\n".join(_text(effects, compiled=compiled))
+    text = "\n".join(_engine_lines(effects, compiled=compiled))
     if compiled:
-        return load_kernel(text, kernel_file(cache_folder(), _seal(effects, text)))
+        return load_kernel(text, kernel_file(cache_folder(), _engine_hash(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
     return module
@@ -96,21 +96,21 @@ def compose(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel |
 
 def is_compiled(effects: Mapping[str, Effect]) -> bool:
     """Whether an engine for these effects waits in the cache."""
-    text = "\n".join(_text(effects, compiled=True))
-    return kernel_file(cache_folder(), _seal(effects, text)).is_file()
+    text = "\n".join(_engine_lines(effects, compiled=True))
+    return kernel_file(cache_folder(), _engine_hash(effects, text)).is_file()
 
 
-def _seal(effects: Mapping[str, Effect], text: str) -> str:
+def _engine_hash(effects: Mapping[str, Effect], text: str) -> str:
     """What is different for every other engine: its text, and that of the effects' functions."""
     sources = [
         inspect.getsource(sys.modules[act.__module__])
         for effect in effects.values()
-        for act in effect.acts.values()
+        for act in effect.hooks.values()
     ]
     return hashlib.sha256("\n".join([text, *sources]).encode()).hexdigest()
 
 
-def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
+def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     """The lines of the module."""
     yield '"""Composed by compose.py."""'
     yield "from __future__ import annotations"
@@ -122,19 +122,19 @@ def _text(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     else:
         yield "step = lambda function: function"
     for effect in effects.values():
-        for hook, act in effect.acts.items():
+        for hook, act in effect.hooks.items():
             yield f"import {act.__module__}"
             yield f"{_alias(effect, hook)} = step({act.__module__}.{act.__name__})"
     at = parameter_slices(effects)
     for hook in HOOKS:
-        yield from _chain(hook, effects, at)
-    yield from _memories(effects, at)
+        yield from _hook_lines(hook, effects, at)
+    yield from _memory_lines(effects, at)
     for module in MODULES:
-        yield from _body(module)
-    yield from _entry(effects, compiled=compiled)
+        yield from _module_lines(module)
+    yield from _entry_lines(effects, compiled=compiled)
 
 
-def _chain(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
+def _hook_lines(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
     """One function that asks every effect that is on."""
     arguments, first, joins = HOOKS[hook]
     yield "@step"
@@ -146,27 +146,27 @@ def _chain(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) ->
     yield f"        return {running}"
     for name in sorted(effects, key=lambda name: effects[name].order):
         effect = effects[name]
-        if hook in effect.acts:
+        if hook in effect.hooks:
             answer = _call(effect, hook, at[name], order.index(name))
             yield f"    if on[{order.index(name)}] != 0.0:"
             yield f"        {running} = {joins.format(running, answer)}"
     yield f"    return {running}"
 
 
-def _memories(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
+def _memory_lines(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
     yield "@step"
-    yield "def remembers(on, p, memory, dt, u, v, kv):"
+    yield "def update_memory(on, p, memory, dt, u, v, kv):"
     yield f"    if on[{len(effects) + len(HOOKS)}] == 0.0:"
     yield "        return"
     for place, (name, effect) in enumerate(effects.items()):
-        if "remembers" in effect.acts:
+        if "update_memory" in effect.hooks:
             yield f"    if on[{place}] != 0.0:"
-            yield f"        memory[{place}] = {_call(effect, 'remembers', at[name], place)}"
+            yield f"        memory[{place}] = {_call(effect, 'update_memory', at[name], place)}"
 
 
-def _entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
+def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
     """What is called from outside: arrays that stay the same through all runs become tuples."""
-    asked = list(inspect.signature(stepping.runs).parameters)
+    asked = list(inspect.signature(stepping.step_runs).parameters)
     sizes = {
         "c": CONSTANTS,
         "w": WIRES,
@@ -177,7 +177,7 @@ def _entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
         name: f"({', '.join(f'{name}[{place}]' for place in range(size))},)"
         for name, size in sizes.items()
     }
-    if compiled:  # as CALLED in kernel.py: three lengths, then what `runs` asks for
+    if compiled:  # as CALLED in kernel.py: three lengths, then what `step_runs` asks for
         shapes = {**SHAPES, "memory": f"({len(effects)},)"}
         given |= {name: f"carray({name}, {shape})" for name, shape in shapes.items()}
         given["plain"] = "plain != 0"
@@ -188,14 +188,14 @@ def _entry(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
         yield f"def move(count, n, rows, {', '.join(asked)}):"
     else:
         yield f"def move({', '.join(asked)}):"
-    yield f"    runs({', '.join(given.get(name, name) for name in asked)})"
+    yield f"    step_runs({', '.join(given.get(name, name) for name in asked)})"
 
 
 def _call(effect: Effect, hook: str, at: slice, place: int) -> str:
     """The call of an effect's function, with what it asks for."""
     given = {name: f"p[{at.start + n}]" for n, name in enumerate(effect.names)}
     given["memory"] = f"memory[{place}]"
-    asked = inspect.signature(effect.acts[hook]).parameters
+    asked = inspect.signature(effect.hooks[hook]).parameters
     return f"{_alias(effect, hook)}({', '.join(given.get(name, name) for name in asked)})"
 
 
@@ -203,7 +203,7 @@ def _alias(effect: Effect, hook: str) -> str:
     return f"_{effect.name.replace('-', '_')}_{hook}"
 
 
-def _body(module: ModuleType) -> Iterator[str]:
+def _module_lines(module: ModuleType) -> Iterator[str]:
     """A module's text without its imports, each function made a compiled one."""
     text = inspect.getsource(module)
     imports = [one for one in ast.parse(text).body if isinstance(one, ast.Import | ast.ImportFrom)]

@@ -17,7 +17,7 @@ they hold the numbers.
 """
 
 
-def late(on: Numbers, p: Numbers) -> float:
+def command_delay(on: Numbers, p: Numbers) -> float:
     """[s] by which a command comes late."""
     return 0.0
 
@@ -49,27 +49,27 @@ def impact(on: Numbers, p: Numbers) -> float:
     return 0.0
 
 
-def changes(on: Numbers, p: Numbers, clock: float) -> float:
+def next_change(on: Numbers, p: Numbers, clock: float) -> float:
     """[s] of the clock at which something happens next."""
     return math.inf
 
 
-def slack(on: Numbers, p: Numbers) -> float:
+def backlash_gap(on: Numbers, p: Numbers) -> float:
     """[unit] of free play between motor and load."""
     return 0.0
 
 
-def softness(on: Numbers, p: Numbers) -> float:
+def joint_compliance(on: Numbers, p: Numbers) -> float:
     """[unit/V] of what joins motor and load."""
     return 0.0
 
 
-def share(on: Numbers, p: Numbers) -> float:
+def motor_inertia_share(on: Numbers, p: Numbers) -> float:
     """[1] of the inertia that is on the motor's side; 0 where there is one body."""
     return 0.0
 
 
-def remembers(
+def update_memory(
     on: Numbers, p: Numbers, memory: Array, dt: float, u: float, v: float, kv: float
 ) -> None:
     """Bring every effect's memory up to date, after ``dt`` [s] under ``u`` [V]."""

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from sim.core.log import Array
-from sim.physics.engine.machine_code import Code, code_of, link_code, machine_id
+from sim.physics.engine.machine_code import ObjectCode, extract_code, identify_machine, link_code
 from sim.support.work import cache
 
 __all__ = ["Kernel", "kernel_file", "load_kernel", "try_kernel_file"]
@@ -60,7 +60,7 @@ class Kernel:
         ways: Array, began: Array, steps: Array, plain: bool, measured: Array, trust: Array,
         out: Array,
     ) -> None:  # fmt: skip
-        """As ``runs`` in ``sim.physics.engine.stepping``.
+        """As ``step_runs`` in ``sim.physics.engine.stepping``.
 
         Raises:
             TypeError: an array does not lie in one piece, of the numbers that the machine code
@@ -100,7 +100,7 @@ def kernel_file(folder: Path, seal: str) -> Path:
         folder: the cache.
         seal: of the engine's text.
     """
-    own = hashlib.sha256(f"{seal}\n{machine_id()}".encode()).hexdigest()[:20]
+    own = hashlib.sha256(f"{seal}\n{identify_machine()}".encode()).hexdigest()[:20]
     return folder / f"sysid_engine_{own}.kernel"
 
 
@@ -112,14 +112,14 @@ def load_kernel(text: str, kept: Path) -> Kernel:
         kept: where it is kept.
     """
     content = cache.read_cached(kept)
-    code = Code.read(content) if content else None
+    code = ObjectCode.from_bytes(content) if content else None
     if code is not None and (found := link_code(code)):
         return Kernel(*found)
     if content == NO_USE:
         made = _of_file(text, kept)
     else:
         made = _of_memory(text)
-        _keep(code_of(made), kept)
+        _keep(extract_code(made), kept)
     return Kernel(made.address, made)
 
 
@@ -153,10 +153,10 @@ def _written(path: Path, text: str) -> Path:
     return path
 
 
-def _keep(code: Code, kept: Path) -> None:
+def _keep(code: ObjectCode, kept: Path) -> None:
     """Keep it; where another process does not get along with it, an empty file says so."""
     try:
-        cache.write_cached(kept, code.written())
+        cache.write_cached(kept, code.to_bytes())
         if not _works(kept):
             cache.write_cached(kept, NO_USE)
         _forget_old(kept.parent)
@@ -181,14 +181,14 @@ def _works(kept: Path) -> bool:
 
 def _forget_old(where: Path) -> None:
     """Leave the newest few engines, with what was compiled for them."""
-    for old in cache.all_but_newest(where.glob("sysid_engine_*.kernel"), than=KEPT):
+    for old in cache.select_older(where.glob("sysid_engine_*.kernel"), than=KEPT):
         beside = where.glob(f"__pycache__/{old.stem}.*")
         cache.remove_files((old, old.with_suffix(".py"), *beside))
 
 
 def try_kernel_file(kept: Path) -> None:
     """Load and call what was kept, for no run at all: it works, or the process ends."""
-    code = Code.read(kept.read_bytes())
+    code = ObjectCode.from_bytes(kept.read_bytes())
     found = link_code(code) if code is not None else None
     if found is None:
         sys.exit(1)

@@ -13,13 +13,13 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-__all__ = ["Code", "code_of", "link_code", "machine_id"]
+__all__ = ["ObjectCode", "extract_code", "identify_machine", "link_code"]
 
 OF_NUMBA = ("NRT_", "numba_")  # what only a function that raises would call, and ours never does
 
 
 @dataclass(frozen=True)
-class Code:
+class ObjectCode:
     """An object file, and what it takes to call it.
 
     Args:
@@ -32,13 +32,13 @@ class Code:
     needs: tuple[str, ...]
     content: bytes
 
-    def written(self) -> bytes:
+    def to_bytes(self) -> bytes:
         """All of it, for a file."""
         head = {"symbol": self.symbol, "needs": self.needs, "sha256": _seal(self.content)}
         return json.dumps(head).encode() + b"\n" + self.content
 
     @classmethod
-    def read(cls, written: bytes) -> "Code | None":
+    def from_bytes(cls, written: bytes) -> "ObjectCode | None":
         """What was written; None where a byte of it is damaged."""
         head, _, content = written.partition(b"\n")
         try:
@@ -53,14 +53,14 @@ def _seal(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def machine_id() -> str:
+def identify_machine() -> str:
     """All that decides whether machine code can be used here."""
     triple, processor = llvm.get_process_triple(), llvm.get_host_cpu_name()
     features = llvm.get_host_cpu_features().flatten()
     return f"{llvmlite.__version__}\n{triple}\n{processor}\n{features}"
 
 
-def code_of(made: Any) -> Code:  # noqa: ANN401 - Numba has no types
+def extract_code(made: Any) -> ObjectCode:  # noqa: ANN401 - Numba has no types
     """The object file of what Numba compiled, a ``numba.core.ccallback.CFunc``."""
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
@@ -73,7 +73,7 @@ def code_of(made: Any) -> Code:  # noqa: ANN401 - Numba has no types
     intrinsic = [found[1] for one in named if (found := re.match(r"llvm\.(\w+)\.f64", one))]
     needs = [one for one in named if not one.startswith("llvm.")]
     needs += [one for one in intrinsic if _provided(one)]  # it may be a call, or an instruction
-    return Code(symbol, tuple(needs), _target().emit_object(module))
+    return ObjectCode(symbol, tuple(needs), _target().emit_object(module))
 
 
 def _stubs(module: Any) -> Iterator[str]:  # noqa: ANN401 - llvmlite has no types
@@ -98,7 +98,7 @@ def _target() -> Any:  # noqa: ANN401 - llvmlite has no types
     )
 
 
-def link_code(code: Code) -> tuple[int, object] | None:
+def link_code(code: ObjectCode) -> tuple[int, object] | None:
     """The address of the function, and what must live as long as it is called.
 
     None where something that it needs is missing: LLVM would end the whole process.

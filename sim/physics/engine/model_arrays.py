@@ -15,12 +15,12 @@ __all__ = [
     "EXACT",
     "ORDER",
     "effect_arrays",
-    "finest_step",
+    "find_finest_step",
+    "is_pure_delay",
     "model_constants",
-    "only_delays",
     "search_step_limits",
-    "slack_of",
     "step_limits",
+    "total_backlash",
 ]  # fmt: skip
 
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
@@ -34,15 +34,17 @@ NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutra
 ORDER = {name: place for place, name in enumerate(EFFECTS)}
 SLACKS = {
     name: (act, tuple(inspect.signature(act).parameters))
-    for name, act in ((one.name, one.acts.get("slack")) for one in EFFECTS.values())
+    for name, act in ((one.name, one.hooks.get("backlash_gap")) for one in EFFECTS.values())
     if act is not None
 }
 DELAYS = frozenset(
-    one.name for one in EFFECTS.values() if set(one.acts) <= {"late", "transform_velocity"}
+    one.name
+    for one in EFFECTS.values()
+    if set(one.hooks) <= {"command_delay", "transform_velocity"}
 )
 
 
-def only_delays(part: Part) -> bool:
+def is_pure_delay(part: Part) -> bool:
     """Whether an effect changes when things happen and are seen, and no force."""
     return part.effect in DELAYS
 
@@ -72,13 +74,13 @@ def effect_arrays(model: Model) -> tuple[Array, Array]:
     parameters = NEUTRAL.copy()
     for part in model.parts:
         on[ORDER[part.effect]] = 1.0
-        for hook in EFFECTS[part.effect].acts:
-            on[len(EFFECTS) + (*HOOKS, "remembers").index(hook)] = 1.0
+        for hook in EFFECTS[part.effect].hooks:
+            on[len(EFFECTS) + (*HOOKS, "update_memory").index(hook)] = 1.0
         parameters[PLACES[part.effect]] = [part.parameters[n] for n in EFFECTS[part.effect].names]
     return on, parameters
 
 
-def slack_of(model: Model) -> float:
+def total_backlash(model: Model) -> float:
     """[unit] of free play between motor and load."""
     total = 0.0
     for part in model.parts:
@@ -88,7 +90,7 @@ def slack_of(model: Model) -> float:
     return total
 
 
-def finest_step(model: Model) -> float:
+def find_finest_step(model: Model) -> float:
     """[s] the step that the fastest of a model's effects asks for."""
     return max(min(COARSEST, SHARE_OF_PACE * _fastest(model)), LEAST_STEP)
 
@@ -111,8 +113,8 @@ def _fastest(model: Model, *, places: bool = True) -> float:
     paces = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
     for part in model.parts:
         effect = EFFECTS[part.effect]
-        if effect.pace is not None and (places or effect.span is None):
-            paces.append(effect.pace(part.parameters, model.gains))
+        if effect.fastest_time is not None and (places or effect.shortest_length is None):
+            paces.append(effect.fastest_time(part.parameters, model.gains))
     return min(paces)
 
 
@@ -120,7 +122,7 @@ def _shortest(model: Model) -> float:
     """[unit] the shortest way along which something stays much the same."""
     spans = [math.inf]
     for part in model.parts:
-        span = EFFECTS[part.effect].span
+        span = EFFECTS[part.effect].shortest_length
         if span is not None:
             spans.append(span(part.parameters))
     return min(spans)

@@ -18,7 +18,7 @@ from sim.physics.engine.hooks import (
     force,
     transform_voltage,
 )
-from sim.physics.engine.power_path import reaches
+from sim.physics.engine.power_path import limit_voltage
 
 KS, KV, KA, LOAD, LEVEL, ANGLE, LOW, HIGH = range(8)
 """Places in ``c``: kS [V], kV, kA, constant gravity [V], gravity of an arm that is level [V],
@@ -29,7 +29,7 @@ X, V, Y, W, OFF_UNTIL = range(5)
 until which a brownout keeps the motors off. With one body, motor and load are the same."""
 
 
-def bounded(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
+def bound_travel(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
     """The base model of one run, kept between two stops as well as between the ends of its travel.
 
     ``rubs`` [V] is its dry friction beyond kS.
@@ -40,12 +40,12 @@ def bounded(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
     )  # fmt: skip
 
 
-def slides(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
+def sliding_friction(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
     """[V] of dry friction toward ``way``, never below none."""
     return float(max(c[KS] + coulomb_friction(on, p, v, way), 0.0))
 
 
-def glide(
+def move_exactly(
     c: Numbers, on: Numbers, p: Numbers, x: float, v: float, v_mid: float, drive: float,
     kv: float, ka: float, dt: float, part: float,
 ) -> tuple[float, float]:  # fmt: skip
@@ -58,13 +58,13 @@ def glide(
     while dt > 0.0:
         if v == 0.0:
             way = math.copysign(1.0, drive)
-            hold = part * slides(c, on, p, 0.0, way)
-            slide = part * slides(c, on, p, v_mid, way)
+            hold = part * sliding_friction(c, on, p, 0.0, way)
+            slide = part * sliding_friction(c, on, p, v_mid, way)
             if abs(drive) <= max(hold, slide):
                 return x, v
         else:
             way = math.copysign(1.0, v)
-            slide = part * slides(c, on, p, v_mid, way)
+            slide = part * sliding_friction(c, on, p, v_mid, way)
         push = (drive - way * slide) / ka
         until = math.inf
         if v != 0.0 and push * way < 0.0:  # it slows down, and may turn
@@ -83,13 +83,13 @@ def glide(
     return x, v
 
 
-def ahead(
+def predict_midpoint(
     c: Numbers, on: Numbers, p: Numbers, x: float, v: float, drive: float,
     kv: float, ka: float, dt: float, part: float,
 ) -> tuple[float, float]:  # fmt: skip
     """Position and velocity a moment ahead, along a straight line: where a step has its middle."""
     way = math.copysign(1.0, v if v != 0.0 else drive)
-    slide = part * slides(c, on, p, v, way)
+    slide = part * sliding_friction(c, on, p, v, way)
     if v == 0.0 and abs(drive) <= slide:
         return x, v
     after = v + dt * (drive - way * slide - kv * v) / ka
@@ -98,14 +98,14 @@ def ahead(
     return x + 0.5 * dt * (v + after), after
 
 
-def gravity(c: Numbers, x: float) -> float:
+def gravity_voltage(c: Numbers, x: float) -> float:
     """[V] that gravity takes."""
     if c[LEVEL] == 0.0:
         return float(c[LOAD])
     return float(c[LOAD] + c[LEVEL] * math.cos(x + c[ANGLE]))
 
 
-def through(
+def motor_voltage(
     c: Numbers,
     w: Numbers,
     on: Numbers,
@@ -116,11 +116,11 @@ def through(
     off: bool,
 ) -> float:
     """[V] at the motor, after the wires and then the paths."""
-    u = reaches(w, 0.0 if off else asked, v)
+    u = limit_voltage(w, 0.0 if off else asked, v)
     return transform_voltage(on, p, memory, u, v, c[KV])
 
 
-def within(c: Numbers, x: float, v: float) -> tuple[float, float]:
+def clamp_to_travel(c: Numbers, x: float, v: float) -> tuple[float, float]:
     """Stop at the ends of the travel, without a bounce."""
     if x < c[LOW]:
         return c[LOW], max(v, 0.0)
@@ -129,22 +129,22 @@ def within(c: Numbers, x: float, v: float) -> tuple[float, float]:
     return x, v
 
 
-def single(
+def step_one_body(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float, plain: bool,
 ) -> float:  # fmt: skip
     """One step of one body; returns the voltage [V] at the motor in its middle."""
     x, v = state[X], state[V]
-    u = through(c, w, on, p, memory, asked, v, off)
+    u = motor_voltage(c, w, on, p, memory, asked, v, off)
     if not plain:
-        drive = u - gravity(c, x) - force(on, p, x, v)
-        half, v_half = ahead(c, on, p, x, v, drive, c[KV], ka, 0.5 * dt, 1.0)
-        u = through(c, w, on, p, memory, asked, v_half, off)
-        drive = u - gravity(c, half) - force(on, p, half, v_half)
-        x, v = glide(c, on, p, x, v, v_half, drive, c[KV], ka, dt, 1.0)
+        drive = u - gravity_voltage(c, x) - force(on, p, x, v)
+        half, v_half = predict_midpoint(c, on, p, x, v, drive, c[KV], ka, 0.5 * dt, 1.0)
+        u = motor_voltage(c, w, on, p, memory, asked, v_half, off)
+        drive = u - gravity_voltage(c, half) - force(on, p, half, v_half)
+        x, v = move_exactly(c, on, p, x, v, v_half, drive, c[KV], ka, dt, 1.0)
     else:
-        x, v = glide(c, on, p, x, v, v, u - c[LOAD], c[KV], ka, dt, 1.0)
-    x, v = within(c, x, v)
+        x, v = move_exactly(c, on, p, x, v, v, u - c[LOAD], c[KV], ka, dt, 1.0)
+    x, v = clamp_to_travel(c, x, v)
     state[X] = state[Y] = x
     state[V] = state[W] = v
     return u

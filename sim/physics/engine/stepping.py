@@ -14,16 +14,16 @@ from sim.core.log import Array
 from sim.physics.engine.hooks import (
     Numbers,
     added_inertia,
-    changes,
+    command_delay,
     impact,
-    late,
-    remembers,
-    share,
+    motor_inertia_share,
+    next_change,
     transform_velocity,
+    update_memory,
 )
-from sim.physics.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bounded, single
-from sim.physics.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_at, reaches
-from sim.physics.engine.two_bodies import double
+from sim.physics.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bound_travel, step_one_body
+from sim.physics.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_voltage, limit_voltage
+from sim.physics.engine.two_bodies import step_two_bodies
 
 POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, EXPECTED, SEEN = range(8)
 """Columns of what is recorded. Where a measurement corrects the motion, the first three are after
@@ -34,7 +34,7 @@ NONE = 1e-9  # [s] a step that is none
 LONGEST, ALONG, LEAST = range(3)  # places in ``steps``: [s], [unit] of way, [s]
 
 
-def advance(
+def advance_step(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, ways: Array,
     asked: float, clock: float, dt: float, plain: bool, ka: float,
 ) -> float:  # fmt: skip
@@ -50,32 +50,32 @@ def advance(
         state[W] *= kept
     off = clock < state[OFF_UNTIL]
     if w[REST] != 0.0 and not off:
-        u = reaches(w, asked, state[V])
-        bus = bus_at(w, u, (u - w[EMF] * state[V]) / w[OHM])
+        u = limit_voltage(w, asked, state[V])
+        bus = bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
         if bus < w[STOP]:  # noticed now, acted on from the next step on
             state[OFF_UNTIL] = clock + 0.5 * dt + CUT
-    if share(on, p) > 0.0:
-        u = double(state, c, w, on, p, memory, ways, asked, off, heavy, dt)
+    if motor_inertia_share(on, p) > 0.0:
+        u = step_two_bodies(state, c, w, on, p, memory, ways, asked, off, heavy, dt)
     else:
-        u = single(state, c, w, on, p, memory, asked, off, heavy, dt, plain)
-    remembers(on, p, memory, dt, u, state[V], c[KV])
+        u = step_one_body(state, c, w, on, p, memory, asked, off, heavy, dt, plain)
+    update_memory(on, p, memory, dt, u, state[V], c[KV])
     return float(heavy)
 
 
-def record(out: Array, k: int, state: Array, w: Numbers, asked: float, clock: float) -> None:
+def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, clock: float) -> None:
     """Write down what is true at sample ``k``, but for what the sensor says."""
     out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
     out[k, LOAD_POSITION] = state[Y]
     off = clock < state[OFF_UNTIL]
-    u = reaches(w, 0.0 if off else asked, state[V])
+    u = limit_voltage(w, 0.0 if off else asked, state[V])
     out[k, APPLIED] = u
     if w[REST] != 0.0:
         current = (u - w[EMF] * state[V]) / w[OHM]
-        out[k, BUS] = bus_at(w, u, current)
+        out[k, BUS] = bus_voltage(w, u, current)
         out[k, CURRENT] = current
 
 
-def correct(state: Array, ahead: float, faster: float, trust: Array) -> None:
+def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> None:
     """Move the whole mechanism by a share of how far a measurement is from what was expected."""
     way, speed = 0.0, 0.0
     if not math.isnan(ahead):
@@ -88,13 +88,13 @@ def correct(state: Array, ahead: float, faster: float, trust: Array) -> None:
     state[W] += speed
 
 
-def pause(on: Numbers, p: Numbers, now: float, after: float, clock: float) -> float:
+def find_step_end(on: Numbers, p: Numbers, now: float, after: float, clock: float) -> float:
     """[s] at which steps must end: ``after``, or before it where something happens."""
-    when = now + changes(on, p, clock) - clock
+    when = now + next_change(on, p, clock) - clock
     return when if now + NONE < when < after else after
 
 
-def count_of(span: float, steps: Array, v: float, volts: float, c: Numbers) -> float:
+def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -> float:
     """In how many steps a time [s] is gone: short ones where it is fast, and places matter."""
     longest = steps[LONGEST]
     if steps[ALONG] < math.inf:
@@ -105,7 +105,7 @@ def count_of(span: float, steps: Array, v: float, volts: float, c: Numbers) -> f
     return float(max(math.ceil(span / longest - 1e-9), 1))
 
 
-def run(
+def step_run(
     time: Array, asked: Array, state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers,
     memory: Array, ways: Array, began: float, steps: Array, plain: bool, measured: Array,
     trust: Array, out: Array,
@@ -119,7 +119,7 @@ def run(
     [s], [unit] of way, and [s] that even that does not shorten. ``ways`` is room for the tables of
     ``joined.py``: of one model only, and empty at first.
     """
-    lag = late(on, p)
+    lag = command_delay(on, p)
     n = time.size
     command = -1  # the last one that has arrived
     rests = state[V] == 0.0 and state[W] == 0.0
@@ -128,34 +128,34 @@ def run(
         now = time[k]
         while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
             command += 1
-        record(out, k, state, w, asked[k], began + now - time[0])
+        record_sample(out, k, state, w, asked[k], began + now - time[0])
         out[k, EXPECTED] = state[X]
         out[k, SEEN] = transform_velocity(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
         if measured.shape[0] > 0:
             ahead, faster = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
-            correct(state, ahead, faster, trust)
+            correct_state(state, ahead, faster, trust)
             out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
             out[k, LOAD_POSITION] = state[Y]
         if k == n - 1:
             break
         while now < time[k + 1] - 1e-12:
             arrives = time[command + 1] + lag if command + 1 < n else math.inf
-            after = pause(on, p, now, min(time[k + 1], arrives), began + now - time[0])
+            after = find_step_end(on, p, now, min(time[k + 1], arrives), began + now - time[0])
             if command < 0 and rests:
                 state[V] = state[W] = 0.0  # whatever a measurement made of it
             else:
                 volts = asked[command] if command >= 0 else 0.0
-                count = count_of(after - now, steps, state[V], volts, c)
+                count = count_steps(after - now, steps, state[V], volts, c)
                 dt = (after - now) / count
                 for i in range(int(count)):
                     clock = began + now + (i + 0.5) * dt - time[0]
-                    ka = advance(state, c, w, on, p, memory, ways, volts, clock, dt, plain, ka)
+                    ka = advance_step(state, c, w, on, p, memory, ways, volts, clock, dt, plain, ka)
             now = after
             while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
                 command += 1
 
 
-def runs(
+def step_runs(
     edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array, rubs: Array,
     sessions: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, ways: Array,
     began: Array, steps: Array, plain: bool, measured: Array, trust: Array, out: Array,
@@ -173,12 +173,12 @@ def runs(
             for i in range(memory.size):
                 memory[i] = 0.0
         lead = measured[first:last] if measured.shape[0] > 0 else measured
-        run(
-            time[first:last], asked[first:last], bodies[k], bounded(c, low[k], high[k], rubs[k]),
-            w, on, p, memory, ways, began[k], steps, plain, lead, trust, out[first:last],
+        step_run(
+            time[first:last], asked[first:last], bodies[k], bound_travel(c, low[k], high[k],
+            rubs[k]), w, on, p, memory, ways, began[k], steps, plain, lead, trust, out[first:last],
         )  # fmt: skip
 
 
-def empty(n: int) -> Array:
+def allocate_output(n: int) -> Array:
     """Room for what ``move`` writes about ``n`` samples."""
     return np.zeros((n, 8))

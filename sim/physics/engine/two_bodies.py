@@ -10,7 +10,13 @@ Plain functions of numbers: ``compose.py`` compiles them together with the effec
 import math
 
 from sim.core.log import Array
-from sim.physics.engine.hooks import Numbers, force, share, slack, softness
+from sim.physics.engine.hooks import (
+    Numbers,
+    backlash_gap,
+    force,
+    joint_compliance,
+    motor_inertia_share,
+)
 from sim.physics.engine.one_body import (
     HIGH,
     KV,
@@ -19,12 +25,12 @@ from sim.physics.engine.one_body import (
     W,
     X,
     Y,
-    ahead,
-    glide,
-    gravity,
-    slides,
-    through,
-    within,
+    clamp_to_travel,
+    gravity_voltage,
+    motor_voltage,
+    move_exactly,
+    predict_midpoint,
+    sliding_friction,
 )
 from sim.physics.engine.two_body_modes import (
     DAMP,
@@ -35,10 +41,10 @@ from sim.physics.engine.two_body_modes import (
     SMALL,
     STANDS,
     STIFF,
-    becomes,
-    doubled,
-    prepared,
-    tabled,
+    apply_row,
+    make_table,
+    make_table_from_half,
+    prepare_series,
 )
 
 CONTACT = 40.0  # [Hz] at which motor and load bounce on each other's teeth: stiff, but not endless
@@ -51,7 +57,7 @@ PARTS = 1 << (LEVELS - 1)  # of a step, at most: the half of what swings has a t
 TINY, HUGE = 1e-9, 1e12  # [V·s/unit] a kV that is none; [1] an inertia that nothing moves
 
 
-def double(
+def step_two_bodies(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     ways: Array, asked: float, off: bool, ka: float, dt: float,
 ) -> float:  # fmt: skip
@@ -59,11 +65,11 @@ def double(
 
     As far as nothing happens in it, it is gone in one; what happens is closed in by halving.
     """
-    part, play = share(on, p), slack(on, p)
+    part, play = motor_inertia_share(on, p), backlash_gap(on, p)
     if ways[KNOWN] != ka:
         ways[KNOWN] = ka
         reduced = part * (1.0 - part) * ka
-        stiff, damp = joins(softness(on, p), reduced)
+        stiff, damp = joint_stiffness(joint_compliance(on, p), reduced)
         pace = min(1.4 * math.sqrt(reduced / stiff), part * ka / max(c[KV], TINY))
         ways[STIFF], ways[DAMP], ways[SMALL] = stiff, damp, max(FINE * pace, FINEST)
     stiff, damp = ways[STIFF], ways[DAMP]
@@ -71,15 +77,17 @@ def double(
     while gone < PARTS:
         take = dt / (1 << level)
         if size == 1 or not take > ways[SMALL]:  # nor where it flies off, and nothing is a number
-            u = meeting(state, c, w, on, p, memory, asked, off, ka, take)
+            u = step_through_contacts(state, c, w, on, p, memory, asked, off, ka, take)
         else:
-            push = joint(play, stiff, damp, state[X] - state[Y], state[V] - state[W])
+            push = joint_voltage(play, stiff, damp, state[X] - state[Y], state[V] - state[W])
             if play == 0.0 or push != 0.0:
-                one = swing(
+                one = step_in_contact(
                     state, c, w, on, p, memory, ways, asked, off, ka, dt, level, play, stiff, damp
                 )
             else:
-                one = loose(state, c, w, on, p, memory, asked, off, ka, take, play, stiff, damp)
+                one = step_in_backlash(
+                    state, c, w, on, p, memory, asked, off, ka, take, play, stiff, damp
+                )
             if math.isnan(one):
                 size, level = size // 2, level + 1
                 continue
@@ -90,7 +98,7 @@ def double(
     return u
 
 
-def swing(
+def step_in_contact(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     ways: Array, asked: float, off: bool, ka: float, whole: float, level: int, play: float,
     stiff: float, damp: float,
@@ -100,98 +108,98 @@ def swing(
     The step is ``whole`` / 2^``level``. What is not linear is taken at its middle. Where one body
     turns, teeth part, or a load that stands begins to move, there is no step: nan is returned.
     """
-    part = share(on, p)
+    part = motor_inertia_share(on, p)
     rest = 1.0 - part
     own, other, dt = part * ka, rest * ka, whole / (1 << level)
     x, v, y, z = state[X], state[V], state[Y], state[W]
     side = 0.5 * play * math.copysign(1.0, x - y)
     d, stands = x - y - side, z == 0.0
-    u = through(c, w, on, p, memory, asked, v, off)
-    r = -gravity(c, y) - force(on, p, y, z)
-    if stands and not stays(c, on, p, y, stiff * d + damp * v + r, rest):
+    u = motor_voltage(c, w, on, p, memory, asked, v, off)
+    r = -gravity_voltage(c, y) - force(on, p, y, z)
+    if stands and not stays_at_rest(c, on, p, y, stiff * d + damp * v + r, rest):
         return math.nan
     if stands and v == 0.0:
-        return u if held(c, on, p, u - stiff * d, part) else math.nan
+        return u if is_held(c, on, p, u - stiff * d, part) else math.nan
 
     which = STANDS if stands else MOVES
-    prepared(ways, which, c[KV], own, HUGE * ka if stands else other, stiff, damp)
-    half, full = tabled(ways, which, whole, level + 1), doubled(ways, which, whole, level)
+    prepare_series(ways, which, c[KV], own, HUGE * ka if stands else other, stiff, damp)
+    half = make_table(ways, which, whole, level + 1)
+    full = make_table_from_half(ways, which, whole, level)
     way, toward = math.copysign(1.0, v), math.copysign(1.0, z)
-    b = u - way * part * slides(c, on, p, v, way)
-    r = 0.0 if stands else r - toward * rest * slides(c, on, p, z, toward)
-    d_half = becomes(ways, half, d, v, z, b, r)
-    v_half = becomes(ways, half + ROW, d, v, z, b, r)
-    z_half = becomes(ways, half + 2 * ROW, d, v, z, b, r)
-    y_half = y + becomes(ways, half + 3 * ROW, d, v, z, b, r)
-    u = through(c, w, on, p, memory, asked, v_half, off)
-    b = u - way * part * slides(c, on, p, v_half, way)
-    r = -gravity(c, y_half) - force(on, p, y_half, z_half)
-    r = 0.0 if stands else r - toward * rest * slides(c, on, p, z_half, toward)
-    d_end = becomes(ways, full, d, v, z, b, r)
-    v_end = becomes(ways, full + ROW, d, v, z, b, r)
-    z_end = becomes(ways, full + 2 * ROW, d, v, z, b, r)
-    y_end = y + becomes(ways, full + 3 * ROW, d, v, z, b, r)
-
+    b = u - way * part * sliding_friction(c, on, p, v, way)
+    r = 0.0 if stands else r - toward * rest * sliding_friction(c, on, p, z, toward)
+    d_half = apply_row(ways, half, d, v, z, b, r)
+    v_half = apply_row(ways, half + ROW, d, v, z, b, r)
+    z_half = apply_row(ways, half + 2 * ROW, d, v, z, b, r)
+    y_half = y + apply_row(ways, half + 3 * ROW, d, v, z, b, r)
+    u = motor_voltage(c, w, on, p, memory, asked, v_half, off)
+    b = u - way * part * sliding_friction(c, on, p, v_half, way)
+    r = -gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
+    r = 0.0 if stands else r - toward * rest * sliding_friction(c, on, p, z_half, toward)
+    d_end = apply_row(ways, full, d, v, z, b, r)
+    v_end = apply_row(ways, full + ROW, d, v, z, b, r)
+    z_end = apply_row(ways, full + 2 * ROW, d, v, z, b, r)
+    y_end = y + apply_row(ways, full + 3 * ROW, d, v, z, b, r)
     slowest = min(v * way, v_half * way, v_end * way)
     if stands:
         y_end, z_end = y, 0.0
-        load = stiff * d_end + damp * v_end - gravity(c, y) - force(on, p, y, 0.0)
-        slowest = slowest if stays(c, on, p, y, load, rest) else 0.0
+        load = stiff * d_end + damp * v_end - gravity_voltage(c, y) - force(on, p, y, 0.0)
+        slowest = slowest if stays_at_rest(c, on, p, y, load, rest) else 0.0
     else:
         slowest = min(slowest, z * toward, z_half * toward, z_end * toward)
     if not slowest > 0.0:
         return math.nan
     if play > 0.0:
-        least = joint(play, stiff, damp, d_half + side, v_half - z_half) * side
-        least = min(least, joint(play, stiff, damp, d_end + side, v_end - z_end) * side)
+        least = joint_voltage(play, stiff, damp, d_half + side, v_half - z_half) * side
+        least = min(least, joint_voltage(play, stiff, damp, d_end + side, v_end - z_end) * side)
         long = dt * math.sqrt(stiff / (part * other)) > 1.0  # enough to part and meet within it
-        if not least > 0.0 or (long and shakes(d, d_end)):
+        if not least > 0.0 or (long and deflection_jumps(d, d_end)):
             return math.nan
     state[X], state[V] = y_end + d_end + side, v_end
-    state[Y], state[W] = within(c, y_end, z_end)
+    state[Y], state[W] = clamp_to_travel(c, y_end, z_end)
     return u
 
 
-def shakes(before: float, after: float) -> bool:
+def deflection_jumps(before: float, after: float) -> bool:
     """Whether a deflection changes by more than half of the larger one within a step."""
     return abs(after - before) > 0.5 * max(abs(before), abs(after))
 
 
-def held(c: Numbers, on: Numbers, p: Numbers, drive: float, part: float) -> bool:
+def is_held(c: Numbers, on: Numbers, p: Numbers, drive: float, part: float) -> bool:
     """Whether friction holds a body at rest that has such a part of it."""
-    return abs(drive) <= part * slides(c, on, p, 0.0, math.copysign(1.0, drive))
+    return abs(drive) <= part * sliding_friction(c, on, p, 0.0, math.copysign(1.0, drive))
 
 
-def stays(c: Numbers, on: Numbers, p: Numbers, y: float, drive: float, part: float) -> bool:
+def stays_at_rest(c: Numbers, on: Numbers, p: Numbers, y: float, drive: float, part: float) -> bool:
     """Whether a load at rest stays there, held by friction or lying on a stop."""
     lies = (y <= c[LOW] and drive <= 0.0) or (y >= c[HIGH] and drive >= 0.0)
-    return bool(lies or held(c, on, p, drive, part))
+    return bool(lies or is_held(c, on, p, drive, part))
 
 
-def loose(
+def step_in_backlash(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float, play: float, stiff: float, damp: float,
 ) -> float:  # fmt: skip
     """The same of bodies between whose teeth there is room; nan, and no step, where they meet."""
-    part = share(on, p)
+    part = motor_inertia_share(on, p)
     own, other = part * ka, (1.0 - part) * ka
     x, v, y, z = state[X], state[V], state[Y], state[W]
-    u = through(c, w, on, p, memory, asked, v, off)
-    _, v_half = ahead(c, on, p, x, v, u, c[KV], own, 0.5 * dt, part)
-    drive = -gravity(c, y) - force(on, p, y, z)
-    y_half, z_half = ahead(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
-    u = through(c, w, on, p, memory, asked, v_half, off)
-    x, v = glide(c, on, p, x, v, v_half, u, c[KV], own, dt, part)
-    drive = -gravity(c, y_half) - force(on, p, y_half, z_half)
-    y, z = glide(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
-    if joint(play, stiff, damp, x - y, v - z) != 0.0:
+    u = motor_voltage(c, w, on, p, memory, asked, v, off)
+    _, v_half = predict_midpoint(c, on, p, x, v, u, c[KV], own, 0.5 * dt, part)
+    drive = -gravity_voltage(c, y) - force(on, p, y, z)
+    y_half, z_half = predict_midpoint(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
+    u = motor_voltage(c, w, on, p, memory, asked, v_half, off)
+    x, v = move_exactly(c, on, p, x, v, v_half, u, c[KV], own, dt, part)
+    drive = -gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
+    y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
+    if joint_voltage(play, stiff, damp, x - y, v - z) != 0.0:
         return math.nan
     state[X], state[V] = x, v
-    state[Y], state[W] = within(c, y, z)
+    state[Y], state[W] = clamp_to_travel(c, y, z)
     return u
 
 
-def meeting(
+def step_through_contacts(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float,
 ) -> float:  # fmt: skip
@@ -200,9 +208,9 @@ def meeting(
     A step in which teeth meet or part is taken in two, on both sides of that moment; and while they
     bounce, in several.
     """
-    play = slack(on, p)
+    play = backlash_gap(on, p)
     if play == 0.0:
-        return pair(state, c, w, on, p, memory, asked, off, ka, dt)
+        return step_by_midpoint(state, c, w, on, p, memory, asked, off, ka, dt)
     u = 0.0
     fine = dt / BLOW
     while dt > 0.0:
@@ -212,45 +220,45 @@ def meeting(
         rush = abs(v - z)
         if before > -rush * dt and rush > 0.02 * (abs(v) + abs(z)):
             take = min(dt, fine)
-        u = pair(state, c, w, on, p, memory, asked, off, ka, take)
+        u = step_by_midpoint(state, c, w, on, p, memory, asked, off, ka, take)
         after = abs(state[X] - state[Y]) - 0.5 * play
         if before * after < 0.0:
             first = take * before / (before - after) + 0.5 * MOMENT
             if MOMENT < first < take - MOMENT:
                 state[X], state[V], state[Y], state[W] = x, v, y, z
-                u = pair(state, c, w, on, p, memory, asked, off, ka, first)
+                u = step_by_midpoint(state, c, w, on, p, memory, asked, off, ka, first)
                 take = first
         dt -= take
     return u
 
 
-def pair(
+def step_by_midpoint(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float,
 ) -> float:  # fmt: skip
-    """One step of two bodies, as ``double``, whatever happens in it."""
-    part, play = share(on, p), slack(on, p)
+    """One step of two bodies, as ``step_two_bodies``, whatever happens in it."""
+    part, play = motor_inertia_share(on, p), backlash_gap(on, p)
     own, other = part * ka, (1.0 - part) * ka
-    stiff, damp = joins(softness(on, p), part * other)
+    stiff, damp = joint_stiffness(joint_compliance(on, p), part * other)
     x, v, y, z = state[X], state[V], state[Y], state[W]
 
-    u = through(c, w, on, p, memory, asked, v, off)
-    push = joint(play, stiff, damp, x - y, v - z)
-    x_half, v_half = ahead(c, on, p, x, v, u - push, c[KV], own, 0.5 * dt, part)
-    drive = push - gravity(c, y) - force(on, p, y, z)
-    y_half, z_half = ahead(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
+    u = motor_voltage(c, w, on, p, memory, asked, v, off)
+    push = joint_voltage(play, stiff, damp, x - y, v - z)
+    x_half, v_half = predict_midpoint(c, on, p, x, v, u - push, c[KV], own, 0.5 * dt, part)
+    drive = push - gravity_voltage(c, y) - force(on, p, y, z)
+    y_half, z_half = predict_midpoint(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
 
-    u = through(c, w, on, p, memory, asked, v_half, off)
-    push = joint(play, stiff, damp, x_half - y_half, v_half - z_half)
-    x, v = glide(c, on, p, x, v, v_half, u - push, c[KV], own, dt, part)
-    drive = push - gravity(c, y_half) - force(on, p, y_half, z_half)
-    y, z = glide(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
+    u = motor_voltage(c, w, on, p, memory, asked, v_half, off)
+    push = joint_voltage(play, stiff, damp, x_half - y_half, v_half - z_half)
+    x, v = move_exactly(c, on, p, x, v, v_half, u - push, c[KV], own, dt, part)
+    drive = push - gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
+    y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
     state[X], state[V] = x, v
-    state[Y], state[W] = within(c, y, z)
+    state[Y], state[W] = clamp_to_travel(c, y, z)
     return u
 
 
-def joins(soft: float, reduced: float) -> tuple[float, float]:
+def joint_stiffness(soft: float, reduced: float) -> tuple[float, float]:
     """[V/unit] stiffness and [V·s/unit] damping of what joins motor and load."""
     stiff, damping = reduced * (2.0 * math.pi * CONTACT) ** 2, DAMPING
     if soft > 0.0:
@@ -258,7 +266,7 @@ def joins(soft: float, reduced: float) -> tuple[float, float]:
     return stiff, 2.0 * damping * math.sqrt(stiff * reduced)
 
 
-def joint(play: float, stiff: float, damp: float, gap: float, rush: float) -> float:
+def joint_voltage(play: float, stiff: float, damp: float, gap: float, rush: float) -> float:
     """[V] with which the motor pushes the load, from how far and how fast it is ahead."""
     into = abs(gap) - 0.5 * play
     if into <= 0.0:

@@ -35,7 +35,7 @@ SHORT = 0.7  # [1] of the fastest rate that the moment of the series lasts
 SAME = 1e-9  # [s] steps that differ by less are one
 
 
-def prepared(
+def prepare_series(
     ways: Array, at: int, kv: float, own: float, other: float, stiff: float, damp: float
 ) -> None:
     """Make the terms of a set, if they are not there: row by row, each of the one before."""
@@ -70,7 +70,7 @@ def prepared(
             way = 0.0
 
 
-def tabled(ways: Array, at: int, dt: float, level: int) -> int:
+def make_table(ways: Array, at: int, dt: float, level: int) -> int:
     """Where the table of a part of a step is; it is made if it is not there."""
     step = at + FIRST + level * (1 + TABLE)
     if abs(ways[step] - dt) < SAME:
@@ -79,24 +79,24 @@ def tabled(ways: Array, at: int, dt: float, level: int) -> int:
     while moment * ways[at + RATE] > SHORT and doublings < MOST:
         moment *= 0.5
         doublings += 1
-    series(ways, at + POWERS, moment, step + 1)
+    sum_series(ways, at + POWERS, moment, step + 1)
     for _ in range(doublings):
         double_table(ways, step + 1, step + 1)
     ways[step] = dt
     return step + 1
 
 
-def doubled(ways: Array, at: int, dt: float, level: int) -> int:
+def make_table_from_half(ways: Array, at: int, dt: float, level: int) -> int:
     """The same, made of the table of its half."""
     step = at + FIRST + level * (1 + TABLE)
     if abs(ways[step] - dt) < SAME:
         return step + 1
-    double_table(ways, tabled(ways, at, dt, level + 1), step + 1)
+    double_table(ways, make_table(ways, at, dt, level + 1), step + 1)
     ways[step] = dt
     return step + 1
 
 
-def series(ways: Array, powers: int, moment: float, to: int) -> None:
+def sum_series(ways: Array, powers: int, moment: float, to: int) -> None:
     """The table of a moment: all its terms."""
     last = powers + TERMS * TABLE
     for i in range(TABLE):
@@ -123,7 +123,7 @@ def double_table(ways: Array, at: int, to: int) -> None:
         ways[there + 4] = d * r0 + v * r1 + w * r2 + r + on * r
 
 
-def becomes(ways: Array, at: int, d: float, v: float, w: float, b: float, r: float) -> float:
+def apply_row(ways: Array, at: int, d: float, v: float, w: float, b: float, r: float) -> float:
     """What a row of a table makes of a motion and of what pushes it."""
     return float(
         ways[at] * d + ways[at + 1] * v + ways[at + 2] * w + ways[at + 3] * b + ways[at + 4] * r

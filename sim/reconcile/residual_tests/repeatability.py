@@ -15,11 +15,13 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.reconcile.thresholds import (
+    FEWEST_IN_CELL,
+    HELD_BY_FRICTION,
+    REPEAT_CELLS,
+    SHORTEST_ONE_WAY,
+)
 
-CELLS = 24  # of the way, or of all speeds
-FEWEST = 2  # samples of a run in a cell
-SHORTEST = 20  # samples of a run that goes one way
-SLOW = 0.02  # [1] of the top speed, below which friction holds as it likes
 POSITION, SPEED = "position", "speed"
 
 
@@ -69,12 +71,12 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
         point: what is believed.
     """
     missed = smooth_innovations(problem, point)
-    track = problem.track(point.structure.model(point.values), point.nuisance, point.kalman_gain)
+    track = problem.simulate(point.structure.model(point.values), point.nuisance, point.kalman_gain)
     speed, position = track.seen, problem.measured[:, 0]
     position = np.where(np.isnan(position), track.position, position)
-    told = ~problem.ignored.all(axis=1)
-    told &= np.abs(speed) > SLOW * problem.top
-    run = np.repeat(np.arange(len(problem.records)), np.diff(problem.edges))
+    told = ~problem.ignored_readings.all(axis=1)
+    told &= np.abs(speed) > HELD_BY_FRICTION * problem.top_speed
+    run = np.repeat(np.arange(len(problem.records)), np.diff(problem.run_edges))
     found = []
     for what, value in ((POSITION, position), (SPEED, speed)):
         ways = {
@@ -83,15 +85,15 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
             for mine in [told & (np.sign(speed) == way)]
             for cells in _cells(missed[mine], value[mine], run[mine])
         }
-        found.append(_told(what, ways))
+        found.append(_sum_cells(what, ways))
     return max(found, key=lambda one: one.size)
 
 
 def smooth_innovations(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(n,) disturbance per sample, estimated from whitened innovations."""
     period = problem.period
-    push = problem.white(point, np.array([[0.5 * period**2, period]]))
-    white = problem.white(point, point.innovations).reshape(-1, 2)
+    push = problem.whiten(point, np.array([[0.5 * period**2, period]]))
+    white = problem.whiten(point, point.innovations).reshape(-1, 2)
     return np.asarray(white @ (push / np.linalg.norm(push)))
 
 
@@ -101,26 +103,26 @@ def _cells(missed: Array, value: Array, run: NDArray[np.intp]) -> Iterator[_Cell
     What a run misses on the whole is taken off: its own friction is no physics.
     """
     counts = np.bincount(run)
-    long = counts[run] >= SHORTEST
+    long = counts[run] >= SHORTEST_ONE_WAY
     missed, value, run = missed[long], value[long], run[long]
     runs, run = np.unique(run, return_inverse=True)
     if runs.size < 2:  # noqa: PLR2004 - that is a pair
         return
     missed = missed - (np.bincount(run, missed) / np.bincount(run))[run]
-    edges = np.linspace(value.min(), value.max(), CELLS + 1)
-    cell = np.clip(np.searchsorted(edges, value, side="right") - 1, 0, CELLS - 1)
-    shape = (runs.size, CELLS)
-    place, size = run * CELLS + cell, runs.size * CELLS
+    edges = np.linspace(value.min(), value.max(), REPEAT_CELLS + 1)
+    cell = np.clip(np.searchsorted(edges, value, side="right") - 1, 0, REPEAT_CELLS - 1)
+    shape = (runs.size, REPEAT_CELLS)
+    place, size = run * REPEAT_CELLS + cell, runs.size * REPEAT_CELLS
     sums = np.bincount(place, missed, size).reshape(shape)
     samples = np.bincount(place, minlength=size).reshape(shape)
-    there = samples >= FEWEST
+    there = samples >= FEWEST_IN_CELL
     each = np.where(there, sums / np.sqrt(np.maximum(samples, 1)), 0.0)
     squares, count = np.sum(each**2, axis=0), there.sum(axis=0).astype(np.float64)
     cross = 0.5 * (np.sum(each, axis=0) ** 2 - squares)
     yield _Cells(cross, 0.5 * count * (count - 1.0), squares, count, edges)
 
 
-def _told(what: str, ways: dict[int, _Cells]) -> RepeatedResidual:
+def _sum_cells(what: str, ways: dict[int, _Cells]) -> RepeatedResidual:
     """What all cells come to, and where it is most."""
     every = ways.values()
     pairs = sum(float(one.pairs.sum()) for one in every)

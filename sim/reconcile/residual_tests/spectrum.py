@@ -16,11 +16,7 @@ import numpy as np
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import smooth_innovations
-
-FASTEST = 5.0  # [Hz] faster is a joint that swings, or a wave along the way
-TURNS = 2.0  # that a run has to last
-FINER = 0.5  # [1] of the steps that the longest run can tell apart
-SHORTEST = 20  # samples of a run
+from sim.reconcile.thresholds import FASTEST_PEAK, FEWEST_TURNS, PEAK_FINER, SHORTEST_FOR_PEAK
 
 
 @dataclass(frozen=True)
@@ -43,37 +39,42 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
         problem: the measurements.
         point: what is believed.
     """
-    runs = list(_runs(problem, point))
+    runs = list(_disturbances_by_run(problem, point))
     squares = sum(float(push @ push) for _, push in runs)
     if not squares > 0.0:
         return SpectralPeak()
     mean = squares / sum(push.size for _, push in runs)
     lasts = [float(np.ptp(time)) for time, _ in runs]
-    rates: Array = np.arange(TURNS / max(lasts), FASTEST, FINER / max(lasts))
+    rates: Array = np.arange(FEWEST_TURNS / max(lasts), FASTEST_PEAK, PEAK_FINER / max(lasts))
     power, count = np.zeros(rates.size), np.zeros(rates.size)
     for (time, push), lasting in zip(runs, lasts, strict=True):
-        told = np.flatnonzero(rates * lasting >= TURNS)
+        told = np.flatnonzero(rates * lasting >= FEWEST_TURNS)
         waves = np.exp(-2j * np.pi * rates[told, None] * time)
         power[told] += np.abs(waves @ push) ** 2 / (push.size * mean)
         count[told] += 1.0
-    sizes = (_unlikely(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True))
+    sizes = (_surprisal(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True))
     found = (SpectralPeak(size, rate) for size, rate in zip(sizes, rates.tolist(), strict=True))
     return max(found, key=lambda one: one.size, default=SpectralPeak())
 
 
-def _runs(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[Array, Array]]:
+def _disturbances_by_run(
+    problem: PredictionErrorProblem, point: Estimate
+) -> Iterator[tuple[Array, Array]]:
     """Of each run that is long enough: times, and pushes less their mean."""
-    every, told = smooth_innovations(problem, point), np.asarray(~problem.ignored.all(axis=1))
+    every, told = (
+        smooth_innovations(problem, point),
+        np.asarray(~problem.ignored_readings.all(axis=1)),
+    )
     for record, (first, last) in zip(
-        problem.records, pairwise(problem.edges.tolist()), strict=True
+        problem.records, pairwise(problem.run_edges.tolist()), strict=True
     ):
         mine = told[first:last]
         push = every[first:last][mine]
-        if push.size >= SHORTEST:
+        if push.size >= SHORTEST_FOR_PEAK:
             yield record.measurements.time[mine], push - np.mean(push)
 
 
-def _unlikely(power: float, count: int) -> float:
+def _surprisal(power: float, count: int) -> float:
     """-log of the chance that so many exponential deviates sum up to as much (Erlang's tail)."""
     if not (power > 0.0 and count):
         return 0.0

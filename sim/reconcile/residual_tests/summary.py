@@ -24,27 +24,27 @@ class ResidualSummary:
     peak: SpectralPeak = field(default_factory=SpectralPeak)
 
     @property
-    def shaken(self) -> bool:
+    def has_unlikely_window(self) -> bool:
         """Whether there is a moment that is not explained."""
         return self.worst_window.size > SHAKEN
 
     @property
-    def swings(self) -> bool:
+    def is_periodic(self) -> bool:
         """Whether something comes back in time."""
         return self.peak.size > RHYTHM
 
     @property
-    def repeats(self) -> bool:
+    def is_repeated(self) -> bool:
         """Whether runs miss the same at the same places or speeds."""
         return self.repeated.size > ALIKE
 
     @property
-    def something(self) -> bool:
+    def has_structure(self) -> bool:
         """Whether any of it is more than noise."""
-        return self.shaken or self.swings or self.repeats
+        return self.has_unlikely_window or self.is_periodic or self.is_repeated
 
     @classmethod
-    def by(cls, problem: PredictionErrorProblem, point: Estimate) -> "ResidualSummary":
+    def summarize(cls, problem: PredictionErrorProblem, point: Estimate) -> "ResidualSummary":
         """What a point leaves of its problem."""
         return cls(
             find_worst_window(problem, point),

@@ -14,12 +14,15 @@ from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST
 from sim.estimation.run_records import RunRecord
+from sim.reconcile.thresholds import (
+    CLOCK_PART,
+    FEWEST_WINDOWS,
+    LEAST_SPREAD,
+    SOON_AFTER_STEP,
+    STEP_JUMP,
+    WINDOWS,
+)
 
-WINDOWS = (0.1, 0.2, 0.4)  # [s]
-JUMP, SOON = 1.0, 0.15  # [V] of a step, and [s] after it
-FEWEST = 20  # windows that tell what is ordinary
-LEAST = 0.5  # [1] of what independent innovations would add up to
-PART = 0.5  # of a sample, by which a run may be late or early
 DELAY, LAG = "delay", "delay.lag"
 
 
@@ -49,11 +52,11 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
 
     What pushes moves position and velocity the same way: where both say so, they count together.
     """
-    white = _in_time(problem, point)
+    white = _remove_clock_errors(problem, point)
     moments = []
     for length in WINDOWS:
         count = max(round(length / problem.period), 2)
-        position, velocity = (_sizes(problem, white[:, column], count) for column in (0, 1))
+        position, velocity = (_window_sizes(problem, white[:, column], count) for column in (0, 1))
         for record, one in position.items():
             other = velocity[record]
             together = np.where(one * other > 0.0, np.hypot(one, other), 0.0)
@@ -67,21 +70,21 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
     return max(moments, key=lambda one: one.size, default=CALM)
 
 
-def _sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
+def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
     """Which run -> (windows,) their sums, in what is ordinary."""
-    sums = {record: one for record, one in _windows(problem, white, count) if one.size}
+    sums = {record: one for record, one in _window_sums(problem, white, count) if one.size}
     every = np.concatenate([*sums.values(), np.zeros(0)])
-    if every.size < FEWEST:
+    if every.size < FEWEST_WINDOWS:
         return {record: np.zeros(one.size) for record, one in sums.items()}
     spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
-    spread = max(spread, LEAST * count**0.5)
+    spread = max(spread, LEAST_SPREAD * count**0.5)
     return {
-        record: one / (spread * _ordinary(problem.records[record])[: one.size])
+        record: one / (spread * _ordinary_size(problem.records[record])[: one.size])
         for record, one in sums.items()
     }
 
 
-def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
+def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(n, 2) white innovations, less what a clock of each run's own makes of them.
 
     A step comes a part of a sample late, another part in each run: that is of clocks, not of
@@ -90,12 +93,12 @@ def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
     delayed = point.structure
     if DELAY not in delayed.effects:
         delayed = delayed + DELAY
-    late = PART * problem.period
+    late = CLOCK_PART * problem.period
     values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
     more = problem.predict_errors(delayed.model(values), point.nuisance, point.kalman_gain)
     white = point.innovations @ point.whitening.T
     change = np.nan_to_num(more - point.innovations) @ point.whitening.T
-    for first, last in pairwise(problem.edges.tolist()):
+    for first, last in pairwise(problem.run_edges.tolist()):
         column, rest = change[first:last].ravel(), white[first:last].ravel()
         along = float(column @ column)
         share = -float(column @ rest) / along if along > 0.0 else 0.0
@@ -103,25 +106,27 @@ def _in_time(problem: PredictionErrorProblem, point: Estimate) -> Array:
     return np.asarray(white)
 
 
-def _ordinary(record: RunRecord) -> Array:
+def _ordinary_size(record: RunRecord) -> Array:
     """(n,) what is ordinary for a window that begins there, in what is ordinary elsewhere.
 
     Soon after a step of the voltage everything is fast: what happens between two samples, as a
     battery that gives way and recovers, adds up to twice as much.
     """
     time = record.measurements.time
-    jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > JUMP]
+    jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > STEP_JUMP]
     last = np.searchsorted(jumps, time, side="right") - 1
     since = time - np.concatenate((jumps, [-np.inf]))[last]
-    return np.where(since <= SOON, 2.0, 1.0)
+    return np.where(since <= SOON_AFTER_STEP, 2.0, 1.0)
 
 
-def _windows(
+def _window_sums(
     problem: PredictionErrorProblem, white: Array, count: int
 ) -> Iterator[tuple[int, Array]]:
     """Sums of so many innovations, of each run; windows with untold samples are left out."""
-    for record, (first, last) in enumerate(zip(problem.edges[:-1], problem.edges[1:], strict=True)):
-        mine, told = white[first:last], problem.telling[first:last]
+    for record, (first, last) in enumerate(
+        zip(problem.run_edges[:-1], problem.run_edges[1:], strict=True)
+    ):
+        mine, told = white[first:last], problem.informative[first:last]
         if mine.size <= count:
             continue
         total = np.concatenate(([0.0], np.cumsum(mine)))

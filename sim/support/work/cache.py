@@ -36,7 +36,7 @@ def write_cached(path: Path, content: bytes) -> None:
     write_atomically(path, content)
 
 
-def all_but_newest(paths: Iterable[Path], *, than: int) -> list[Path]:
+def select_older(paths: Iterable[Path], *, than: int) -> list[Path]:
     """All but the newest of some files, so many; what another process removes is not among them."""
     ages = []
     for path in paths:

@@ -40,12 +40,12 @@ class Case:
     fit: Fit
     harmful: bool
 
-    def off(self, gain: str) -> float:
+    def gain_error(self, gain: str) -> float:
         """By which share a gain is off: 0.1 is 10 % too large, -2 has the wrong sign."""
         return self.fit.gains[gain] / self.truth[gain] - 1.0
 
     @property
-    def good(self) -> bool:
+    def has_good_r2(self) -> bool:
         """Whether its simulated velocity R² passes for good."""
         return self.fit.simulated_velocity_r2 > GOOD
 

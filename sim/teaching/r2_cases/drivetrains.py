@@ -12,7 +12,7 @@ from sim.bench.simulate import simulate
 from sim.core.log import Log
 from sim.physics.battery import Battery
 from sim.physics.model import Part
-from sim.physics.motors import motor
+from sim.physics.motors import find_motor
 
 NOISE = 0.01  # [m/s] of the velocity while it moves
 ROUTINE = Routine(ramp=1.0, step=3.5, timeout=7.0)
@@ -52,7 +52,7 @@ LIMITED = Setup(replace(DRIVETRAIN, stator=40.0))
 SLOW_FILTER = Setup(
     replace(
         DRIVETRAIN,
-        motor=motor("neo"),
+        motor=find_motor("neo"),
         sensor=replace(DRIVETRAIN.sensor, filter=AVERAGED),
     )
 )

@@ -8,8 +8,8 @@ import numpy as np
 
 from sim.bench.routine import LOOPS_BEFORE_DRIVE
 from sim.core.log import Array, Log, Run
-from sim.inspect.fault import Strike, replace_run, rescale_motion, select_samples
-from sim.inspect.faults import fault
+from sim.inspect.fault import FaultStrike, replace_run, rescale_motion, select_samples
+from sim.inspect.faults import find_fault
 from sim.teaching.r2_cases.drivetrains import Setup
 
 Harm: TypeAlias = Callable[[Log, np.random.Generator], Log]
@@ -21,7 +21,7 @@ SPIKE = 1.6  # [m/s]
 WITHIN = (0.3, 0.9)  # [share of the ramp] where spikes fall
 LURCH, LURCHES, LURCHED = 1.2, 0.2, 3.0  # [m/s, s, s] how much too fast, how long, and when
 STOP, PRESSED = 0.6, 0.3  # [share of the top speed, s]
-CUT = Strike(FORWARD_RAMP, start=1.5, severity=1.0)
+CUT = FaultStrike(FORWARD_RAMP, start=1.5, severity=1.0)
 LATE = 0.2  # [share of the loops]
 SHORTEST = 0.04  # [s] of a late loop
 GRIP = 1.1 * 9.81  # [m/s²] what carpet gives a robot at most
@@ -94,7 +94,7 @@ def log_commanded_voltage(setup: Setup) -> Harm:
 
 def add_brownout(log: Log, rng: np.random.Generator) -> Log:
     """Take the motors off for a moment, with a log that goes on to tell a voltage."""
-    return fault("brownout").spoil(log, CUT, rng).log
+    return find_fault("brownout").spoil(log, CUT, rng).log
 
 
 def drop_samples(longest: float) -> Harm:
@@ -137,7 +137,7 @@ def _scaled(log: Log, factor: float) -> Log:
 def _asked(run: Run, setup: Setup) -> Array:
     """(n,) [V] what the routine asked for."""
     since = run.time - run.time[0] + LOOPS_BEFORE_DRIVE * PERIOD
-    return np.array([setup.routine.voltage(run.test, t) for t in since.tolist()])
+    return np.array([setup.routine.command_voltage(run.test, t) for t in since.tolist()])
 
 
 def _late(run: Run, *, longest: float, rng: np.random.Generator) -> Run:

@@ -15,21 +15,21 @@ from numpy.typing import NDArray
 
 from sim.core.errors import BadRequest, BadSample, UnreadableFile
 from sim.core.log import Array, Log, Run
-from sim.core.units import unit
-from sim.io.entries import log_of_entries
+from sim.core.units import find_unit
+from sim.io.entries import assemble_log
 from sim.io.entries.entry import Entry
-from sim.io.format import HEAD, ReadOptions, lone_motor, sound_run
+from sim.io.format import HEAD, ReadOptions, doubt_motor_choice, make_run
 from sim.io.formats.csv.entries import is_export, read_entries
-from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, first_names, open_table
+from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, open_table, read_header
 
 SUFFIXES = (".csv",)
 ENOUGH = 3  # [columns of ours in the first line] more than chance puts there
 
 
-def knows(head: bytes) -> bool:
+def recognizes(head: bytes) -> bool:
     """Whether the first line names enough of our columns, or is that of a log viewer's export."""
     text = head.decode("utf-8-sig", errors="replace")
-    names = first_names(text)
+    names = read_header(text)
     return is_export(names) or len(set(names) & set(KNOWN)) >= ENOUGH
 
 
@@ -51,7 +51,7 @@ def entries(path: Path) -> list[Entry]:
 def _exported(path: Path) -> bool:
     """Whether a log viewer exported it."""
     with path.open(encoding="utf-8-sig", errors="replace") as stream:
-        return is_export(first_names(stream.read(HEAD)))
+        return is_export(read_header(stream.read(HEAD)))
 
 
 def read(path: Path, asked: ReadOptions) -> Log:
@@ -67,16 +67,16 @@ def read(path: Path, asked: ReadOptions) -> Log:
         BadSample: a cell is not a finite number; the message names line and column.
     """
     if _exported(path):
-        log, _ = log_of_entries(read_entries(path), asked=asked, where=str(path))
+        log, _ = assemble_log(read_entries(path), asked=asked, where=str(path))
         return log
     table = open_table(path, entries=asked.entries)
-    tests, codes = table.tests()
-    signals = {"time": table.numbers("time_s")}
-    signals |= {name: table.numbers(name) for name in ("voltage", "position", "velocity")}
-    signals |= {name: table.numbers(name, gaps=True) for name in EXTRA if name in table.cells}
-    si = unit(asked.units_or_default).si
+    tests, codes = table.group_by_test()
+    signals = {"time": table.parse_column("time_s")}
+    signals |= {name: table.parse_column(name) for name in ("voltage", "position", "velocity")}
+    signals |= {name: table.parse_column(name, gaps=True) for name in EXTRA if name in table.cells}
+    si = find_unit(asked.units_or_default).si
     runs: list[Run] = []
-    doubts = [*table.doubts, *lone_motor(asked, where=table.where)]
+    doubts = [*table.doubts, *doubt_motor_choice(asked, where=table.where)]
     for number, rows in enumerate(_split(table, codes, signals["time"])):
         mine = {
             name: values[rows]
@@ -84,7 +84,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
             if name not in EXTRA or _present(table, name, values[rows], rows)
         }
         where = f"{table.where}, run {number}"
-        run, said = sound_run(tests[codes[rows[0]]], mine, si=si, where=where)
+        run, said = make_run(tests[codes[rows[0]]], mine, si=si, where=where)
         runs.append(run)
         doubts.extend(said)
     return Log(
@@ -119,7 +119,7 @@ def write(log: Log, path: Path) -> None:
         stream.write(",".join([*(["run"] if numbered else []), *NEEDED, *extra]) + "\n")
         for number, run in enumerate(log.runs):
             prefix = f"{number},{run.test}," if numbered else f"{run.test},"
-            for row in _rows(run, extra=extra, si=unit(log.units).si):
+            for row in _rows(run, extra=extra, si=find_unit(log.units).si):
                 stream.write(f"{prefix}{row}\n")
 
 
@@ -137,7 +137,7 @@ def _present(table: CsvTable, name: str, values: Array, rows: NDArray[np.intp]) 
     if empty.any() and not empty.all():
         raise BadSample(
             f"{name} is empty, in a run that has it elsewhere",
-            where=table.at(int(rows[np.argmax(empty)])),
+            where=table.describe_row(int(rows[np.argmax(empty)])),
             advice="Fill the column for the whole run, or empty it.",
         )
     return not empty.all()
@@ -163,7 +163,7 @@ def _split(table: CsvTable, codes: NDArray[np.intp], time: Array) -> Iterator[ND
             if wrong.any():
                 raise UnreadableFile(
                     f"run {labels[numbers[rows[0]]][:40]!r} {what} here",
-                    where=table.at(int(rows[np.argmax(wrong) + 1])),
+                    where=table.describe_row(int(rows[np.argmax(wrong) + 1])),
                     advice="Give every run a value of its own in the column run, or leave the "
                     "column out.",
                 )

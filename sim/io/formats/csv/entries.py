@@ -11,7 +11,7 @@ import numpy as np
 
 from sim.core.errors import BadSample, UnreadableFile
 from sim.io.entries.entry import STRING, Entry, ValuesEntry
-from sim.io.formats.csv.table import csv_rows
+from sim.io.formats.csv.table import split_rows
 
 TIME = "timestamp"
 LISTED = ({"name", "value"}, {"key", "value"})  # the other columns of a list
@@ -37,7 +37,7 @@ def read_entries(path: Path) -> list[Entry]:
         BadSample: a time that is no number.
     """
     where = str(path)
-    _, rows = csv_rows(path)
+    _, rows = split_rows(path)
     _, header = next(rows)
     titles = [title.strip() for title in header]
     listed = {title.lower() for title in titles[1:]} in LISTED

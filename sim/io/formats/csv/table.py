@@ -40,21 +40,21 @@ class CsvTable:
         where: the file.
         cells: our name of a column -> its cells, one for every row.
         lines: the line on which each row ends, from 1.
-        comma: whether the decimal sign is a comma.
+        decimal_comma: whether the decimal sign is a comma.
         doubts: what was odd about the header.
     """
 
     where: str
     cells: Mapping[str, tuple[str, ...]]
     lines: list[int]
-    comma: bool = False
+    decimal_comma: bool = False
     doubts: tuple[Doubt, ...] = ()
 
-    def at(self, row: int) -> str:
+    def describe_row(self, row: int) -> str:
         """The place of a row, for messages."""
         return f"{self.where}, line {self.lines[row]}"
 
-    def tests(self) -> tuple[list[str], NDArray[np.intp]]:
+    def group_by_test(self) -> tuple[list[str], NDArray[np.intp]]:
         """The tests that occur, and (rows,) which of them each row belongs to.
 
         Raises:
@@ -69,7 +69,7 @@ class CsvTable:
                 if test not in TESTS:
                     raise UnreadableFile(
                         f"test is {cell[:40]!r}, which is no test's name",
-                        where=self.at(row),
+                        where=self.describe_row(row),
                         advice=f"Tests are {'|'.join(KINDS)}, then -{' or -'.join(DIRECTIONS)}.",
                     )
                 if test not in found:
@@ -77,7 +77,7 @@ class CsvTable:
                 code_of[cell] = found.index(test)
         return found, np.array([code_of[cell] for cell in self.cells["test"]], dtype=np.intp)
 
-    def numbers(self, name: str, *, gaps: bool = False) -> Array:
+    def parse_column(self, name: str, *, gaps: bool = False) -> Array:
         """One column as (rows,) numbers, all finite; with ``gaps``, an empty cell becomes nan.
 
         Raises:
@@ -99,7 +99,7 @@ class CsvTable:
             row = int(np.argmax(odd))
             raise BadSample(
                 f"{name} {_trouble(self.cells[name][row].strip(), numeric=_numeric(cells[row]))}",
-                where=self.at(row),
+                where=self.describe_row(row),
                 advice="Write a number there, or remove the line.",
             )
         return values
@@ -107,12 +107,12 @@ class CsvTable:
     def _plain(self, name: str, *, gaps: bool) -> Sequence[str]:
         """The cells of a column as Python writes numbers, where they hold any."""
         cells: Sequence[str] = self.cells[name]
-        if self.comma:
+        if self.decimal_comma:
             cells = [cell.replace(",", ".") for cell in cells]
         return [cell.strip() or "nan" for cell in cells] if gaps else cells
 
 
-def csv_rows(path: Path) -> tuple[str, Iterator[tuple[int, list[str]]]]:
+def split_rows(path: Path) -> tuple[str, Iterator[tuple[int, list[str]]]]:
     """What stands between the cells, and line and cells of each row that is not blank.
 
     Raises:
@@ -123,7 +123,7 @@ def csv_rows(path: Path) -> tuple[str, Iterator[tuple[int, list[str]]]]:
     return delimiter, _rows(text, delimiter=delimiter, where=str(path))
 
 
-def first_names(text: str) -> list[str]:
+def read_header(text: str) -> list[str]:
     """The names in the first line that is not blank."""
     first = re.split(r"[\r\n]", text.lstrip(), maxsplit=1)[0]
     return [cell.strip(' "').lower() for cell in re.split(r"[,;\t]", first)]
@@ -144,7 +144,7 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
     where = str(path)
     header: list[str] = []
     rows: list[tuple[int, list[str]]] = []
-    delimiter, every = csv_rows(path)
+    delimiter, every = split_rows(path)
     for line, row in every:
         if not header:
             header = [cell.strip().lower() for cell in row]

@@ -13,18 +13,24 @@ from pathlib import Path
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
-from sim.core.units import unit
-from sim.io.format import ReadOptions, lone_motor, sound_run
-from sim.io.formats.sysid_json.drivetrain import two_sides
-from sim.io.formats.sysid_json.rows import Form, check_columns, form_of, load_json, tables_of
-from sim.io.formats.sysid_json.said import StatedUnits, said_in
-from sim.io.formats.sysid_json.side import Side, one_side
+from sim.core.units import find_unit
+from sim.io.format import ReadOptions, doubt_motor_choice, make_run
+from sim.io.formats.sysid_json.drivetrain import read_drivetrain
+from sim.io.formats.sysid_json.rows import (
+    RowForm,
+    check_columns,
+    detect_form,
+    load_json,
+    parse_tables,
+)
+from sim.io.formats.sysid_json.said import FileHeader, read_header
+from sim.io.formats.sysid_json.side import Side, read_one_side
 
 SUFFIXES = (".json",)
 _KEY = re.compile(rb'"(slow-forward|slow-backward|fast-forward|fast-backward|track-width|sysid)"')
 
 
-def knows(head: bytes) -> bool:
+def recognizes(head: bytes) -> bool:
     """Whether it starts as a JSON object and soon names one of the tools' keys."""
     return head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{") and bool(_KEY.search(head))
 
@@ -50,9 +56,9 @@ def read(path: Path, asked: ReadOptions) -> Log:
             advice="Leave out --state, --voltage, --position and --velocity.",
         )
     document = load_json(path)
-    said = said_in(document, asked, where=where)
-    tables, doubts = tables_of(document, where=where)
-    form = form_of(tables, said, where=where)
+    said = read_header(document, asked, where=where)
+    tables, doubts = parse_tables(document, where=where)
+    form = detect_form(tables, said, where=where)
     check_columns(tables, form, where=where)
     sides, odd = _sides(tables, form, said, asked, where=where)
     runs = []
@@ -61,7 +67,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
         signals = sides[test].signals(time=tables[test][:, 0], scale=said.per_rotation)
         if form.battery is not None:
             signals["bus_voltage"] = tables[test][:, form.battery]
-        run, repeated = sound_run(test, signals, si=unit(said.units).si, where=where)
+        run, repeated = make_run(test, signals, si=find_unit(said.units).si, where=where)
         runs.append(run)
         doubts.extend(repeated)
     return Log(
@@ -75,7 +81,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
 
 
 def _sides(
-    tables: dict[str, Array], form: Form, said: StatedUnits, asked: ReadOptions, *, where: str
+    tables: dict[str, Array], form: RowForm, said: FileHeader, asked: ReadOptions, *, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
     """One side for every test: the only one, the one asked for, or both made one."""
     found = [
@@ -83,7 +89,7 @@ def _sides(
         for columns in form.sides
     ]
     if len(found) == 1:
-        sides, doubts = one_side(found[0], where=where)
-        return sides, [*doubts, *lone_motor(asked, where=where)]
+        sides, doubts = read_one_side(found[0], where=where)
+        return sides, [*doubts, *doubt_motor_choice(asked, where=where)]
     motor = asked.motor or "combined"
-    return two_sides(found, motor=motor, angular=said.angular, where=where)
+    return read_drivetrain(found, motor=motor, angular=said.angular, where=where)

@@ -17,7 +17,7 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
-from sim.io.formats.sysid_json.side import Side, align_signs, doubt_of, test_sign
+from sim.io.formats.sysid_json.side import Side, align_signs, make_doubt, sign_of_test
 
 STILL = 0.02  # [share of the other side's largest velocity] an encoder that counts nothing
 APART = 0.2  # [share of the mean velocity, RMS] two sides of one chassis do not differ so much
@@ -25,7 +25,7 @@ SIDES = ("left", "right")
 MOTORS = (*SIDES, "combined")
 
 
-def two_sides(
+def read_drivetrain(
     sides: Sequence[Mapping[str, Side]], *, motor: str, angular: bool, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
     """The runs of a drivetrain as those of one side, or of both made one.
@@ -52,30 +52,30 @@ def two_sides(
         settled, odd = align_signs(runs, name, mirrored=angular and name == "left", where=where)
         halves.append(settled)
         doubts += odd if motor in (name, "combined") else []
-    for index, tests in _face_alike(halves).items():
+    for index, tests in _align_sides(halves).items():
         if motor in (SIDES[index], "combined"):
-            doubts.append(doubt_of("mirrored-side", SIDES[index], tests, where=where))
+            doubts.append(make_doubt("mirrored-side", SIDES[index], tests, where=where))
     if angular:
-        doubts.append(_turning(where))
+        doubts.append(_doubt_turning(where))
     if motor != "combined":
         return halves[SIDES.index(motor)], doubts
-    doubts += _unlike(halves, where=where)
+    doubts += _doubt_sides_differ(halves, where=where)
     return {test: _mean(halves[0][test], halves[1][test]) for test in sides[0]}, doubts
 
 
-def _face_alike(halves: list[dict[str, Side]]) -> dict[int, list[str]]:
+def _align_sides(halves: list[dict[str, Side]]) -> dict[int, list[str]]:
     """Turn the side that runs against the other and the test's name; which side, in which tests."""
     changed: dict[int, list[str]] = {}
     for test in halves[0]:
-        ways = [half[test].ways[1] for half in halves]
+        ways = [half[test].signs[1] for half in halves]
         if ways[0] * ways[1] < 0:
-            wrong = ways.index(-test_sign(test))
-            halves[wrong][test] = halves[wrong][test].turned(voltage=True, motion=True)
+            wrong = ways.index(-sign_of_test(test))
+            halves[wrong][test] = halves[wrong][test].reverse(voltage=True, motion=True)
             changed.setdefault(wrong, []).append(test)
     return changed
 
 
-def _unlike(halves: list[dict[str, Side]], *, where: str) -> list[Doubt]:
+def _doubt_sides_differ(halves: list[dict[str, Side]], *, where: str) -> list[Doubt]:
     """A doubt where the sides move differently.
 
     Raises:
@@ -95,7 +95,7 @@ def _unlike(halves: list[dict[str, Side]], *, where: str) -> list[Doubt]:
         gap = np.mean((left[test].velocity - right[test].velocity) ** 2)
         if gap > APART**2 * np.mean(_mean(left[test], right[test]).velocity ** 2):
             apart.append(test)
-    return [doubt_of("sides-differ", "left and right", apart, where=where)] if apart else []
+    return [make_doubt("sides-differ", "left and right", apart, where=where)] if apart else []
 
 
 def _mean(left: Side, right: Side) -> Side:
@@ -103,7 +103,7 @@ def _mean(left: Side, right: Side) -> Side:
     return Side(*(0.5 * (a + b) for a, b in zip(left.columns, right.columns, strict=True)))
 
 
-def _turning(where: str) -> Doubt:
+def _doubt_turning(where: str) -> Doubt:
     """What the gains of a drivetrain that turned on the spot mean."""
     return Doubt(
         "turning-drivetrain",

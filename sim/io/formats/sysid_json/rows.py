@@ -12,7 +12,7 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.errors import BadSample, UnreadableFile
 from sim.core.log import LARGEST, Array
-from sim.io.formats.sysid_json.said import StatedUnits
+from sim.io.formats.sysid_json.said import FileHeader
 
 RUNS = {
     "slow-forward": "quasistatic-forward",
@@ -26,7 +26,7 @@ EMPTIEST = 4.0  # [V] a robot whose battery is lower does not run
 
 
 @dataclass(frozen=True)
-class Form:
+class RowForm:
     """Which column of a row holds what; time is the first in all.
 
     Args:
@@ -48,12 +48,12 @@ class Form:
 
 
 _FORMS = {
-    4: Form(((1, 2, 3),)),  # SysId 2021 to 2023, one mechanism
-    6: Form(((3, 4, 5),), battery=1),  # 2019 and 2020, one mechanism; [2] is the speed asked for
-    9: Form(((1, 3, 5), (2, 4, 6))),  # SysId 2021 to 2023, drivetrain; [7], [8] are the gyro's
-    10: Form(((3, 5, 7), (4, 6, 8)), battery=1),  # 2020, drivetrain; [9] is the gyro's angle
+    4: RowForm(((1, 2, 3),)),  # SysId 2021 to 2023, one mechanism
+    6: RowForm(((3, 4, 5),), battery=1),  # 2019 and 2020, one mechanism; [2] is the speed asked for
+    9: RowForm(((1, 3, 5), (2, 4, 6))),  # SysId 2021 to 2023, drivetrain; [7], [8] are the gyro's
+    10: RowForm(((3, 5, 7), (4, 6, 8)), battery=1),  # 2020, drivetrain; [9] is the gyro's angle
 }
-_NINE_OF_2019 = Form(((3, 5, 7), (4, 6, 8)), battery=1)  # as the ten of 2020, without a gyro
+_NINE_OF_2019 = RowForm(((3, 5, 7), (4, 6, 8)), battery=1)  # as the ten of 2020, without a gyro
 
 
 def load_json(path: Path) -> dict[str, object]:
@@ -89,7 +89,7 @@ def load_json(path: Path) -> dict[str, object]:
     return document
 
 
-def tables_of(
+def parse_tables(
     document: Mapping[str, object], *, where: str
 ) -> tuple[dict[str, Array], list[Doubt]]:
     """Test -> its (n, columns) table, and doubts about what was left out.
@@ -129,7 +129,7 @@ def tables_of(
     return tables, doubts
 
 
-def form_of(tables: Mapping[str, Array], said: StatedUnits, *, where: str) -> Form:
+def detect_form(tables: Mapping[str, Array], said: FileHeader, *, where: str) -> RowForm:
     """Which form the rows have: by their width, by what they hold, by what the file says.
 
     Raises:
@@ -152,7 +152,12 @@ def form_of(tables: Mapping[str, Array], said: StatedUnits, *, where: str) -> Fo
             advice=f"The tools wrote rows of {', '.join(map(str, _FORMS))}: give their file.",
         )
     form = _FORMS[width]
-    if form.battery is None and len(form.sides) > 1 and not said.sysid and _oldest(tables):
+    if (
+        form.battery is None
+        and len(form.sides) > 1
+        and not said.sysid
+        and _has_battery_column(tables)
+    ):
         form = _NINE_OF_2019
     if len(form.sides) == 1 or said.drivetrain:
         return form
@@ -167,7 +172,7 @@ def form_of(tables: Mapping[str, Array], said: StatedUnits, *, where: str) -> Fo
     return replace(form, sides=form.sides[:1]) if said.type or unused else form
 
 
-def _oldest(tables: Mapping[str, Array]) -> bool:
+def _has_battery_column(tables: Mapping[str, Array]) -> bool:
     """Whether the second column can be a battery and the third a speed from -1 to 1."""
     return all(
         bool(np.all(table[:, 1] > EMPTIEST) and np.all(np.abs(table[:, 2]) <= 1.0))
@@ -175,7 +180,7 @@ def _oldest(tables: Mapping[str, Array]) -> bool:
     )
 
 
-def check_columns(tables: Mapping[str, Array], form: Form, *, where: str) -> None:
+def check_columns(tables: Mapping[str, Array], form: RowForm, *, where: str) -> None:
     """Refuse what is no measurement, in the columns that are read.
 
     Raises:

@@ -21,7 +21,7 @@ _TYPES = {
 
 
 @dataclass(frozen=True)
-class StatedUnits:
+class FileHeader:
     """The words beside the rows.
 
     Args:
@@ -51,7 +51,7 @@ class StatedUnits:
         return "angular" in self.mechanism.lower()
 
 
-def said_in(document: Mapping[str, object], asked: ReadOptions, *, where: str) -> StatedUnits:
+def read_header(document: Mapping[str, object], asked: ReadOptions, *, where: str) -> FileHeader:
     """Collect what the file says; what a person says about units goes before it.
 
     Raises:
@@ -80,7 +80,7 @@ def said_in(document: Mapping[str, object], asked: ReadOptions, *, where: str) -
             where=where,
             advice="Write how far the mechanism goes in one rotation, a positive number.",
         )
-    return StatedUnits(
+    return FileHeader(
         mechanism, type_, units, per_rotation, "sysid" in document, (*doubts, *unsure)
     )
 

@@ -66,7 +66,7 @@ class Side:
         return self.voltage, self.position, self.velocity
 
     @property
-    def ways(self) -> tuple[int, int]:
+    def signs(self) -> tuple[int, int]:
         """The signs of voltage and velocity while it moves: 1, -1, or 0 where it is unclear."""
         voltage, velocity = np.abs(self.voltage), np.abs(self.velocity)
         moving = (voltage > MOVING * voltage.max()) & (velocity > MOVING * velocity.max())
@@ -76,7 +76,7 @@ class Side:
         signs = [0 if abs(mean) < CLEAR else (1 if mean > 0 else -1) for mean in means]
         return signs[0], signs[1]
 
-    def turned(self, *, voltage: bool = False, motion: bool = False) -> "Side":
+    def reverse(self, *, voltage: bool = False, motion: bool = False) -> "Side":
         """The same side with the sign of voltage, or of position and velocity, reversed."""
         side = replace(self, voltage=-self.voltage) if voltage else self
         return replace(side, position=-side.position, velocity=-side.velocity) if motion else side
@@ -91,30 +91,30 @@ class Side:
         }
 
 
-def test_sign(test: str) -> int:
+def sign_of_test(test: str) -> int:
     """The sign that a test's name promises."""
     return 1 if test.endswith("forward") else -1
 
 
-def doubt_of(code: str, name: str, tests: list[str], *, where: str) -> Doubt:
+def make_doubt(code: str, name: str, tests: list[str], *, where: str) -> Doubt:
     """One doubt about one side in all the tests it concerns."""
     what, cure = _SAID[code]
     return Doubt(code, f"{where}, {name}, {', '.join(tests)}: {what}. {cure}")
 
 
-def one_side(runs: Mapping[str, Side], *, where: str) -> tuple[dict[str, Side], list[Doubt]]:
+def read_one_side(runs: Mapping[str, Side], *, where: str) -> tuple[dict[str, Side], list[Doubt]]:
     """The runs of a mechanism with one side, its voltage with a sign where it had none.
 
     Any other disagreement of voltage and velocity stays as it is: gravity makes it too.
     """
-    low, high = _reach(runs)
+    low, high = _voltage_range(runs)
     bare = [
         test
         for test, side in runs.items()
-        if low >= -NOISE * high and test_sign(test) < 0 and side.ways == (1, -1)
+        if low >= -NOISE * high and sign_of_test(test) < 0 and side.signs == (1, -1)
     ]
-    signed = {test: side.turned(voltage=test in bare) for test, side in runs.items()}
-    return signed, [doubt_of("unsigned-voltage", "voltage", bare, where=where)] if bare else []
+    signed = {test: side.reverse(voltage=test in bare) for test, side in runs.items()}
+    return signed, [make_doubt("unsigned-voltage", "voltage", bare, where=where)] if bare else []
 
 
 def align_signs(
@@ -128,25 +128,25 @@ def align_signs(
         mirrored: whether the side is driven against the sign of the test's name.
         where: the file, for messages.
     """
-    signless = _signless(runs)
+    signless = _is_unsigned(runs)
     changed: dict[str, list[str]] = {}
     settled = {}
     for test, given in runs.items():
-        side = given.turned(voltage=mirrored, motion=mirrored)
-        voltage, velocity = side.ways
+        side = given.reverse(voltage=mirrored, motion=mirrored)
+        voltage, velocity = side.signs
         if voltage * velocity < 0:
-            code = "inverted-voltage" if velocity == test_sign(test) else "inverted-encoder"
+            code = "inverted-voltage" if velocity == sign_of_test(test) else "inverted-encoder"
             code = "unsigned-voltage" if signless else code
             changed.setdefault(code, []).append(test)
             encoder = code == "inverted-encoder"
-            side = side.turned(voltage=not encoder, motion=encoder)
+            side = side.reverse(voltage=not encoder, motion=encoder)
         elif voltage * velocity == 0 and np.any(side.velocity) and np.any(side.voltage):
             changed.setdefault("unclear-sign", []).append(test)
         settled[test] = side
-    return settled, [doubt_of(code, name, tests, where=where) for code, tests in changed.items()]
+    return settled, [make_doubt(code, name, tests, where=where) for code, tests in changed.items()]
 
 
-def _reach(runs: Mapping[str, Side]) -> tuple[float, float]:
+def _voltage_range(runs: Mapping[str, Side]) -> tuple[float, float]:
     """The lowest and the highest voltage of all runs [V]."""
     return (
         min(float(side.voltage.min()) for side in runs.values()),
@@ -154,9 +154,9 @@ def _reach(runs: Mapping[str, Side]) -> tuple[float, float]:
     )
 
 
-def _signless(runs: Mapping[str, Side]) -> bool:
+def _is_unsigned(runs: Mapping[str, Side]) -> bool:
     """Whether tests of both directions have voltages of one sign, which then says nothing."""
-    low, high = _reach(runs)
-    return len({test_sign(test) for test in runs}) > 1 and (
+    low, high = _voltage_range(runs)
+    return len({sign_of_test(test) for test in runs}) > 1 and (
         low >= -NOISE * high or high <= -NOISE * low
     )

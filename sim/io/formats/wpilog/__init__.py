@@ -12,20 +12,20 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.errors import MissingSignal, UnreadableFile
 from sim.core.log import Log
-from sim.io.entries import log_of_entries
+from sim.io.entries import assemble_log
 from sim.io.entries.state import FOREVER, RunInterval
 from sim.io.format import ReadOptions
-from sim.io.formats.wpilog.contents import FileDamage, contents_of
+from sim.io.formats.wpilog.contents import FileDamage, read_contents
 from sim.io.formats.wpilog.entry import FileEntry
 from sim.io.formats.wpilog.records import MAGIC, load_records
 from sim.io.formats.wpilog.writing import write
 
-__all__ = ["SUFFIXES", "entries", "knows", "read", "write"]
+__all__ = ["SUFFIXES", "entries", "read", "recognizes", "write"]
 
 SUFFIXES = (".wpilog",)
 
 
-def knows(head: bytes) -> bool:
+def recognizes(head: bytes) -> bool:
     """Whether a file that starts like this is a WPILOG file."""
     return head.startswith(MAGIC)
 
@@ -36,7 +36,7 @@ def entries(path: Path) -> list[FileEntry]:
     Raises:
         UnreadableFile: it is foreign or empty.
     """
-    return list(contents_of(load_records(path)).entries)
+    return list(read_contents(load_records(path)).entries)
 
 
 def read(path: Path, asked: ReadOptions) -> Log:
@@ -54,23 +54,23 @@ def read(path: Path, asked: ReadOptions) -> Log:
     """
     where = str(path)
     records = load_records(path)
-    found = contents_of(records)
+    found = read_contents(records)
     damage = found.damage
     lost = tuple(_orphaned(found.orphans, where))
     if not found.entries:
         raise _unreadable(damage, records.end, where, "there is no record before it")
     try:
         with np.errstate(all="ignore"):  # what is not finite is refused where a run is made of it
-            log, spans = log_of_entries(found.entries, asked=asked, where=where)
+            log, spans = assemble_log(found.entries, asked=asked, where=where)
     except MissingSignal as missing:
         if damage is None:
             raise
         raise _unreadable(damage, records.end, where, missing.what) from None
     if damage is None:
-        return log.with_doubts(*lost, *_unfinished(spans[-1], where))
+        return log.add_doubts(*lost, *_unfinished(spans[-1], where))
     if not damage.torn and spans[0].end == FOREVER:
         raise _unreadable(damage, records.end, where, "no run is whole before it")
-    return log.with_doubts(*lost, _partly(damage, where))
+    return log.add_doubts(*lost, _partly(damage, where))
 
 
 def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> UnreadableFile:
@@ -104,8 +104,8 @@ def _partly(damage: FileDamage, where: str) -> Doubt:
     what = "the file ends too soon" if damage.torn else "THE FILE IS DAMAGED"
     return Doubt(
         "truncated" if damage.torn else "damaged",
-        f"{where}: {what}: {damage.what} at byte {damage.offset}. The {damage.left} bytes from "
-        "there on were left out. Copy the file from the robot again, or check that no run is "
+        f"{where}: {what}: {damage.what} at byte {damage.offset}. The {damage.unread_bytes} bytes "
+        "from there on were left out. Copy the file from the robot again, or check that no run is "
         "missing.",
     )
 

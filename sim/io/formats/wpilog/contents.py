@@ -13,7 +13,7 @@ import numpy as np
 
 from sim.io.formats.wpilog.control import Metadata, Start, parse_control_record
 from sim.io.formats.wpilog.entry import SIZES, FileEntry
-from sim.io.formats.wpilog.records import Fields, File, Numbers, Records, read_headers
+from sim.io.formats.wpilog.records import File, Numbers, RecordHeaders, Records, read_headers
 
 SMALL_IDS = 1 << 16  # ids below fit 16 bits, which NumPy sorts by radix
 LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is hardly larger
@@ -25,13 +25,13 @@ class FileDamage:
 
     Args:
         offset: the first byte that was not used.
-        left: how many bytes there are from it to the end of the file.
+        unread_bytes: how many bytes there are from it to the end of the file.
         what: what is wrong with the record there, a clause.
         torn: whether the file merely ends too soon, as when a robot loses power.
     """
 
     offset: int
-    left: int
+    unread_bytes: int
     what: str
     torn: bool
 
@@ -61,7 +61,7 @@ class _Stop:
 
 
 @dataclass
-class _Life:
+class _EntryLife:
     """An entry from the record that starts it to the one that ends it, by index."""
 
     start: Start
@@ -79,42 +79,42 @@ class _Group:
     time: Numbers
     payload: Numbers
 
-    def during(self, life: _Life) -> "_Group":
+    def select_life(self, life: _EntryLife) -> "_Group":
         """Those of them that fall into one life."""
         if life.first < self.index[0] and self.index[-1] < life.last:
             return self
         first, last = self.index.searchsorted((life.first, life.last))
-        return self.of(slice(first, last))
+        return self.select(slice(first, last))
 
-    def of(self, which: slice | Numbers) -> "_Group":
+    def select(self, which: slice | Numbers) -> "_Group":
         """Some of them."""
         return _Group(self.index[which], self.size[which], self.time[which], self.payload[which])
 
 
-_Lives: TypeAlias = dict[int, list[_Life]]
+_Lives: TypeAlias = dict[int, list[_EntryLife]]
 
 
-def contents_of(records: Records) -> Contents:
+def read_contents(records: Records) -> Contents:
     """Sort the records of a file into entries, up to the first record that cannot be."""
     head = read_headers(records.file.buffer, records.start)
     groups = _groups(head)
-    lives, stop = _lives(records, head, before=head.id.size)
+    lives, stop = _find_lives(records, head, before=head.id.size)
     stops = [stop] if stop else []
     for number, group in groups.items():
-        stops += _misfits(number, group, lives.get(number, ()))
+        stops += _find_misfits(number, group, lives.get(number, ()))
     if stops:
         stop = min(stops)
-        lives, _ = _lives(records, head, before=stop.index)
+        lives, _ = _find_lives(records, head, before=stop.index)
     orphans = sum(
         int(np.count_nonzero(groups[number].index < several[0].first))
         for number, several in lives.items()
         if number in groups
     )
-    entries = tuple(_joined(lives, groups, records.file))
+    entries = tuple(_join_lives(lives, groups, records.file))
     return Contents(entries, _damage(records, lives, stop), orphans)
 
 
-def _groups(head: Fields) -> dict[int, _Group]:
+def _groups(head: RecordHeaders) -> dict[int, _Group]:
     """The records of each entry id, control records left out."""
     if not head.id.size:
         return {}
@@ -124,10 +124,12 @@ def _groups(head: Fields) -> dict[int, _Group]:
     ids = head.id[order]
     first = np.flatnonzero(np.diff(ids, prepend=-1)).tolist()
     bounds = zip(first, [*first[1:], ids.size], strict=True)
-    return {int(ids[a]): whole.of(slice(a, b)) for a, b in bounds if ids[a]}
+    return {int(ids[a]): whole.select(slice(a, b)) for a, b in bounds if ids[a]}
 
 
-def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Stop | None]:
+def _find_lives(
+    records: Records, head: RecordHeaders, *, before: int
+) -> tuple[_Lives, _Stop | None]:
     """When each entry began and ended, by the control records up to the first senseless one."""
     lives: _Lives = {}
     for index in np.flatnonzero(head.id[:before] == 0).tolist():
@@ -144,11 +146,11 @@ def _lives(records: Records, head: Fields, *, before: int) -> tuple[_Lives, _Sto
         elif current:
             current.last = index
         if isinstance(said, Start):
-            known.append(_Life(said, said.metadata, index, before))
+            known.append(_EntryLife(said, said.metadata, index, before))
     return lives, None
 
 
-def _misfits(number: int, group: _Group, lives: Sequence[_Life]) -> Iterator[_Stop]:
+def _find_misfits(number: int, group: _Group, lives: Sequence[_EntryLife]) -> Iterator[_Stop]:
     """The first record of an id that belongs to no entry, and any of a size its type cannot have.
 
     Records before a start, or between a finish and the next start, are passed over, as WPILib's own
@@ -158,7 +160,7 @@ def _misfits(number: int, group: _Group, lives: Sequence[_Life]) -> Iterator[_St
         yield _Stop(int(group.index[0]), f"a record of entry {number}, which was never started")
     for life in lives:
         if life.start.type in SIZES:
-            part = group.during(life)
+            part = group.select_life(life)
             wrong = part.size != SIZES[life.start.type]
             if wrong.any():
                 at = int(wrong.argmax())
@@ -166,24 +168,24 @@ def _misfits(number: int, group: _Group, lives: Sequence[_Life]) -> Iterator[_St
                 yield _Stop(int(part.index[at]), what)
 
 
-def _joined(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[FileEntry]:
+def _join_lives(lives: _Lives, groups: Mapping[int, _Group], file: File) -> Iterator[FileEntry]:
     """One entry for all lives of the same name and type, in the order they first appear."""
-    named: dict[tuple[str, str], list[_Life]] = {}
+    named: dict[tuple[str, str], list[_EntryLife]] = {}
     for life in sorted(chain.from_iterable(lives.values()), key=lambda life: life.first):
         named.setdefault((life.start.name, life.start.type), []).append(life)
     none = np.zeros(0, dtype=np.int64)
     for (name, kind), several in named.items():
         parts = [
-            groups[life.start.id].during(life) for life in several if life.start.id in groups
+            groups[life.start.id].select_life(life) for life in several if life.start.id in groups
         ] or [_Group(none, none, none, none)]
-        whole = parts[0] if len(parts) == 1 else _one_after_another(parts)
+        whole = parts[0] if len(parts) == 1 else _concatenate_groups(parts)
         if (whole.time[1:] < whole.time[:-1]).any():
-            whole = whole.of(np.argsort(whole.time, kind="stable"))
+            whole = whole.select(np.argsort(whole.time, kind="stable"))
         metadata = next((life.metadata for life in reversed(several) if life.metadata), "")
         yield FileEntry(name, kind, metadata, whole.time, whole.payload, whole.size, file)
 
 
-def _one_after_another(parts: Sequence[_Group]) -> _Group:
+def _concatenate_groups(parts: Sequence[_Group]) -> _Group:
     """Several groups as one."""
     columns = ("index", "size", "time", "payload")
     return _Group(*(np.concatenate([getattr(part, one) for part in parts]) for one in columns))

@@ -50,7 +50,7 @@ class FileEntry(Entry):
         if len(self) * SCATTERED < self.file.size:
             content = self.file.content
             return [content[begin:end].decode("utf-8", "replace") for begin, end in spans]
-        letters = self.file.letters
+        letters = self.file.latin1_text
         texts = [letters[begin:end] for begin, end in spans]
         if all(map(str.isascii, texts)):
             return texts

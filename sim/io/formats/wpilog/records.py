@@ -71,7 +71,7 @@ class File:
         return np.frombuffer(self.content, dtype=np.uint8)
 
     @cached_property
-    def letters(self) -> str:
+    def latin1_text(self) -> str:
         """Its content as text, one letter a byte."""
         return self.content.decode("latin-1")
 
@@ -92,7 +92,7 @@ class Records:
 
 
 @dataclass(frozen=True, eq=False)
-class Fields:
+class RecordHeaders:
     """What the headers of some records say.
 
     Args:
@@ -152,7 +152,7 @@ def follow_records(file: File, *, first: int) -> tuple[Numbers, int]:
     return np.concatenate(pieces), at
 
 
-def read_headers(buffer: Bytes, start: Numbers) -> Fields:
+def read_headers(buffer: Bytes, start: Numbers) -> RecordHeaders:
     """Read the headers of the records that begin at ``start``."""
     table = np.empty((4, start.size), dtype=np.int64)
     for first in range(0, start.size, BLOCK):
@@ -166,7 +166,7 @@ def read_headers(buffer: Bytes, start: Numbers) -> Fields:
         at += SIZE_LENGTH[bits]
         table[2, block] = (view_numbers(buffer, np.uint64)[at] & TIME_MASK[bits]).view(np.int64)
         table[3, block] = at + TIME_LENGTH[bits]
-    return Fields(*table)
+    return RecordHeaders(*table)
 
 
 def view_numbers(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:

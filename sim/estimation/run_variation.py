@@ -1,0 +1,192 @@
+"""Gains that vary from run to run, as random effects.
+
+The gains of run i are θ + b_i with b_i ~ N(0, T), T diagonal. A battery warms up, a chain lies
+otherwise, a model lacks something that only some tests excite: then the runs of one log disagree by
+more than noise, and the error of their common gains is that of a mean over few runs:
+
+    cov θ = (Σ_i (T + f_i G_i⁻¹)⁻¹)⁻¹        G_i the Fisher information of run i
+
+f_i is by how much the scores of short intervals of the run vary more than independent innovations
+would make them: errors that last leave fewer independent samples.
+
+T is estimated from the scores of the runs: given T, that of run i is normal with covariance
+G_i + G_i T G_i.
+
+Source: N. Laird and J. Ware, "Random-effects models for longitudinal data", Biometrics 38, 1982.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.core.log import Array
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+
+VARIES: Mapping[str, float] = {
+    "kS": 0.04, "kV": 0.007, "kA": 0.04, "kG": 0.02, "level": 0.02, "upright": 0.02,
+}  # fmt: skip
+"""Share of a gain by which it differs between runs of one robot and day: a guess to begin with."""
+LEAST_VOLTS = 0.05  # [V] of which it is a share where kS or kG is less
+FIXED = 1e-6  # [share of a size] by which parameters vary that do not
+NO_INFORMATION = 1e-12  # [1/size²] what no run tells has a large error, not an infinite one
+LASTS = 0.5  # [s] for which what a model lacks errs one way
+TELLS = 1e-6  # [share of the largest eigenvalue] of information, below which it is none
+GRID: Array = 2.0 ** np.arange(-10.0, 6.0)  # [guesses] standard deviations that are weighed
+SWEEPS = 2  # over all gains
+
+
+@dataclass(frozen=True, eq=False)
+class RunInformation:
+    """What one run says about the parameters, its start marginalized, in units of their sizes.
+
+    Args:
+        information: (k, k) Fisher information G.
+        score: (k,) gradient of half the sum of squares.
+    """
+
+    information: Array
+    score: Array
+
+    def of(self, chosen: NDArray[np.bool_]) -> "RunInformation":
+        """That about some of the parameters, the others known."""
+        return RunInformation(self.information[np.ix_(chosen, chosen)], self.score[chosen])
+
+
+def run_variation_covariance(
+    problem: PredictionErrorProblem, point: Estimate, table: Array, rest: Array
+) -> Array:
+    """(searched, searched) covariance of the parameters when gains vary from run to run.
+
+    Args:
+        problem: the measurements, without frictions of each run's own.
+        point: the best estimate.
+        table: (2 n + ..., searched + runs) Jacobian of the whitened innovations.
+        rest: (2 n + ...,) whitened innovations.
+    """
+    sizes = _sizes(problem, point)
+    runs = _run_information(problem, point, table, rest, sizes)
+    known = problem.priors_of(point.structure)
+    names = point.structure.searched_names
+    own = np.array([name not in known for name in names])
+    guess = np.array([VARIES.get(name, FIXED) for name in names])
+    square = guess**2
+    square[own] = _variances([run.of(own) for run in runs], guess[own])
+    prior = [
+        (size / known[name]) ** 2 if name in known else 0.0
+        for name, size in zip(names, sizes, strict=True)
+    ]
+    covariance = _marginal_covariance(runs, square, np.array(prior))
+    return np.asarray(covariance * np.outer(sizes, sizes))
+
+
+def _variances(runs: list[RunInformation], guess: Array) -> Array:
+    """(k,) variances of the parameters between runs: posterior means, one gain after another.
+
+    A variance that the runs say nothing about would be unbounded; a flat prior over the logarithm
+    of its root, from a thousandth to some times the guess, keeps it finite.
+    """
+    square, varying = np.full(guess.size, FIXED**2), np.flatnonzero(guess > FIXED)
+    square[varying] = guess[varying] ** 2
+    for _ in range(SWEEPS):
+        for place in varying:
+            tried = np.repeat(square[None, :], GRID.size, axis=0)
+            tried[:, place] = (GRID * guess[place]) ** 2
+            chance = _log_likelihood(runs, tried)
+            weight = np.exp(chance - chance.max())
+            square[place] = float(weight @ tried[:, place] / weight.sum())
+    return square
+
+
+def _log_likelihood(runs: list[RunInformation], square: Array) -> Array:
+    """(tried,) log likelihood of the scores of all runs, up to a constant.
+
+    Args:
+        runs: their information.
+        square: (tried, k) variances between runs.
+    """
+    root = np.sqrt(square)
+    information = np.array([run.information for run in runs])
+    scores = np.array([run.score for run in runs])
+    shares, ways = np.linalg.eigh(root[:, None, :, None] * information * root[:, None, None, :])
+    shares = np.maximum(shares, 0.0)
+    along = np.einsum("tk,rk,trkj->trj", root, scores, ways)
+    return np.asarray(0.5 * np.sum(along**2 / (1.0 + shares) - np.log1p(shares), axis=(1, 2)))
+
+
+def _marginal_covariance(runs: list[RunInformation], square: Array, prior: Array) -> Array:
+    """(k, k) covariance of the common parameters, given their variances between runs.
+
+    Args:
+        runs: their information.
+        square: (k,) variances between runs.
+        prior: (k,) information that is known beforehand.
+    """
+    root, total = np.sqrt(square), np.diag(prior + NO_INFORMATION)
+    for run in runs:
+        shares, ways = _along(run, root)
+        inverse = ways / square[:, None]
+        total = total + (inverse * (shares / (1.0 + shares))) @ inverse.T
+    return np.asarray(np.linalg.inv(total))
+
+
+def _along(run: RunInformation, root: Array) -> tuple[Array, Array]:
+    """Eigenvalues of T^(1/2) G T^(1/2) and (k, k) its eigenvectors times T^(1/2)."""
+    shares, ways = np.linalg.eigh(run.information * np.outer(root, root))
+    return np.maximum(shares, 0.0), root[:, None] * ways
+
+
+def _run_information(
+    problem: PredictionErrorProblem, point: Estimate, table: Array, rest: Array, sizes: Array
+) -> list[RunInformation]:
+    """The information of each run that is compared."""
+    count, runs = sizes.size, []
+    start = 1.0 / problem.start_sd**2
+    for number, (first, last) in enumerate(
+        zip(problem.run_edges, problem.run_edges[1:], strict=False)
+    ):
+        rows = slice(2 * int(first), 2 * int(last))
+        columns = table[rows, :count] * sizes
+        if not columns.any():
+            continue
+        moved, own = table[rows, count + number], point.nuisance.position_offset[number] * start
+        size = float(moved @ moved) + start
+        free = columns - np.outer(moved, columns.T @ moved) / size
+        information = free.T @ columns
+        score = free.T @ rest[rows] - columns.T @ moved * own / size
+        time = problem.records[number].measurements.time
+        intervals = np.repeat(((time - time[0]) // LASTS).astype(int), 2)
+        scores = np.zeros((int(intervals[-1]) + 1, count))
+        np.add.at(scores, intervals, free * rest[rows, None])
+        excess = max(_excess(information, scores), 1.0)
+        runs.append(RunInformation(information / excess, score / excess))
+    return runs
+
+
+def _excess(information: Array, scores: Array) -> float:
+    """[1] variance of the scores of intervals over what independent innovations would give.
+
+    Args:
+        information: (k, k) of the run.
+        scores: (intervals, k).
+    """
+    shares, ways = np.linalg.eigh(information)
+    told = shares > TELLS * shares[-1]
+    return float(np.mean(np.sum((scores @ ways[:, told]) ** 2, axis=0) / shares[told]))
+
+
+def _sizes(problem: PredictionErrorProblem, point: Estimate) -> Array:
+    """(searched,) of each parameter, what its variation is a share of."""
+    values, known = point.values, problem.priors_of(point.structure)
+    gravity = math.hypot(values.get("level", 0.0), values.get("upright", 0.0))
+    volts = {"kS": values["kS"], "kG": values.get("kG", 0.0), "level": gravity, "upright": gravity}
+    return np.array(
+        [
+            known.get(name)
+            or (max(abs(volts[name]), LEAST_VOLTS) if name in volts else 0.0)
+            or point.structure.parameter_scale(name, values[name])
+            for name in point.structure.searched_names
+        ]
+    )

@@ -1,0 +1,100 @@
+"""Covariances of the fitted gains: sensor noise, errors that last, and variation between runs.
+
+The error of a gain is the largest that one of these gives. Noise alone is right for a model that
+holds. What a model lacks errs one way for a while, which a sandwich estimate over intervals allows
+for, and differs from run to run, which random effects do.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.core.log import Array
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.optimize import append_prior_rows, invert_information
+from sim.estimation.run_variation import run_variation_covariance
+from sim.fit.everyday_effects import with_everyday_effects
+from sim.fit.open_loop_fallback import OpenLoopReplay
+from sim.fit.search import OPEN_LOOP
+
+EXACT = 1e-5  # [1/s] q over a velocity's variance that noise never asks for: more, and errors last
+FORM = 0.05  # [of a small effect] by which its formula is wrong on a robot
+TOGETHER = 0.5  # [s] for which what is missing errs one way
+
+
+def gain_covariances(
+    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
+) -> Iterator[tuple[Estimate, Array]]:
+    """An estimate and a (searched, searched) covariance of its parameters, one for each cause.
+
+    Args:
+        problem: what was searched.
+        point: the best estimate.
+        followed: how it follows.
+    """
+    extended, wide = problem, point
+    if not problem.priors:
+        extended, wide = with_everyday_effects(problem, point)
+    table, rest = append_prior_rows(extended, wide, fine=True)
+    count = len(wide.structure.searched_names)
+    noise = invert_information(table)
+    yield wide, noise[:count, :count] + _form_covariance(extended, wide, table)
+    yield wide, run_variation_covariance(extended, wide, table, rest)
+    lacks = point.process_noise > EXACT * problem.noise.velocity**2
+    if followed.has_misfit or lacks:
+        yield wide, _sandwich(extended, table, rest, noise)[:count, :count]
+    if lacks and not followed.has_misfit:
+        q = OPEN_LOOP * problem.noise.velocity**2
+        left = extended.evaluate(wide.structure, wide.values, wide.nuisance, q)
+        table, rest = append_prior_rows(extended, left, fine=True)
+        yield left, _sandwich(extended, table, rest, invert_information(table))[:count, :count]
+
+
+def _form_covariance(problem: PredictionErrorProblem, point: Estimate, table: Array) -> Array:
+    """(searched, searched) covariance from small effects whose form is only about right.
+
+    Friction at a crawl is no exact exponential, and drag no exact square. Each fitted size is
+    known to ``FORM`` of itself at best; the other parameters shift with it.
+
+    Args:
+        problem: what was searched.
+        point: the best estimate.
+        table: (2 n + ..., searched + runs) Jacobian of the whitened innovations and priors.
+    """
+    names, known = point.structure.searched_names, problem.priors_of(point.structure)
+    count = len(names)
+    effects = np.array([name in known for name in names])
+    others = np.concatenate([~effects, np.ones(table.shape[1] - count, dtype=bool)])
+    kept = table[:, others]
+    inverse = invert_information(kept)
+    total = np.zeros((count, count))
+    for place in np.flatnonzero(effects):
+        shift = np.zeros(table.shape[1])
+        shift[others] = -inverse @ (kept.T @ table[:, place])
+        shift[place] = 1.0
+        shift = shift[:count] * FORM * point.values[names[place]]
+        total += np.outer(shift, shift)
+    return total
+
+
+def _sandwich(problem: PredictionErrorProblem, table: Array, rest: Array, bread: Array) -> Array:
+    """(parameters, parameters) covariance with scores summed over ``TOGETHER``.
+
+    Source: the sandwich of White (1980).
+    """
+    rows = 2 * len(problem.measured)
+    intervals = np.repeat(_intervals(problem), 2)  # two measurements to a sample
+    scores = np.zeros((int(intervals.max()) + 1, table.shape[1]))
+    np.add.at(scores, intervals, table[:rows] * rest[:rows, None])
+    return np.asarray(bread @ (scores.T @ scores) @ bread)
+
+
+def _intervals(problem: PredictionErrorProblem) -> NDArray[np.int_]:
+    """(n,) which interval a sample lies in, counted through all runs."""
+    parts, first = [], 0
+    for record in problem.records:
+        time = record.measurements.time
+        parts.append(first + ((time - time[0]) // TOGETHER).astype(int))
+        first = int(parts[-1][-1]) + 1
+    return np.concatenate(parts)

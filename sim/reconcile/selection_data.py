@@ -1,0 +1,30 @@
+"""What every step of the selection works on: the measurements, and which runs predict which."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from sim.core.log import Log
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
+from sim.reconcile.cross_validation import Fold
+
+
+@dataclass(frozen=True, eq=False)
+class SelectionData:
+    """The data that effects are selected by.
+
+    Args:
+        problem: the measurements of all that may be fitted.
+        folds: which runs predict which.
+        progress: told what is done, and the share of it [1].
+    """
+
+    problem: PredictionErrorProblem
+    folds: Sequence[Fold]
+    progress: Callable[[str, float], None] = lambda _, __: None
+
+
+def voltage_residual_at(log: Log, point: Estimate) -> VoltageResidual:
+    """The voltage residual of a log under an estimate's base model."""
+    gains = point.structure.model(point.values).gains
+    return compute_voltage_residual(log, dict(gains), type=point.structure.type)

@@ -1,0 +1,112 @@
+"""What a person reads of each command, word for word, in one file a command: ``tests/snapshots/``.
+
+Where a sentence was improved, SYSID_SNAPSHOTS=write pytest tests/test_sentences.py writes the files
+anew, and their difference is read as any other. What a command finds, and its numbers, are tested
+elsewhere: digits count here only where a story was made by hand.
+"""
+
+import io
+import os
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from story_made import DRAG, PLACE, REMAINS, SAG, SLIP, STORIES, story
+
+import sim
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.cli import sysid
+from sim.inspect.contaminate import contaminate
+from sim.inspect.faults import FAULTS
+from sim.reconcile.story_text import list_inspections, list_next_tests, write_headline
+from sim.report.story_terminal import show_story
+from sim.support.command_line import run_command
+
+FOLDER = Path(__file__).parent / "snapshots"
+NUMBER = re.compile(r"\d[\d.,]*(?:e[+-]?\d+)?")
+
+
+def compare(name, parts):
+    """The parts, each under its title, are those of the file."""
+    text = "\n\n".join(f"## {title}\n\n{said.strip()}" for title, said in parts.items()) + "\n"
+    path = FOLDER / f"{name}.txt"
+    if os.environ.get("SYSID_SNAPSHOTS") == "write":
+        path.write_text(text, encoding="utf-8", newline="\n")
+
+    assert text.splitlines() == path.read_text(encoding="utf-8").splitlines()
+
+
+def told(one):
+    """What a terminal of eighty columns shows of a story."""
+    out = io.StringIO()
+    show_story(one, title="drive.csv", console=Console(file=out, width=80, highlight=False))
+    return "\n".join(line.rstrip() for line in out.getvalue().splitlines())
+
+
+def run(capsys, *words):
+    """What a command prints, its numbers left out and its lines joined: they break by length."""
+    run_command(sysid, name="sysid", arguments=[*map(str, words)])
+    return re.sub(r" +", " ", NUMBER.sub("#", capsys.readouterr().out.replace("\n", " ")))
+
+
+def test_reconcile_tells_a_story_in_these_words():
+    off, unsure = STORIES["nothing missing"], STORIES["ambiguous"].findings[0]
+    one = STORIES["explained"]
+    stories = STORIES | {
+        "a gap that does not shrink": story(DRAG, gap_after=1.2 * one.gap_before),
+        "far off": replace(off, gap_after=3.0 * off.noise_floor),
+        "all at once": story(
+            SLIP, *STORIES["ambiguous"].findings, SAG, verdict="ambiguous", **REMAINS
+        ),
+    }
+    parts = {name: f"{write_headline(each)}\n\n{told(each)}" for name, each in stories.items()}
+    places = [replace(PLACE, error=error).sentence for error in (0.9614, -99.4, 123.4)]
+    looks = [f"{what}: {how}" for found in (unsure, SLIP) for what, how in list_inspections(found)]
+
+    compare(
+        "reconcile",
+        parts
+        | {
+            "places": "\n".join(places),
+            "what to look at": "\n".join(looks),
+            "tests to run next": "\n".join(list_next_tests(story(unsure, unsure))),
+        },
+    )
+
+
+def test_the_gap_is_told_in_these_words():
+    signals = {
+        f"{signal}, {error:+g} noises": replace(PLACE, signal=signal, error=error).sentence
+        for signal in ("velocity", "position")
+        for error in (-2.0, 2.0)
+    }
+
+    compare("gap", signals)
+
+
+def test_inspect_tells_of_each_fault_in_these_words(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(4))
+    parts = {}
+    for name in ["no fault", *FAULTS]:
+        damaged = log
+        if name != "no fault":
+            damaged = contaminate(log, name, severity=2.0, rng=np.random.default_rng(7)).log
+        sim.write(damaged, "log.csv")
+        parts[name] = run(capsys, "inspect", "log.csv")
+
+    compare("inspect", parts)
+
+
+def test_fit_tells_of_gains_in_these_words(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    parts = {}
+    for name in ("drivetrain", "elevator", "arm"):
+        sim.write(simulate(MECHANISMS[name], Routine(), rng=np.random.default_rng(2)), "log.csv")
+        parts[name] = run(capsys, "fit", "log.csv", "--type", MECHANISMS[name].type)
+
+    compare("fit", parts)
