@@ -101,7 +101,8 @@ def _paragraph(kind: "Sequence[Damage]") -> list[str]:
         places = [_place(damage) for damage in sorted(kind, key=_when)[:PLACES]]
         if len(kind) > PLACES:
             places.append(f"{len(kind) - PLACES} more")
-        texts[:1] = [f"Found at {'; '.join(places)}.", _example(worst)]
+        listed = [f"Found at {'; '.join(places)}."] if worst.where.run is not None else []
+        texts[:1] = [*listed, _example(worst)]
     for text in texts:
         wrapped = click.wrap_text(text, width=WIDTH, initial_indent="  ", subsequent_indent="  ")
         lines += wrapped.splitlines()
