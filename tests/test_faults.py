@@ -192,13 +192,13 @@ GOOD = '''"""Gremlins: they bite.
 
 Fingerprint: bites.
 """
-from sim.inspect.fault import Fault, Spoilt
+from sim.inspect.fault import Fault, DamagedLog
 
 FAULT = Fault(
     name="gremlins",
     summary="they bite",
     ordinary="3 bites",
-    spoil=lambda log, strike, rng: Spoilt(log, ()),
+    spoil=lambda log, blow, rng: DamagedLog(log, ()),
     detect=lambda features: (),
 )
 '''

@@ -13,7 +13,7 @@ from sim.io import read
 
 pytestmark = pytest.mark.shared
 
-MADE_UP = {"encoder-slip", "brownout", "wheel-slip", "loop-overrun", "mislabelled-test"}
+MADE_UP = {"encoder-slip", "brownout", "loop-overrun", "mislabelled-test", "stuck-sensor"}
 COMPLETE = ("simple-clean-20ms", "simple-light-5ms", "arm-rad-20ms", "arm-rot-20ms")
 
 
@@ -34,6 +34,7 @@ def told(shared, name):
         ("sciborgs-2023-wrist-arm", "hard-stop", [1]),
         ("sciborgs-2023-wrist-arm", "stale-samples", [0, 1, 2, 3]),
         ("frc4646-2022-drivetrain", "stale-samples", [0, 1, 2, 3]),
+        ("frc501-2020-drivetrain", "wheel-slip", [2, 3]),  # waits at 84 % of its speed for 0.3 s
     ],
 )
 def test_what_is_visible_is_reported(shared, name, fault, runs):

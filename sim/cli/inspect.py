@@ -10,9 +10,18 @@ from sim.cli.options import FILE, as_json, read_logs_together, reading_options
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from sim.core.doubt import Doubt
     from sim.inspect.detect_faults import Inspection
+    from sim.inspect.fault import Damage
 
 SURE, LIKELY = 0.9, 0.7  # [1] confidence from which a person would say so
+LINES = 40  # a terminal shows so many; nobody scrolls back to read a report
+WIDTH = 78  # [characters] of a line
+PLACES = 4  # that a paragraph lists; more are counted
+RUNS = 8  # that a heading lists
+ALL_IN_JSON = "Add --json to list everything."
 
 
 @click.command()
@@ -46,25 +55,88 @@ def inspect(
 
 
 def _show(found: "Inspection", *, title: str, runs: int) -> None:
-    """Every fault with its place, its evidence and its cure, then the doubts."""
-    count = len(found.damages)
+    """One paragraph for each kind of fault, the worst first; then the doubts, on one screen."""
+    kinds = found.by_kind()
+    count = len(kinds)
     said = f"{count} fault{'s' * (count > 1)} found" if count else "no fault found"
     click.echo(f"{title}: {runs} run{'s' * (runs != 1)}, {said}.")
-    for damage in found.damages:
-        where = damage.where
-        place = "the whole log"
-        if where.test:
-            place = f"run {where.run}, {where.test}" if where.run is not None else where.test
-            if where.run is not None:
-                place += f", {where.start:.2f} to {where.end:.2f} s"
+    room = LINES - 2  # the title, and the sentence about what is left out
+    for left, kind in zip(range(count - 1, -1, -1), kinds, strict=True):
+        head, *body = _paragraph(kind)
+        if 2 + len(body) + 2 * left > room:
+            body = []
         click.echo("")
-        click.secho(f"{damage.fault}: {place} ({_sure(damage.confidence)})", bold=True)
-        for text in (damage.evidence, damage.advice):
-            click.echo(click.wrap_text(text, width=78, initial_indent="  ", subsequent_indent="  "))
-    if found.doubts:
-        click.echo("")
-    for doubt in found.doubts:
-        click.echo(click.wrap_text(f"look: {doubt.message}", width=78, subsequent_indent="      "))
+        click.secho(head, bold=True)
+        for line in body:
+            click.echo(line)
+        room -= 2 + len(body)
+    _show_doubts(found.doubts, room=room, cut=any(len(kind) > PLACES for kind in kinds))
+
+
+def _show_doubts(doubts: "Iterable[Doubt]", *, room: int, cut: bool) -> None:
+    """The doubts that there is room for, grave ones first, and how many are left out."""
+    ordered = sorted(doubts, key=lambda doubt: not doubt.grave)
+    shown = []
+    for doubt in ordered:
+        text = click.wrap_text(f"look: {doubt.message}", width=WIDTH, subsequent_indent="      ")
+        lines = text.splitlines()
+        if len(lines) + 1 <= room:
+            shown += lines
+            room -= len(lines)
+        else:
+            cut = True
+    for line in ["", *shown] if shown else []:
+        click.echo(line)
+    if cut:
+        click.echo(ALL_IN_JSON)
+
+
+def _paragraph(kind: "Sequence[Damage]") -> list[str]:
+    """The lines on the faults of one kind: where, what happened, what to do."""
+    worst, several = kind[0], len(kind) > 1
+    where = _runs(kind) if several else _place(worst)
+    lines = [f"{worst.fault}: {where} ({_sure(max(damage.confidence for damage in kind))})"]
+    texts = [worst.evidence, worst.advice]
+    if several:
+        places = [_place(damage) for damage in sorted(kind, key=_when)[:PLACES]]
+        if len(kind) > PLACES:
+            places.append(f"{len(kind) - PLACES} more")
+        listed = [f"Found at {'; '.join(places)}."] if worst.where.run is not None else []
+        texts[:1] = [*listed, _example(worst)]
+    for text in texts:
+        wrapped = click.wrap_text(text, width=WIDTH, initial_indent="  ", subsequent_indent="  ")
+        lines += wrapped.splitlines()
+    return lines
+
+
+def _runs(kind: "Sequence[Damage]") -> str:
+    """In which runs the faults of a kind are, or of which tests."""
+    runs = sorted({damage.where.run for damage in kind if damage.where.run is not None})
+    if not runs:
+        return ", ".join(damage.where.test or "the whole log" for damage in kind)
+    count = f"{len(kind)} times in " if len(kind) > len(runs) else ""
+    shown = [str(run) for run in runs[:RUNS]] + ["others"] * (len(runs) > RUNS)
+    return f"{count}run{'s' * (len(runs) > 1)} {', '.join(shown)}"
+
+
+def _example(worst: "Damage") -> str:
+    run = worst.where.run
+    return worst.evidence if run is None else f"In run {run}: {worst.evidence}"
+
+
+def _when(damage: "Damage") -> tuple[int, float]:
+    run = damage.where.run
+    return (-1 if run is None else run, damage.where.start)
+
+
+def _place(damage: "Damage") -> str:
+    """Where a fault is: a stretch of a run, a test, or the whole log."""
+    where = damage.where
+    if not where.test:
+        return "the whole log"
+    if where.run is None:
+        return where.test
+    return f"run {where.run}, {where.test}, {where.start:.2f} to {where.end:.2f} s"
 
 
 def _sure(confidence: float) -> str:

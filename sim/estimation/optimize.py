@@ -197,10 +197,27 @@ def parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Ar
     return np.asarray(inverse[:count, :count])
 
 
-def invert_information(table: Array) -> Array:
-    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), with huge errors where it is singular."""
-    square = table.T @ table
-    size = np.sqrt(np.maximum(np.diag(square), 1e-100))
-    told, ways = np.linalg.eigh(square / np.outer(size, size))
-    share = np.where(told > UNKNOWN, told, NO_INFORMATION)
-    return np.asarray((ways / share) @ ways.T / np.outer(size, size))
+def invert_information(table: Array, *, weak: NDArray[np.bool_] | None = None) -> Array:
+    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), with huge errors where it is singular.
+
+    Args:
+        table: (n, k) the Jacobian, its prior rows included.
+        weak: (k,) columns whose prior is all that keeps them from others; they are eliminated first,
+            so that a weak prior is not lost beside much information.
+    """
+    if weak is None or not weak.any():
+        square = table.T @ table
+        size = np.sqrt(np.maximum(np.diag(square), 1e-100))
+        told, ways = np.linalg.eigh(square / np.outer(size, size))
+        share = np.where(told > UNKNOWN, told, NO_INFORMATION)
+        return np.asarray((ways / share) @ ways.T / np.outer(size, size))
+    inverse = np.empty((table.shape[1], table.shape[1]))
+    strong = ~weak
+    alone = invert_information(table[:, strong])
+    shift = alone @ (table[:, strong].T @ table[:, weak])
+    own = invert_information(table[:, weak] - table[:, strong] @ shift)
+    inverse[np.ix_(weak, weak)] = own
+    inverse[np.ix_(strong, weak)] = -shift @ own
+    inverse[np.ix_(weak, strong)] = -(shift @ own).T
+    inverse[np.ix_(strong, strong)] = alone + shift @ own @ shift.T
+    return inverse

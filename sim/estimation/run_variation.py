@@ -30,7 +30,7 @@ VARIES: Mapping[str, float] = {
 }  # fmt: skip
 """Share of a gain by which it differs between runs of one robot and day: a guess to begin with."""
 LEAST_VOLTS = 0.05  # [V] of which it is a share where kS or kG is less
-FIXED = 1e-6  # [share of a size] by which parameters vary that do not
+FIXED = 1e-4  # [share of a size] by which parameters vary that do not
 NO_INFORMATION = 1e-12  # [1/size²] what no run tells has a large error, not an infinite one
 LASTS = 0.5  # [s] for which what a model lacks errs one way
 TELLS = 1e-6  # [share of the largest eigenvalue] of information, below which it is none

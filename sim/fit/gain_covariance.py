@@ -38,8 +38,11 @@ def gain_covariances(
         extended, wide = with_everyday_effects(problem, point)
     table, rest = append_prior_rows(extended, wide, fine=True)
     count = len(wide.structure.searched_names)
-    noise = invert_information(table)
-    yield wide, noise[:count, :count] + _form_covariance(extended, wide, table)
+    known = extended.priors_of(wide.structure)
+    weak = np.zeros(table.shape[1], dtype=bool)
+    weak[:count] = [name in known for name in wide.structure.searched_names]
+    noise = invert_information(table, weak=weak)
+    yield wide, noise[:count, :count] + _form_covariance(wide, table, weak)
     yield wide, run_variation_covariance(extended, wide, table, rest)
     lacks = point.process_noise > EXACT * problem.noise.velocity**2
     if followed.has_misfit or lacks:
@@ -48,32 +51,32 @@ def gain_covariances(
         q = OPEN_LOOP * problem.noise.velocity**2
         left = extended.evaluate(wide.structure, wide.values, wide.nuisance, q)
         table, rest = append_prior_rows(extended, left, fine=True)
-        yield left, _sandwich(extended, table, rest, invert_information(table))[:count, :count]
+        yield (
+            left,
+            _sandwich(extended, table, rest, invert_information(table, weak=weak))[:count, :count],
+        )
 
 
-def _form_covariance(problem: PredictionErrorProblem, point: Estimate, table: Array) -> Array:
+def _form_covariance(point: Estimate, table: Array, effects: NDArray[np.bool_]) -> Array:
     """(searched, searched) covariance from small effects whose form is only about right.
 
     Friction at a crawl is no exact exponential, and drag no exact square. Each fitted size is
     known to ``FORM`` of itself at best; the other parameters shift with it.
 
     Args:
-        problem: what was searched.
         point: the best estimate.
         table: (2 n + ..., searched + runs) Jacobian of the whitened innovations and priors.
+        effects: (searched + runs,) columns of the small effects.
     """
-    names, known = point.structure.searched_names, problem.priors_of(point.structure)
-    count = len(names)
-    effects = np.array([name in known for name in names])
-    others = np.concatenate([~effects, np.ones(table.shape[1] - count, dtype=bool)])
-    kept = table[:, others]
+    names = point.structure.searched_names
+    kept = table[:, ~effects]
     inverse = invert_information(kept)
-    total = np.zeros((count, count))
+    total = np.zeros((len(names), len(names)))
     for place in np.flatnonzero(effects):
         shift = np.zeros(table.shape[1])
-        shift[others] = -inverse @ (kept.T @ table[:, place])
+        shift[~effects] = -inverse @ (kept.T @ table[:, place])
         shift[place] = 1.0
-        shift = shift[:count] * FORM * point.values[names[place]]
+        shift = shift[: len(names)] * FORM * point.values[names[place]]
         total += np.outer(shift, shift)
     return total
 

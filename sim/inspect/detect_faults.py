@@ -29,7 +29,8 @@ class Inspection:
     """What an inspection found.
 
     Args:
-        damages: in the order of time; those that concern the whole log first.
+        damages: in the order of time; those that concern the whole log first. Those that are
+            ordinary are no faults, and come here because a fit has to know of them.
         doubts: what is odd and no known fault: about the file, and about what it holds.
     """
 
@@ -37,9 +38,26 @@ class Inspection:
     doubts: tuple[Doubt, ...] = ()
 
     @property
+    def faults(self) -> tuple[Damage, ...]:
+        """What was found and should not be in a log, in the order of time."""
+        return tuple(damage for damage in self.damages if not damage.ordinary)
+
+    @property
     def is_clean(self) -> bool:
         """Whether no fault was found, and nothing that would hide one."""
-        return not self.damages and not any(doubt.grave for doubt in self.doubts)
+        return not self.faults and not any(doubt.grave for doubt in self.doubts)
+
+    def by_kind(self) -> tuple[tuple[Damage, ...], ...]:
+        """The faults of each kind together, the worst kind first, and the worst of a kind first.
+
+        Worse is what spoils more seconds, weighted by its confidence; what concerns the whole log
+        is worst.
+        """
+        kinds: dict[str, list[Damage]] = {}
+        for damage in self.faults:
+            kinds.setdefault(damage.fault, []).append(damage)
+        sorted_within = (tuple(sorted(kind, key=_harm, reverse=True)) for kind in kinds.values())
+        return tuple(sorted(sorted_within, key=lambda kind: -sum(map(_harm, kind))))
 
     def to_json(self) -> dict[str, Any]:
         """As ``sysid inspect --json`` prints it."""
@@ -55,7 +73,7 @@ class Inspection:
                     "evidence": damage.evidence,
                     "advice": damage.advice,
                 }
-                for damage in self.damages
+                for damage in self.faults
             ],
             "clean": self.is_clean,
             "doubts": [asdict(doubt) for doubt in self.doubts],
@@ -88,10 +106,15 @@ def inspect(log: Log) -> Inspection:
     # numbers at the edge of what a double holds overflow somewhere, and then say nothing
     with np.errstate(all="ignore"):
         found = [damage for fault in FAULTS.values() for damage in _run_detector(fault, features)]
-        return Inspection(
-            tuple(sorted(_drop_explained(found), key=_start_of)),
-            (*log.doubts, *diagnose_log(features)),
-        )
+        damages = tuple(sorted(_drop_explained(found), key=_start_of))
+        return Inspection(damages, (*log.doubts, *_ordinary(damages), *diagnose_log(features)))
+
+
+def _ordinary(damages: Iterable[Damage]) -> tuple[Doubt, ...]:
+    """What is ordinary, each kind said once."""
+    ordinary = sorted((one for one in damages if one.ordinary), key=lambda one: one.confidence)
+    once = {damage.fault: damage for damage in ordinary}
+    return tuple(Doubt(name, f"{one.evidence} {one.advice}") for name, one in once.items())
 
 
 def _run_detector(fault: Fault, features: LogFeatures) -> list[Damage]:
@@ -136,6 +159,13 @@ def _are_rivals(one: Damage, other: Damage) -> bool:
         return False
     shared = min(one.where.end, other.where.end) - max(one.where.start, other.where.start)
     return one.where.run == other.where.run and shared > 0.0
+
+
+def _harm(damage: Damage) -> float:
+    """[s] of the log that a damage spoils, weighted by its confidence."""
+    if damage.where.run is None:
+        return math.inf
+    return (damage.where.end - damage.where.start) * damage.confidence
 
 
 def _start_of(damage: Damage) -> tuple[int, float, str]:

@@ -69,6 +69,7 @@ class Damage:
         confidence: 0 to 1; near 1 nothing else would look like this.
         evidence: one sentence with a number, for people.
         advice: what to do about it, one sentence: re-run, trim, filter, or fix the code.
+        ordinary: it is how many robots record. Worth knowing, and no reason to record again.
     """
 
     fault: str
@@ -76,6 +77,7 @@ class Damage:
     confidence: float
     evidence: str
     advice: str
+    ordinary: bool = False
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
+from sim.estimation.velocity_lag import VelocityLag, estimate_velocity_lag
 from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
 
@@ -18,12 +19,15 @@ STANDING = 0.03  # [share of the log's top speed] slower samples stand, as far a
 WHITE, NORMAL = 20.0**0.5, 0.6745  # third differences of white noise; a normal median of |x|
 FEWEST = 6  # [samples] of voltage; fewer do not tell a ramp from a step
 RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
+STRAIGHT = 0.05  # [share of the largest voltage] a ramp's median stray from its line
 DRIVEN = 0.05  # [share of a run's largest voltage] less is the time before and after the test
 AGREED = 0.6  # [mean of the signs] where 4 of 5 samples agree, a run has that sign
 RISEN = 0.632  # [share of the top speed] that one timescale brings
 MOVING = 0.1  # [share of a run's top speed] slower samples say little about how it moves
 STEPS, CREEP = 1.5, 2e-5  # [smallest steps of the position, share of its way] within: it stands
 PARTS = 10  # of a run's motion, judged one by one: a slip or a stop bends one or two of them
+COPIED = 0.01  # [share of the variance] a velocity may differ from the position it is a copy of,
+CLOSER = 0.1  # [times what it differs from a velocity] and it has to be that much closer to it
 TINY = 1e-12  # [times] no scale, for the logarithm of one
 LEAST = 3  # samples in a part, and parts of a motion
 FAR = 0.1  # [share of the longest part's distance] what a part must go to be judged
@@ -94,6 +98,16 @@ class LogFeatures:
         return tuple(_distance_ratio(run, moving) for run, moving in both)
 
     @cached_property
+    def velocity_lag(self) -> VelocityLag | None:
+        """How late its velocity is against its position; None if nothing moves."""
+        return estimate_velocity_lag(self.log.runs)
+
+    @cached_property
+    def copied(self) -> tuple[float, ...]:
+        """Per run, the factor by which its velocity is its position; 0 if it is a velocity."""
+        return tuple(_copied(run) for run in self.log.runs)
+
+    @cached_property
     def noise(self) -> float:
         """[m/s or rad/s] the velocity's noise in motion, told without a model.
 
@@ -116,6 +130,8 @@ class LogFeatures:
     @cached_property
     def baseline(self) -> BaselineModel | None:
         """Which voltage its motion needs, by most of the log; None if the log cannot tell."""
+        if np.count_nonzero(self.copied) > len(self.copied) / 2:
+            return None
         return fit_baseline(self.log.runs, still=self.still_speed, period=self.period)
 
     @cached_property
@@ -181,14 +197,26 @@ def _recognize_test(run: Run) -> str:
     driven = np.flatnonzero(size > DRIVEN * size.max(initial=0.0))
     if driven.size < FEWEST:
         return run.test
-    first, last = np.array_split(np.arange(driven[0], driven[-1] + 1), 2)
+    first, last = np.array_split(driven, 2)  # what stands before, between and after does not count
     rise = float(np.median(size[first]) / (np.median(size[last]) or 1.0))
-    kind = "quasistatic" if rise < RAMP else "dynamic" if rise > STEP else run.kind
+    kind = run.kind
+    if rise < RAMP and _is_line(run.time[driven], size[driven]):
+        kind = "quasistatic"
+    elif rise > STEP:
+        kind = "dynamic"
     moving = last[np.abs(run.velocity[last]) > MOVING * run.top_speed]
     pushed, moved = majority_sign(run.voltage[last]), majority_sign(run.velocity[moving])
     if pushed * moved <= 0:
         return f"{kind}-{run.direction}"
     return f"{kind}-{'forward' if pushed > 0 else 'reverse'}"
+
+
+def _is_line(time: Array, volts: Array) -> bool:
+    """Whether a voltage grows in a straight line: a median of its strays is small."""
+    middle = np.array_split(np.arange(time.size), 2)
+    (t0, v0), (t1, v1) = ((np.median(time[half]), np.median(volts[half])) for half in middle)
+    strays = np.abs(volts - v0 - (v1 - v0) * (time - t0) / (t1 - t0))
+    return bool(np.median(strays) < STRAIGHT * volts.max())
 
 
 def _rest_length(run: Run, *, step: float) -> int:
@@ -213,6 +241,17 @@ def _distance_ratio(run: Run, moving: Flags) -> float:
     usual = float(np.median(np.abs(summed[far] / changed[far])))
     whole = float(np.abs(summed[far]).sum() / np.abs(changed[far]).sum())  # frames may be long
     return min(usual, whole, key=lambda scale: abs(np.log(max(scale, TINY))))
+
+
+def _copied(run: Run) -> float:
+    found = estimate_velocity_lag([run])
+    if found is None:
+        return 0.0
+    place, speed = run.position - run.position.mean(), run.velocity - run.velocity.mean()
+    along, total = float(place @ speed), float(speed @ speed)
+    factor = along / max(float(place @ place), TINY)
+    left = 1.0 - factor * along / total if total > 0.0 else 1.0
+    return factor if left < min(COPIED, CLOSER * found.unexplained) else 0.0
 
 
 def _rise_time(run: Run) -> float:

@@ -44,7 +44,7 @@ def physical_doubts(
         *gravity_doubts(si),
         *timescale_doubts(si, period),
     )
-    strays = any(doubt.code == "model-strays" for doubt in found.doubts)
+    strays = any(doubt.code in {"model-strays", "small-misfit"} for doubt in found.doubts)
     return tuple(map(_advise_model_first, doubts)) if strays else doubts
 
 

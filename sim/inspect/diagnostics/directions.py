@@ -40,9 +40,10 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
         doubts.append(
             Doubt(
                 "friction-differs",
-                f"Forward needs {forward.ks:.2f} V before it moves, reverse {reverse.ks:.2f} V: "
-                "friction that differs, or a weight that the type leaves out. One kS fits "
-                "neither, and kA pays for it; look for a rubbing part, or choose another type.",
+                f"Forward needs {forward.ks:.2f} V before it moves, reverse {reverse.ks:.2f} V. "
+                "That is friction that differs, or a weight that the type of mechanism leaves "
+                "out. One kS fits neither, and kA comes out wrong: look for a part that rubs, or "
+                "choose another --type.",
             )
         )
     apart = abs(forward.kv - reverse.kv)
@@ -51,10 +52,10 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
         doubts.append(
             Doubt(
                 "back-emf-differs",
-                f"Forward takes {forward.kv:.4g} V per unit of speed, reverse {reverse.kv:.4g}, "
-                f"{apart / kv:.0%} apart: a load that grows with speed one way only, a sensor "
-                "with two scales, or a voltage that is read differently. Plot voltage over "
-                "velocity.",
+                f"Forward takes {forward.kv:.4g} V per unit of speed, reverse {reverse.kv:.4g}: "
+                f"they differ by {apart / kv:.0%}. The load differs by direction, or the sensor "
+                "reads one direction differently. Plot voltage over velocity, and believe kV no "
+                "closer than that.",
             )
         )
     return doubts

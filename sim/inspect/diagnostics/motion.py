@@ -38,9 +38,9 @@ def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "fine-r2",
-            f"The simulated velocity R² is {found.simulated_velocity_r2:.2f}, which passes for "
-            f"good, and yet the fitted gains miss the velocity by {worst:.0%} of its top in {said}"
-            ". Plot that stretch before believing kA.",
+            f"SysId would show a simulated velocity R² of {found.simulated_velocity_r2:.2f}, which "
+            f"counts as good, but its gains miss the velocity by {worst:.0%} of the top speed in "
+            f"{said}. Plot these seconds before you believe kA.",
         )
     ]
 
@@ -84,9 +84,9 @@ def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
             doubts.append(
                 Doubt(
                     "repeats-differ",
-                    f"The {len(runs)} runs of {test} differ by {apart:.0%} of their speed for the "
+                    f"The {len(runs)} runs of {test} differ by {apart:.0%} of their speed at the "
                     "same voltage, and SysId reads only the first. Find out what changed between "
-                    "them: battery, load, temperature, a slip.",
+                    "them: the battery, the load, the temperature, or a slip.",
                 )
             )
     return doubts
@@ -106,25 +106,51 @@ def _speed_excess(features: LogFeatures, index: int) -> float:
 def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
     """Tests that hardly move, and steps that are over before they are seen."""
     doubts = []
+    runs = [run for run in features.log.runs if len(run)]
+    if runs and all(not np.ptp(run.position) and not run.velocity.any() for run in runs):
+        return [_nothing_moves(runs)]
     for index, run in enumerate(features.log.runs):
         moving = int((features.moving[index] & (np.abs(run.velocity) > features.still_speed)).sum())
         if moving < FEWEST and run.kind in ("quasistatic", "dynamic"):
             doubts.append(
                 Doubt(
                     "little-motion",
-                    f"Only {moving} of the {len(run)} samples of {run.test} are in motion: it "
-                    "tells next to nothing. Let it run longer, or ask for more voltage.",
+                    f"Only {moving} of the {len(run)} samples of {run.test} are in motion, so it "
+                    f"says next to nothing. {_more_motion(run)}",
                 )
             )
         elif run.kind == "dynamic" and (samples := _rise_samples(run)) < RISE:
             doubts.append(
                 Doubt(
                     "short-rise",
-                    f"{run.test} is at 90 % of its top speed within {samples} samples of moving: "
-                    "kA is read off next to nothing. Log faster, 5 ms if the controller sends it.",
+                    f"{run.test} is at 90 % of its top speed within {samples} samples of moving, "
+                    "so hardly any sample tells kA. Log every 5 ms, if the controller sends that "
+                    "fast.",
                 )
             )
     return doubts
+
+
+def _more_motion(run: Run) -> str:
+    """What would make a run move more: a longer one, or more voltage than it had."""
+    most = float(np.abs(run.voltage).max(initial=0.0))
+    if run.kind == "quasistatic":
+        return f"Let the ramp run on beyond {most:.2g} V, where it had hardly begun to move."
+    lasts = float(np.ptp(run.time)) if len(run) else 0.0
+    return f"Let it run longer than {lasts:.1f} s, or use a larger step than {most:.2g} V."
+
+
+def _nothing_moves(runs: list[Run]) -> Doubt:
+    volts = max(float(np.abs(run.voltage).max()) for run in runs)
+    lasts = max(float(np.ptp(run.time)) for run in runs)
+    return Doubt(
+        "no-motion",
+        f"Nothing moves in this log: in all {len(runs)} runs, the longest of {lasts:.1f} s, "
+        f"position and velocity stay where they are under up to {volts:.2g} V. Either the "
+        "mechanism stood, or its sensor is not read: turn it by hand, and look whether the "
+        "position changes.",
+        grave=True,
+    )
 
 
 def _rise_samples(run: Run) -> int:
@@ -147,9 +173,9 @@ def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
         Doubt(
             "fast-ramp",
             f"The ramp rises by {rate:.2g} V/s on a mechanism with a timescale of "
-            f"{features.baseline.timescale:.2g} s: a line drawn through voltage over velocity "
-            f"meets the axis {shift:.2f} V above kS. SysId is not fooled, a ruler is; halve "
-            "the ramp.",
+            f"{features.baseline.timescale:.2g} s. SysId allows for that, but a line drawn through "
+            f"voltage over velocity gives a kS that is {shift:.2f} V too large: to draw one, "
+            f"halve the ramp to {0.5 * rate:.2g} V/s.",
         )
     ]
 

@@ -3,14 +3,13 @@
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.log import Array, Run
 from sim.core.units import find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
-from sim.inspect.log_features import MOVING, LogFeatures
+from sim.inspect.log_features import LogFeatures
 
-SLOWEST_FILTER = 0.3  # [s] no velocity is older
-LAGS = 61  # lags that are tried
 LAG = 0.02, 1.5  # [s, periods] what is no filter yet
+SIGMAS = 3.0  # [standard errors] a delay that the runs do not agree on is not told
+TELLS = 0.01  # [s] to which a delay is told: runs of one log agree no closer
 FILTERS = {  # [s] WPILib's own figures of how old a velocity is
     "REV's own encoder of a NEO": 0.112,
     "CTRE Phoenix 5, or REV's data port": 0.0815,
@@ -25,47 +24,25 @@ FAR = 2.5  # [times] what is this far off is a fault, not a look
 
 
 def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
-    """Velocities that come later than the slope of the positions beside them."""
-    found = [
-        lag
-        for index, run in enumerate(features.log.runs)
-        if run.kind == "dynamic"
-        and (lag := _velocity_lag(run, features.position_slopes[index])) is not None
-    ]
-    lag = float(np.median(found)) if found else 0.0
-    if lag <= max(LAG[0], LAG[1] * features.period):
+    """Velocities that come later than the positions beside them, by matching integrals."""
+    found = features.velocity_lag
+    least = max(LAG[0], LAG[1] * features.period)
+    if found is None or not found.matched or found.lag <= least:
         return []
+    if SIGMAS * found.error > found.lag:
+        return []
+    lag = found.lag
     made = [name for name, age in FILTERS.items() if abs(lag / age - 1.0) < ALIKE]
     likely = f", as {made[0]} does" if made else ""
     return [
         Doubt(
             "velocity-lags",
-            f"The velocity comes {lag * 1e3:.0f} ms later than the slope of the position: most "
-            f"likely the motor controller averages it{likely}. kA and the feedback gains suffer; "
-            "shorten the filter, or tell SysId the measurement delay.",
+            f"The velocity comes about {round(lag / TELLS) * TELLS * 1e3:.0f} ms later than the "
+            f"position: most likely the motor controller averages it{likely}. kA and the feedback "
+            "gains come out wrong unless it is known: shorten the filter, or enter this delay in "
+            "SysId.",
         )
     ]
-
-
-def _velocity_lag(run: Run, slope: Array) -> float | None:
-    """[s] by which the slope has to be late to look most like the velocity; None if unclear."""
-    speed = np.abs(run.velocity)
-    top = run.top_speed
-    rising = np.flatnonzero(np.abs(slope) > MOVING * top)
-    if not top or rising.size < FEWEST:
-        return None
-    first = int(rising[0])
-    end = int(np.searchsorted(run.time, run.time[first] + 2.0 * SLOWEST_FILTER))
-    near = slice(max(first - 1, 0), max(end, first + FEWEST))
-    if float(np.ptp(speed[near])) < 0.5 * top:  # it does not start here
-        return None
-    lags = np.linspace(0.0, SLOWEST_FILTER, LAGS)
-    missed = [
-        float(np.mean((run.velocity[near] - np.interp(run.time[near] - lag, run.time, slope)) ** 2))
-        for lag in lags
-    ]
-    best = int(np.argmin(missed))
-    return float(lags[best])
 
 
 def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
@@ -76,9 +53,9 @@ def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "scales-differ",
-            f"Velocity is {usual:.3f} times the slope of position throughout: one of the two has "
-            "a conversion factor of its own. kV and kA follow the velocity; settle which one is "
-            "right by measuring a distance.",
+            f"The velocity is {usual:.3f} times the position's change per second in all runs: one "
+            "of the two has a wrong conversion factor. kV and kA follow the velocity; move the "
+            "mechanism by a distance you measure, and see whether the position says the same.",
         )
     ]
 
@@ -113,8 +90,8 @@ def check_rest_noise(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "standstill-counted",
-            f"{passed} of the {counted} samples that SysId takes for quasistatic motion stand "
-            f"still: their noise passes its threshold of {threshold:.2g}. Set the threshold by "
+            f"Of the {counted} samples that SysId takes for quasistatic motion, {passed} stand "
+            f"still: their noise is above its threshold of {threshold:.2g}. Set the threshold by "
             "hand, above the noise.",
         )
     ]

@@ -6,6 +6,9 @@ On a robot: a weak battery or a large current pulls the bus below 6.3 V (roboRIO
 To the gains: the mechanism slows down without a motor while the log goes on to tell the commanded
 voltage. SysId sees voltage without acceleration: kA too large (by 43 % for one cut), kS too small.
 
+Where the applied voltage is logged, it is cut to zero and comes back again and again; where the
+bus voltage is logged, it dips below the controller's threshold just before each cut.
+
 Fingerprint: the velocity falls as it does with no voltage at all, along its own timescale, and
 climbs back along the same one; the bus voltage, where it is logged, dips.
 """
@@ -14,8 +17,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from sim.core.log import Log
+from sim.core.log import Array, Log, Run
 from sim.inspect.anomalies import Anomaly
 from sim.inspect.fault import (
     Damage,
@@ -26,15 +30,23 @@ from sim.inspect.fault import (
     replace_run,
     rescale_motion,
 )
-from sim.inspect.log_features import LogFeatures
+from sim.inspect.log_features import DRIVEN, LogFeatures
 
 CUT = 0.3  # [s] without motors at severity 1
 DIP = 6.0  # [V] of the bus while it lasts: below every controller's threshold
 RECOVERED = 7.5  # [V] where a controller lets the motors go on
-SLACK = 0.06  # [s] how exactly an anomaly shows where it begins and ends
+THRESHOLD = 6.75  # [V] of the bus: a roboRIO 2 cuts the motors below it, a roboRIO 1 below 6.3
+OFF = (0.09, 2.0)  # [s] without voltage: shorter is a lost frame, longer another test or a person
+CHOPPED = 3  # cuts in one run; one or two may be somebody letting go of the button
+AT_ONCE = 2  # [samples] between the dip and its cut
+TOGETHER = 2.0  # [s] cuts no further apart than this are one story
+SEEN, CUT_SEEN = 0.98, 0.9  # confidence where the bus voltage tells it, and where it is not logged
+SLACK = 0.06  # [s] how exactly an anomaly tells where it begins and ends
 LOWEST = 0.6  # [V] a motor that is asked for less pulls no battery down; a dead band looks alike
 MOVED = 5  # [samples] before a cut in which it was on its way
 ENDS = 12  # ends of the cut that are tried at first
+SHORTEST = 0.14  # [s] a cut that only the motion tells: a controller keeps its motors off longer
+AGREES = 0.5  # [share] of the way that the velocity lacks, which the position must lack as well
 BELIEVED = 0.7  # [share explained] less is something else
 FREE = 4.0  # a shape without a size to choose counts this much more than one that has it
 NOT_BACK = 0.9  # a cut that lasts to the end of the run may be a stop it has run into
@@ -73,34 +85,125 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find anomalies that a cut of the whole voltage explains."""
+    """Find cuts: by the bus voltage, by the applied voltage, else by the motion."""
+    seen = [found for index in range(len(features.log.runs)) for found in _cuts(features, index)]
+    yield from seen
     for anomaly in features.anomalies:
-        if anomaly.recurs:
-            continue
-        share, first, last = _best(features, anomaly)
-        run = features.log.runs[anomaly.run]
-        before = np.abs(run.velocity[max(first - MOVED, 0) : first])
-        moved = before.size > 0 and float(np.median(before)) > features.still_speed
-        if share < (SURE if anomaly.at_start else BELIEVED) or not moved:
-            continue
-        volts = float(np.median(np.abs(run.voltage[first:last])))
-        if volts < LOWEST:
-            continue
-        start = float(run.time[first])
-        end = float(run.time[min(last, len(run) - 1)])
-        back = bool(np.any(np.abs(run.velocity[last:]) > 2.0 * features.still_speed))
-        bus = None if run.bus_voltage is None else float(run.bus_voltage[first:last].min())
-        seen = bus is not None and bus < RECOVERED
-        said = f"; the bus is down to {bus:.1f} V" if seen else ""
-        yield Damage(
-            fault="brownout",
-            where=LogInterval(anomaly.run, run.test, start, end),
-            confidence=_confidence(share, back=back, seen=seen),
-            evidence=f"For {end - start:.2f} s it moves as if no voltage were applied, while the "
-            f"log tells {volts:.1f} V{said}.",
-            advice="Charge or change the battery, set supply current limits, and run this test "
-            "again; log the applied voltage, not the commanded one.",
-        )
+        found = None if anomaly.recurs else _unpowered(features, anomaly)
+        if found and not any(_shared(found.where, other.where) for other in seen):
+            yield found
+
+
+def _shared(one: LogInterval, other: LogInterval) -> bool:
+    return one.run == other.run and min(one.end, other.end) > max(one.start, other.start)
+
+
+def _cuts(features: LogFeatures, index: int) -> list[Damage]:
+    """Stretches in which the recorded voltages themselves tell of a brownout."""
+    run = features.log.runs[index]
+    size = np.abs(run.voltage)
+    off = _gaps(size > DRIVEN * size.max(initial=0.0), run.time)
+    if run.bus_voltage is None:
+        low = np.zeros(len(run), dtype=bool)
+        if len(off) < CHOPPED:
+            return []
+    else:
+        low = run.bus_voltage < THRESHOLD
+        off = [gap for gap in off if low[max(gap[0] - AT_ONCE, 0) : gap[0] + AT_ONCE].any()]
+    struck = low.copy()
+    for first, last in off:
+        struck[max(first - 1, 0) : last + 1] = True
+    at = np.flatnonzero(struck)
+    if not at.size:
+        return []
+    parts = np.split(at, np.flatnonzero(np.diff(run.time[at]) > TOGETHER) + 1)
+    return [_seen(features, index, int(part[0]), int(part[-1])) for part in parts]
+
+
+def _gaps(on: NDArray[np.bool_], time: Array) -> list[tuple[int, int]]:
+    """First and last sample of each stretch in which a driven motor has no voltage for a while."""
+    at = np.flatnonzero(on)
+    ends = np.flatnonzero(np.diff(at) > 1)
+    return [
+        (int(at[k]) + 1, int(at[k + 1]) - 1)
+        for k in ends
+        if OFF[0] <= time[at[k + 1]] - time[at[k] + 1] <= OFF[1]
+    ]
+
+
+def _seen(features: LogFeatures, index: int, first: int, last: int) -> Damage:
+    """What the voltages tell of the samples ``first`` to ``last`` of a run."""
+    run = features.log.runs[index]
+    behind = min(last + 1, len(run) - 1)
+    start, end = float(run.time[first]), float(run.time[behind])
+    size = np.abs(run.voltage[first:behind])
+    off = float(np.mean(size <= DRIVEN * np.abs(run.voltage).max())) if size.size else 0.0
+    bus = None if run.bus_voltage is None else float(run.bus_voltage[first : last + 1].min())
+    without = f"for {off:.0%} of that time the motors got no voltage" if off else ""
+    if bus is None:
+        happened = f"The applied voltage is cut to 0 and comes back, again and again: {without}"
+    else:
+        happened = f"The battery's voltage falls to {bus:.1f} V, and below 6.75 V the robot "
+        happened += f"controller switches the motors off{': ' * bool(off)}{without}"
+    return Damage(
+        fault="brownout",
+        where=LogInterval(index, run.test, start, end),
+        confidence=SEEN if bus is not None else CUT_SEEN,
+        evidence=f"{happened}.",
+        advice=_advice(run),
+    )
+
+
+def _advice(run: Run) -> str:
+    """What to do, with the step of this run."""
+    what = "step" if run.kind == "dynamic" else "end of the ramp"
+    most = float(np.abs(run.voltage).max(initial=0.0))
+    return (
+        "Charge or change the battery, set supply current limits, and run this test again; if it "
+        f"happens again, choose a smaller {what} than {most:.1f} V."
+    )
+
+
+def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
+    """An anomaly that a cut of the whole voltage explains, if nothing speaks against a cut."""
+    share, first, last = _best(features, anomaly)
+    run = features.log.runs[anomaly.run]
+    before = np.abs(run.velocity[max(first - MOVED, 0) : first])
+    moved = before.size > 0 and float(np.median(before)) > features.still_speed
+    if share < (SURE if anomaly.at_start else BELIEVED) or not moved:
+        return None
+    volts = float(np.median(np.abs(run.voltage[first:last])))
+    bus = None if run.bus_voltage is None else float(run.bus_voltage[first:last].min())
+    if volts < LOWEST or (bus is not None and bus > RECOVERED):
+        return None
+    if not _went_less(features, anomaly.run, first, last):
+        return None
+    start = float(run.time[first])
+    end = float(run.time[min(last, len(run) - 1)])
+    if bus is None and end - start < SHORTEST:
+        return None
+    back = bool(np.any(np.abs(run.velocity[last:]) > 2.0 * features.still_speed))
+    said = f"; the battery is down to {bus:.1f} V" if bus is not None else ""
+    return Damage(
+        fault="brownout",
+        where=LogInterval(anomaly.run, run.test, start, end),
+        confidence=_confidence(share, back=back, seen=bus is not None),
+        evidence=f"For {end - start:.2f} s the mechanism slows down as if its motors were off, "
+        f"while the log shows {volts:.1f} V{said}.",
+        advice=f"{_advice(run)} Log the voltage that was applied, not the one asked for.",
+    )
+
+
+def _went_less(features: LogFeatures, index: int, first: int, last: int) -> bool:
+    """Whether the position, too, shows that it went less far than the voltage would take it."""
+    run, part = features.log.runs[index], slice(first, min(last + 1, len(features.log.runs[index])))
+    time, expected = run.time[part], features.predicted_velocities[index][part]
+    promised, read = (
+        float(np.sum(0.5 * np.diff(time) * (speed[1:] + speed[:-1])))
+        for speed in (expected, run.velocity[part])
+    )
+    went = float(run.position[part][-1] - run.position[part][0])
+    return bool((promised - went) * np.sign(promised) >= AGREES * abs(promised - read))
 
 
 def _confidence(share: float, *, back: bool, seen: bool) -> float:

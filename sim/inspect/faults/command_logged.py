@@ -283,11 +283,11 @@ def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
         fault="command-logged",
         where=_whole(index, run),
         confidence=1.0 - left,
-        evidence=f"The voltage is {np.median(run.voltage):.3g} V to the digit, and the start has "
-        f"a constant acceleration, {1.0 - shape.lacks:.0%} of what the curve behind it promises: "
-        "less arrived while the current was high.",
-        advice="Log the applied voltage (the motor controller measures it), raise the current "
-        "limit or lower the step, and record again; until then distrust kA.",
+        evidence=f"The log says {np.median(run.voltage):.3g} V to the digit, but at first the "
+        f"mechanism speeds up at only {1.0 - shape.lacks:.0%} of what that voltage brings about "
+        "later: a current limit let less arrive, and the log holds what was asked for.",
+        advice="Log the applied voltage, which the motor controller measures, or use a step "
+        f"smaller than {abs(float(np.median(run.voltage))):.1f} V; until then do not trust kA.",
     )
 
 

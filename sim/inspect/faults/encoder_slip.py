@@ -82,11 +82,11 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             fault="encoder-slip",
             where=LogInterval(anomaly.run, run.test, start, end),
             confidence=share,
-            evidence=f"The velocity reads {abs(loss):.0%} too {'little' if loss > 0 else 'much'} "
-            f"from one sample to the next for {end - start:.2f} s, and then fits again: faster "
-            "than any voltage can change it.",
+            evidence=f"For {end - start:.2f} s the velocity reads {abs(loss):.0%} too "
+            f"{'low' if loss > 0 else 'high'}, from one sample to the next, and then it fits "
+            "again: no motor changes its speed that fast, so the sensor slipped on its shaft.",
             advice="Tighten what holds the sensor to the shaft, and run this test again; until "
-            "then leave the stretch out.",
+            "then cut these seconds out.",
         )
 
 

@@ -110,12 +110,16 @@ def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) 
         fault="hard-stop",
         where=LogInterval(index, run.test, float(run.time[impact]), float(run.time[-1])),
         confidence=share,
-        evidence=f"It goes from {_percent(speed, run)} of its top speed to rest within "
-        f"{SETTLES:g} s and stays there for {lasts:.2f} s, with "
-        f"{volts[impact:].max():.1f} V on.",
-        advice="Trim the run to before the impact, or run it again and let go earlier; set "
-        "soft limits first.",
+        evidence=f"The mechanism stops from {_percent(speed, run)} of its top speed within "
+        f"{SETTLES:g} s and stays there for {lasts:.2f} s, although "
+        f"{volts[impact:].max():.1f} V push on: it ran into its end.",
+        advice="Cut the run before the impact, or run it again, let go earlier, and set soft "
+        f"limits first: here it hit after {_way(run, impact):.3g} of travel.",
     )
+
+
+def _way(run: Run, impact: int) -> float:
+    return abs(float(run.position[impact] - run.position[0]))
 
 
 def _at_once(run: Run, impact: int, *, speed: float, still: float) -> bool:
@@ -152,11 +156,11 @@ def _leaning(features: LogFeatures) -> Iterable[Damage]:
                 fault="hard-stop",
                 where=LogInterval(index, run.test, float(run.time[0]), float(run.time[off])),
                 confidence=LEANS,
-                evidence=f"It leans on the end of its travel for "
-                f"{run.time[off] - run.time[0]:.1f} s: gravity presses it there, it gives by "
-                f"{given:.1%} of its travel, and comes off at {volts:.2f} V where "
-                f"{pressed + baseline.ks:.2f} V would do.",
-                advice="Leave this stretch out, and begin the run a little off the stop.",
+                evidence="For the first "
+                f"{run.time[off] - run.time[0]:.1f} s the mechanism leans on the end of its "
+                f"travel: gravity presses it there. It moves by only {given:.1%} of its travel, "
+                f"and comes off at {volts:.2f} V where {pressed + baseline.ks:.2f} V would do.",
+                advice="Cut these seconds out, or begin the run a little off the stop.",
             )
 
 

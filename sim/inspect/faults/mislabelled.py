@@ -17,7 +17,7 @@ import numpy as np
 
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.log_features import LogFeatures
+from sim.inspect.log_features import DRIVEN, RAMP, LogFeatures
 
 ALL = 2.0  # [severity] from which no test keeps its name
 CONFIDENCE = 0.95  # a ramp cannot look like a step; a team's own forward may be another's reverse
@@ -41,6 +41,8 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Compare every run's name with what its voltage does."""
+    if _turned_round(features):
+        return
     for index, (run, seems) in enumerate(
         zip(features.log.runs, features.recognized_tests, strict=True)
     ):
@@ -49,20 +51,34 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 fault="mislabelled-test",
                 where=_whole(index, run),
                 confidence=CONFIDENCE,
-                evidence=f"Filed as {run.test}, it looks like {seems}: {_voltage(run)}.",
-                advice=f"Rename the run to {seems}, and check which button runs which test.",
+                evidence=f"Named {run.test}, the run looks like {seems}: {_voltage(run)}.",
+                advice=f"Rename the run to {seems}, and check which button starts which test.",
             )
+
+
+def _turned_round(features: LogFeatures) -> bool:
+    """Whether every test goes the other way: that is how this team counts, and no mistake."""
+    pairs = [
+        (run.test, seems)
+        for run, seems in zip(features.log.runs, features.recognized_tests, strict=True)
+        if run.test in FOUR_TESTS
+    ]
+    other = {"forward": "reverse", "reverse": "forward"}
+    return len({name for name, _ in pairs}) > 1 and all(
+        name.split("-") == [seems.split("-")[0], other[seems.split("-")[1]]]
+        for name, seems in pairs
+    )
 
 
 def _voltage(run: Run) -> str:
     """What the voltage does, and how far the mechanism went."""
-    start, middle, end = np.percentile(run.voltage, (2, 50, 98))
-    if abs(start) > abs(end):
-        start, end = end, start
+    size = np.abs(run.voltage)
+    driven = run.voltage[size > DRIVEN * size.max(initial=0.0)]
+    first, last = (float(np.median(part)) for part in np.array_split(driven, 2))
+    does = "rises" if abs(first) < RAMP * abs(last) else "stays"
     return (
-        f"half of its voltages are {'below' if middle > 0 else 'above'} {middle:.2f} V on the way "
-        f"from {start:.2f} to {end:.2f} V, and the position changes by "
-        f"{run.position[-1] - run.position[0]:.3g}"
+        f"its voltage {does} (about {first:.2f} V in the first half, {last:.2f} V in the second), "
+        f"and the position changes by {run.position[-1] - run.position[0]:.3g}"
     )
 
 

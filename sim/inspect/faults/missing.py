@@ -49,11 +49,19 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 fault="missing-test",
                 where=_nowhere(test),
                 confidence=CONFIDENCE,
-                evidence=f"{len(there & set(FOUR_TESTS))} of the four tests are there, and no "
+                evidence=f"Only {len(there & set(FOUR_TESTS))} of the four tests are there, and no "
                 f"{test}: {_COST[kind]}, and each direction its own friction.",
-                advice=f"Run {test} and add its log; if the mechanism cannot, say so beside the "
-                "gains.",
+                advice=f"Run {test}{_like(features.log, kind)}, and give its file with this "
+                "one; if the mechanism cannot do it, write that down with the gains.",
             )
+
+
+def _like(log: Log, kind: str) -> str:
+    """With how many volts the other direction of a test was run, if it was."""
+    volts = [float(np.abs(run.voltage).max(initial=0.0)) for run in log.runs if run.kind == kind]
+    if not volts or not max(volts):
+        return ""
+    return f" with up to {max(volts):.1f} V, as the other direction had"
 
 
 def _nowhere(test: str) -> LogInterval:

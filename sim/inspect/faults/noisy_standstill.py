@@ -101,11 +101,11 @@ def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) 
         fault="noisy-standstill",
         where=_stretch(index, run, rest.size),
         confidence=confidence,
-        evidence=f"The position stands for {rest.size} samples and the velocity strays by "
-        f"{noise:.3g} per second: SysId's own threshold for this test, {threshold:.3g}, takes "
-        f"{passed} of them for motion.",
-        advice="Set the velocity threshold by hand, above that noise, or cut what comes before "
-        "the motion.",
+        evidence=f"The position stands still for {rest.size} samples, but the velocity reads "
+        f"about ±{noise:.3g} per second: SysId's own threshold for this test, {threshold:.3g}, "
+        f"takes {passed} of them for motion.",
+        advice=f"Set the velocity threshold by hand, to about {3.0 * noise:.2g}, or cut what "
+        "comes before the motion.",
     )
 
 

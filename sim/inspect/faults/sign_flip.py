@@ -45,6 +45,8 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Compare the signs of voltage, velocity and the slope of position in every run."""
     for index, run in enumerate(features.log.runs):
+        if features.copied[index]:  # a velocity that is a position has no sign of its own
+            continue
         slope, moving = features.position_slopes[index], features.moving[index]
         against_slope = _against(run.velocity, slope, moving & _hard(slope))
         against_push = _opposed(run, run.velocity, moving)
@@ -100,10 +102,11 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
         fault="sign-flip",
         where=_whole(index, run),
         confidence=0.95,
-        evidence=f"{' and '.join(said).capitalize()}: {volts:.3g} V goes with {speed:.3g} per "
-        f"second while the position changes by {run.position[-1] - run.position[0]:.3g}.",
-        advice=f"{cure}, and log the signed voltage; then record again or turn the sign in the "
-        "log.",
+        evidence=f"{' and '.join(said).capitalize()}: at {volts:.3g} V the velocity is "
+        f"{speed:.3g} per second, while the position changes by "
+        f"{run.position[-1] - run.position[0]:.3g}.",
+        advice=f"{cure}, and log the voltage with its sign; then record again, or turn the sign "
+        "in the log.",
     )
 
 

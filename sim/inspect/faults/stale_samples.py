@@ -9,7 +9,9 @@ and are dropped. kA comes out at about 2/n of its size, kS strays, kV hardly mov
 
 Fingerprint: readings stay the same for several samples while the mechanism moves, and then jump
 by many times the sensor's smallest step. A coarse sensor repeats itself as well, but its jumps
-*are* the smallest step.
+*are* the smallest step. Frames of 20 ms are what controllers send unless told otherwise, so a log
+that repeats them is ordinary; slower ones are a fault. A controller may measure its velocity more
+slowly than it sends: that is ordinary as well.
 """
 
 from collections.abc import Iterable
@@ -24,6 +26,8 @@ from sim.inspect.log_features import Counts, Flags, LogFeatures, find_held_sampl
 ORDINARY = 3.0  # [samples] that repeat each reading at severity 1: 20 ms frames logged at 5 ms
 JUMP = 4.0  # [smallest steps of the sensor] a smaller jump may be its resolution, not its frames
 FEWEST = 5  # [readings] with clear jumps; fewer prove nothing
+FRAME = 0.025  # [s] motor controllers send every 20 ms unless told otherwise, and logs round up
+OWN_PACE = 0.064  # [s] of a velocity alone: REV measures one every 32 ms, and a frame may miss one
 STALE = 2  # [samples] that the usual reading is held; a clean log repeats one only now and then
 
 
@@ -75,17 +79,26 @@ def _stale(runs: list[Counts], index: int) -> bool:
 
 def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     period = float(np.median(np.diff(run.time)))
-    said = " and ".join(f"each {name} for {held.mean():.1f}" for name, held in stale.items())
-    longest = max(float(held.mean()) for held in stale.values())
+    repeated = " and ".join(f"each {name} for {held.mean():.1f}" for name, held in stale.items())
+    longest = {name: float(np.median(held)) * period for name, held in stale.items()}
+    usual = max(float(held.mean()) for held in stale.values()) * period
     readings = max(held.size for held in stale.values())
+    ordinary = longest.get("position", 0.0) <= FRAME and longest.get("velocity", 0.0) <= OWN_PACE
+    advice = (
+        "Nothing is wrong with that; to know kA better, raise the rate of the controller's status "
+        "frames."
+        if ordinary
+        else "Raise the rate of the controller's status frames to 20 ms or faster, and record "
+        "again; until then do not trust kA."
+    )
     return Damage(
         fault="stale-samples",
         where=_whole(index, run),
         confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
-        evidence=f"While it moves, the log holds {said} samples of {period * 1e3:.3g} ms: a frame "
-        f"arrives every {longest * period * 1e3:.0f} ms.",
-        advice="Raise the frame rate of the motor controller, or log at its rate, and record "
-        "again; until then distrust kA.",
+        evidence=f"The log holds {repeated} samples: it is written every {period * 1e3:.3g} ms, "
+        f"and a new reading arrives only every {usual * 1e3:.0f} ms.",
+        advice=advice,
+        ordinary=ordinary,
     )
 
 

@@ -23,6 +23,7 @@ from sim.inspect.log_features import MOVING, Counts, LogFeatures, find_held_samp
 ORDINARY = 0.15  # [share of the run] that is frozen at severity 1
 ROOM = 0.9  # [share of what is left of the run] a freeze may take, so that the truth returns
 FEWEST = 5  # [samples] a shorter freeze is a late frame
+SHORTEST = 0.06  # [s] the same: three status frames of 20 ms
 UNUSUAL = 2.5  # [times] longer than readings usually stand
 FAR = 5.0  # [smallest steps of the position] that a freeze must hide to be one
 WENT = 0.4  # [share] of the way that two speeds promise, which the jump at the end must make up
@@ -56,6 +57,8 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         shortest = max(FEWEST, UNUSUAL * _usual(features, index))
         for first, length in zip(starts[lengths >= shortest], lengths[lengths >= shortest]):  # noqa: B905 - one mask cuts both
             last = int(first + length - 1)
+            if run.time[min(last + 1, len(run) - 1)] - run.time[first] < SHORTEST:
+                continue
             hidden = _hidden(run, int(first), last, step=features.position_step)
             if hidden > 0.0:
                 yield _damage(index, run, int(first), last, hidden)
@@ -81,12 +84,14 @@ def _hidden(run: Run, first: int, last: int, *, step: float) -> float:
     frozen = abs(float(run.velocity[first]))
     slow = MOVING * run.top_speed
     promised = frozen * lasted
+    if last + 1 >= len(run):
+        return 0.0
+    jump = abs(float(run.position[last + 1] - run.position[last]))
     if frozen > slow and promised > FAR * step:
-        return promised
+        return promised if jump > WENT * promised else 0.0
     if last + AFTER >= len(run):
         return 0.0
     after = float(np.median(np.abs(run.velocity[last + 1 : last + 1 + AFTER])))
-    jump = abs(float(run.position[last + 1] - run.position[last]))
     promised = 0.5 * (frozen + after) * lasted
     return jump if after > slow and jump > max(WENT * promised, FAR * step) else 0.0
 
@@ -97,11 +102,11 @@ def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damag
         fault="stuck-sensor",
         where=where,
         confidence=0.95,
-        evidence=f"For {where.end - where.start:.2f} s ({last - first + 1} samples) the position "
-        f"stands at {run.position[first]:.4g} and the velocity at {run.velocity[first]:.4g}; at "
-        f"that speed it went {hidden:.3g} unseen.",
-        advice="Check the sensor's wiring and its CAN errors, and record again; until then cut "
-        "the test before the freeze.",
+        evidence=f"For {where.end - where.start:.2f} s the sensor repeats one reading (position "
+        f"{run.position[first]:.4g}, velocity {run.velocity[first]:.4g}), and then jumps: the "
+        f"mechanism went {hidden:.3g} in that time, and nobody saw it.",
+        advice="Check the sensor's plug and the CAN error counters, and run this test again; "
+        "until then cut the run before the freeze.",
     )
 
 

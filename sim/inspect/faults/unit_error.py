@@ -6,6 +6,9 @@ a conversion factor that was set for one of the two and not for the other.
 To the gains: kV and kA are off by the factor, and so is everything they are compared with; kS and
 R² are untouched. An arm fits its gravity to an angle that is none.
 
+A velocity can also be the position itself, logged twice; and a drivetrain that would go 17 m/s at
+12 V has both of its readings in a unit that is not the one it says.
+
 Fingerprint: the velocity is a known multiple of the slope of the position: 2π, 60, 360 and what
 they make together. A factor on *both* cannot be known from a log alone, because motion in another
 unit is just as consistent: compare kV with theory for that. So this fault strikes velocity only.
@@ -17,12 +20,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.core.log import Log, Run
+from sim.core.log import FOUR_TESTS, Log, Run
+from sim.core.units import find_unit
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
 
 TURN = 2.0 * math.pi
 NEAR = 0.05  # [share] how closely a factor must be met; slip and filters bend it less
+DRIVE = "drive"  # in the name of the mechanism; SysId's own tool writes Drivetrain
+FULL = 12.0  # [V]
+FASTEST, SLOWEST = 9.0, 1.2  # [m/s] of a drive at 12 V: two-speed gearboxes span about 2 to 7
 FAR = 2.5  # [times] a factor that is none of the known ones but too large to be a bent measurement
 
 KNOWN: Mapping[str, float] = {
@@ -52,20 +59,64 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Divide what the velocities sum up to by what the position changes, and look it up."""
+    """Compare the velocity with the position, and a drivetrain's speed with what there can be."""
+    usual = _usual(features)
     for index, (run, ratio) in enumerate(
         zip(features.log.runs, features.distance_ratios, strict=True)
     ):
-        said = _named(ratio)
-        if said:
+        times = features.copied[index]
+        said = _named(ratio) if _named(usual) else ""
+        if times:
+            yield Damage(
+                fault="unit-error",
+                where=_whole(index, run),
+                confidence=0.97,
+                evidence=f"The recorded velocity is the position, multiplied by {times:.3g}: where "
+                "the position stands still, the velocity should be 0, and it is not.",
+                advice="Log the encoder's velocity in place of its position, and record again; "
+                "without a velocity nothing can be fitted.",
+            )
+        elif said:
             yield Damage(
                 fault="unit-error",
                 where=_whole(index, run),
                 confidence=0.95,
-                evidence=f"Velocity is {ratio:.4g} times the slope of position: {said}.",
+                evidence=f"The velocity is {ratio:.4g} times as large as the position's change "
+                f"per second: {said}.",
                 advice="Set both conversion factors of the encoder alike, and divide the recorded "
                 f"velocity by {ratio:.4g}.",
             )
+    yield from _no_such_drive(features)
+
+
+def _usual(features: LogFeatures) -> float:
+    """The scale of most runs: a conversion factor is the same in all of them."""
+    return float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
+
+
+def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
+    """A drivetrain faster or slower than any: both readings are in another unit than it says."""
+    per, name = find_unit(features.log.units), features.log.mechanism
+    if per.angular or DRIVE not in name.lower():
+        return
+    speeds = [
+        FULL * run.top_speed / float(np.abs(run.voltage).max())
+        for run in features.log.runs
+        if run.test in FOUR_TESTS and run.top_speed and run.voltage.any()
+    ]
+    speed = float(np.median(speeds)) if speeds else 0.0
+    if not speed or SLOWEST <= speed <= FASTEST or _named(_usual(features)):
+        return
+    bound = f"faster than {FASTEST:g}" if speed > FASTEST else f"slower than {SLOWEST:g}"
+    yield Damage(
+        fault="unit-error",
+        where=LogInterval(None, "", 0.0, 0.0),
+        confidence=0.9,
+        evidence=f"With {FULL:g} V this drivetrain would go about {speed:.3g} m/s, and no FRC "
+        f"robot is {bound} m/s: position and velocity are not in meters, or their factor is wrong.",
+        advice="Push the robot forward by exactly 1 m and see by how much the logged position "
+        "changes; then set gear ratio and wheel circumference so that it is 1.",
+    )
 
 
 def _named(ratio: float) -> str:

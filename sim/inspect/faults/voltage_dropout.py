@@ -19,6 +19,7 @@ import numpy as np
 
 from sim.core.log import Array, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
+from sim.inspect.launch import step_start
 from sim.inspect.log_features import LogFeatures
 
 EVERY = 0.22  # [s] between two drop-outs
@@ -35,6 +36,8 @@ LONGEST = 0.08  # [s] a drop-out; what lasts longer is a brownout or a person
 ECHO = 0.06  # [s] in which a velocity would have answered
 ANSWER = 0.5  # [share of the loss of speed that physics asks for] which is one
 CLEAR = 0.1  # [share of the speed] a smaller loss is noise
+SAGS = 0.5  # [share of the fall] by which the bus falls as well
+LAUNCH = 0.2  # [s] after a step, in which a single fall of the voltage is no lost reading
 SERIES = 3  # drop-outs that are one story rather than so many
 
 
@@ -78,7 +81,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             drops = [
                 drop
                 for drop, answer in zip(drops, answers, strict=True)
-                if answer < _due(run, drop, features.timescale)
+                if answer < _due(run, drop, features.timescale) and not _launches(run, drop)
             ]
         for where, story in _stories(index, run, drops):
             yield _damage(run, where, story, answer=float(np.median(answers)))
@@ -97,10 +100,26 @@ def _drops(run: Run, period: float) -> list[_Drop]:
     for group in groups:
         first, last = int(group[0]), int(group[-1])
         lasted = float(run.time[min(last + 1, len(run) - 1)] - run.time[first])
-        inside = first > 0 and last < len(run) - 1
+        inside = first > 0 and last < len(run) - 1 and not _sags(run, first, last)
         if inside and lasted <= LONGEST and _returns(run.voltage, first, last, ought):
             drops.append(_Drop(first, last, float(ought[first])))
     return drops
+
+
+def _sags(run: Run, first: int, last: int) -> bool:
+    """Whether the bus falls as well: then the battery gives way, and nothing is lost."""
+    if run.bus_voltage is None:
+        return False
+    before = max(first - 2, 0)
+    bus, volts = run.bus_voltage, np.abs(run.voltage)
+    sag = 1.0 - float(bus[first : last + 1].min()) / max(float(bus[before]), FLOOR)
+    fall = 1.0 - float(volts[first : last + 1].min()) / max(float(volts[before]), FLOOR)
+    return fall > 0.0 and sag > SAGS * fall
+
+
+def _launches(run: Run, drop: _Drop) -> bool:
+    """Whether it is in the first moment of a step, when a controller's limits may act."""
+    return bool(0.0 <= run.time[drop.first] - run.time[step_start(run)] < LAUNCH)
 
 
 def _returns(voltage: Array, first: int, last: int, ought: Array) -> bool:
@@ -147,30 +166,30 @@ def _stories(index: int, run: Run, drops: list[_Drop]) -> list[tuple[LogInterval
 
 
 def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) -> Damage:
-    samples = sum(drop.last - drop.first + 1 for drop in story)
+    lasts = 1e3 * sum(float(run.time[drop.last + 1] - run.time[drop.first]) for drop in story)
     deepest = min(
         float(np.abs(run.voltage[d.first : d.last + 1] / d.expected).min()) for d in story
     )
     if len(story) == 1:
-        said = f"For {samples} sample(s) the voltage falls to {deepest:.0%} of what it was"
+        said = f"Once, for {lasts:.0f} ms, the voltage falls to {deepest:.0%} of what it was"
     else:
         every = float(np.median(np.diff([run.time[drop.first] for drop in story])))
         said = (
-            f"{len(story)} times, every {every:.2f} s, the voltage falls to as little as "
-            f"{deepest:.0%} of what it was, {samples} samples in all"
+            f"{len(story)} times, every {every:.2f} s, the voltage falls for a moment, to as "
+            f"little as {deepest:.0%} of what it was, for {lasts:.0f} ms in all"
         )
     echo = (
-        f"the velocity follows, by {answer:.0%}: the motor really lost it"
+        f"the velocity falls with it, by {answer:.0%}, so the motor really lost it"
         if answer > CLEAR
-        else "the velocity takes no notice: only the record lost it"
+        else "the velocity does not change, so only the record lost it"
     )
     return Damage(
         fault="voltage-dropout",
         where=where,
         confidence=1.0 - 0.3 / len(story),
         evidence=f"{said}; {echo}.",
-        advice="Find what drops (a CAN frame, one of two motors, another loop), log the applied "
-        "voltage in the loop that drives, and record again.",
+        advice="Look for one motor of several that loses its command, for missing CAN frames, and "
+        "for a second loop that writes the voltage; then record again.",
     )
 
 

@@ -1,0 +1,167 @@
+"""How a mechanism launches under a step of voltage: whether its speed falls or waits on the way up.
+
+Under a constant voltage one mass speeds up less and less. Its speed never falls, and never waits
+to climb on. The speed is read off the position here, because a recorded velocity is often averaged
+over a tenth of a second, which hides both. What the run does later, when nothing happens any more,
+is the scale: an event at the launch counts if it is clearly larger than that.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.core.log import Array, Run
+
+HALF = 0.02  # [s] half of the time over which a speed is read: shorter is the encoder's own noise
+LULLS = 0.04  # [s] the same for a wait, which lasts longer
+LAUNCH = 0.8  # [s] after the voltage, in which a robot gets on its way
+REST = 0.4  # [s] of a run behind that, at least, as a scale for what is ordinary in it
+ON, STAYS = 0.3, 2  # [share of the largest voltage, samples] from where a step has come
+UP = 0.3  # [share of the top speed] below it a slack chain or gear is taken up
+CLIMBING = 0.5  # [share of the top speed] from here on a wait is a wait
+FALLS, WAITS, CLIMBS = 0.12, 0.03, 0.12  # [share of the speed] a fall; [of the top] wait, climb
+LASTS = 0.15  # [s] of a wait
+LARGER = 1.5  # [times] what happens later in the run
+SAGS = 0.15  # [share of the voltage] a speed that falls with the voltage is no event
+HELD = 2  # [samples] for which a position repeats, from where single frames show as spikes
+
+
+@dataclass(frozen=True)
+class LaunchEvent:
+    """A speed that fell, or waited, while it should have risen.
+
+    Args:
+        kind: ``fall`` or ``wait``.
+        start: [s] when the step came, in the log's own time.
+        end: [s] when the speed was above where it had been.
+        speed: [m/s or rad/s] that it had reached.
+        size: [share] of that speed by which it fell, or of the top speed by which it climbed on.
+        later: [share] the same, at most, in the rest of the run.
+    """
+
+    kind: str
+    start: float
+    end: float
+    speed: float
+    size: float
+    later: float
+
+
+def find_launch_event(run: Run) -> LaunchEvent | None:
+    """Find a fall or a wait in the launch of a step test; None if there is none, or no launch."""
+    first = step_start(run)
+    since = run.time - run.time[first]
+    if len(run) <= first + 2 * STAYS or since[-1] < LAUNCH + REST:
+        return None
+    period = float(np.median(np.diff(run.time)))
+    speed = _speed(run, half=max(HALF, period), period=period)
+    top = float(np.percentile(speed[since > 0.0], 90))
+    if not top > 0.0:
+        return None
+    falls = _largest_fall(since, speed, (0.0, LAUNCH), top=top)
+    later = _largest_fall(since, speed, (LAUNCH, float(since[-1]) - 2.0 * LULLS), top=top)
+    if falls.size >= max(FALLS, LARGER * later.size) and not _sags(run, first, falls):
+        return _event("fall", run, first, falls, later.size)
+    smooth = _speed(run, half=max(LULLS, period), period=period)
+    climbs = _largest_climb(since, smooth, (0.0, LAUNCH), top=top)
+    later = _largest_climb(since, smooth, (LAUNCH + LASTS, float(since[-1]) - 2.0 * LULLS), top=top)
+    if climbs.size >= max(CLIMBS, LARGER * later.size) and not _sags(run, first, climbs):
+        return _event("wait", run, first, climbs, later.size)
+    return None
+
+
+def step_start(run: Run) -> int:
+    """The sample where the voltage comes on and stays; a first sample may be of the test before."""
+    size = np.abs(run.voltage)
+    on = size > ON * float(size.max(initial=0.0))
+    if on.size <= STAYS:
+        return int(np.argmax(on)) if on.size else 0
+    stays = on[:-STAYS] & on[1 : on.size - STAYS + 1] & on[STAYS:]
+    return int(np.argmax(stays)) if stays.any() else int(np.argmax(on))
+
+
+@dataclass(frozen=True)
+class _Found:
+    """The size of an event, and its samples: how fast it was, and when it was as fast again."""
+
+    size: float
+    begin: int
+    low: int
+    speed: float
+
+
+NOTHING = _Found(0.0, 0, 0, 0.0)
+
+
+def _speed(run: Run, *, half: float, period: float) -> Array:
+    """(n,) [m/s or rad/s] the slope of the position over twice ``half``, in its own direction."""
+    early = np.clip(run.time - half, run.time[0], run.time[-1])
+    late = np.clip(run.time + half, run.time[0], run.time[-1])
+    way = np.interp(late, run.time, run.position) - np.interp(early, run.time, run.position)
+    speed = way / (late - early) * np.sign(run.position[-1] - run.position[0])
+    moving = int(np.count_nonzero(run.velocity))
+    changes = int(np.count_nonzero(np.diff(run.position[run.velocity != 0.0])))
+    if half > HALF or moving >= HELD * max(changes, 1):
+        wide = 2 * round(half / period) + 1
+        fed = np.pad(speed, wide // 2, mode="edge")
+        speed = np.median(np.lib.stride_tricks.sliding_window_view(fed, wide), axis=1)
+    return np.asarray(speed)
+
+
+def _largest_fall(since: Array, speed: Array, within: tuple[float, float], *, top: float) -> _Found:
+    """The largest fall below an earlier speed that the run reaches again."""
+    at = _between(since, within)
+    if not at.size:
+        return NOTHING
+    inside = speed[at]
+    peak = np.maximum.accumulate(inside)
+    recovers = np.maximum.accumulate(inside[::-1])[::-1] >= peak
+    share = 1.0 - inside / np.maximum(peak, UP * top)
+    fall = np.where((peak > UP * top) & recovers, share, 0.0)
+    low = int(np.argmax(fall))
+    begin = int(np.argmax(inside[: low + 1] >= peak[low]))
+    return _Found(float(fall[low]), int(at[begin]), int(at[low]), float(peak[low]))
+
+
+def _largest_climb(
+    since: Array, speed: Array, within: tuple[float, float], *, top: float
+) -> _Found:
+    """The largest climb after a stretch of ``LASTS`` in which the speed hardly rose."""
+    best = NOTHING
+    at_end = since > since[-1] - REST  # what climbs on to there is a load that changes on the way
+    for k in _between(since, (within[0], within[1] - LASTS)).tolist():
+        ends = int(np.searchsorted(since, since[k] + LASTS))
+        behind = int(np.searchsorted(since, min(since[k] + LAUNCH, within[1] + LASTS)))
+        if speed[k] < CLIMBING * top or behind <= ends:
+            continue
+        waits = float(speed[k : ends + 1].max() - speed[k]) <= WAITS * top
+        reached = float(speed[ends:behind].max())
+        climb = (reached - float(speed[ends])) / top if waits else 0.0
+        if climb > best.size and float(np.median(speed[at_end])) < reached + WAITS * top:
+            best = _Found(climb, k, ends, float(speed[ends]))
+    return best
+
+
+def _between(since: Array, within: tuple[float, float]) -> NDArray[np.intp]:
+    return np.flatnonzero((since >= within[0]) & (since <= within[1]))
+
+
+def _sags(run: Run, first: int, found: _Found) -> bool:
+    """Whether the voltage gave way as well, a little before or while the speed did."""
+    begin = int(np.searchsorted(run.time, run.time[found.begin] - 2.0 * HALF))
+    size = np.abs(run.voltage)
+    usual = float(np.median(size[first:]))
+    meanwhile = size[max(begin, first + STAYS) : found.low + 1]
+    return bool(meanwhile.min(initial=usual) < (1.0 - SAGS) * usual)
+
+
+def _event(kind: str, run: Run, first: int, found: _Found, later: float) -> LaunchEvent:
+    return LaunchEvent(
+        kind,
+        float(run.time[first]),
+        float(run.time[found.low]),
+        found.speed,
+        found.size,
+        later,
+    )

@@ -1,0 +1,221 @@
+"""What ``sysid inspect`` prints: a paragraph for each kind of fault, and nothing that misleads."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.cli.inspect import LINES
+from sim.cli.inspect import inspect as command
+from sim.core.log import Log
+from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
+from sim.inspect.log_features import LogFeatures
+from sim.io import write
+from sim.physics.battery import Battery
+
+GENTLE = Routine(ramp=0.5, step=3.5)
+
+
+def bench(name="drivetrain", *, period=0.02, seed=0):
+    return simulate(MECHANISMS[name], GENTLE, rng=np.random.default_rng(seed), period=period)
+
+
+def each(log, change):
+    return replace(log, runs=tuple(change(run) for run in log.runs))
+
+
+def held(run, n):
+    latest = np.arange(len(run)) // n * n
+    return replace(run, position=run.position[latest], velocity=run.velocity[latest])
+
+
+def browned_out(*, seed=5, step=3.5):
+    """A weak battery under a drivetrain: the controller takes its motors off again and again."""
+    weak = replace(MECHANISMS["drivetrain"], battery=Battery(11.6, 0.035))
+    routine = Routine(ramp=1.0, step=step)
+    return simulate(weak, routine, rng=np.random.default_rng(seed), electrical=True)
+
+
+def printed(log, tmp_path):
+    write(log, tmp_path / "log.csv")
+    shown = CliRunner().invoke(command, [str(tmp_path / "log.csv")], standalone_mode=False)
+    return shown.return_value, shown.output.splitlines()
+
+
+# One paragraph for each kind
+
+
+def test_a_kind_of_fault_is_said_once_with_all_its_places(tmp_path):
+    log = contaminate(bench(), "unit-error", rng=np.random.default_rng(1)).log
+
+    code, lines = printed(log, tmp_path)
+
+    assert code == 1
+    assert lines[0].endswith("4 runs, 1 fault found.")
+    assert [line for line in lines if line.startswith("unit-error")] == [
+        "unit-error: runs 0, 1, 2, 3 (sure, 0.95)"
+    ]
+    assert len(inspect(log).to_json()["faults"]) == 4
+
+
+def test_many_faults_fit_on_a_screen(tmp_path):
+    log = bench()
+    for seed, (name, test) in enumerate(
+        [("hard-stop", "dynamic-reverse"), ("encoder-slip", "quasistatic-reverse"),
+         ("loop-overrun", "quasistatic-forward"), ("stuck-sensor", "quasistatic-forward"),
+         ("noisy-standstill", "quasistatic-forward"), ("missing-test", "dynamic-forward")]
+    ):  # fmt: skip
+        log = contaminate(log, name, test=test, rng=np.random.default_rng(seed)).log
+    log = log.join(log).join(log)
+
+    code, lines = printed(log, tmp_path)
+
+    kinds = {fault.fault for fault in inspect(log).faults}
+    assert code == 1
+    assert len(kinds) >= 5
+    assert all(sum(line.startswith(f"{kind}: ") for line in lines) == 1 for kind in kinds)
+    assert len(lines) <= LINES
+    assert lines[-1] == "Add --json to list everything."
+    assert max(len(line) for line in lines[1:]) <= 80
+
+
+def test_the_worst_kind_comes_first():
+    log = contaminate(
+        bench(), "encoder-slip", test="quasistatic-forward", rng=np.random.default_rng(1)
+    ).log
+    log = contaminate(log, "unit-error", rng=np.random.default_rng(2)).log
+
+    kinds = [kind[0].fault for kind in inspect(log).by_kind()]
+
+    assert kinds[0] == "unit-error"
+
+
+# Frames that repeat
+
+
+def test_frames_of_20_ms_are_how_a_robot_records_and_slower_ones_are_a_fault(tmp_path):
+    usual = each(bench(period=0.005), lambda run: held(run, 4))
+    slow = each(bench(period=0.005), lambda run: held(run, 12))
+
+    found, lines = inspect(usual), printed(usual, tmp_path)[1]
+
+    assert found.is_clean
+    assert {damage.fault for damage in found.damages} == {"stale-samples"}
+    assert found.to_json()["faults"] == []
+    assert sum(doubt.code == "stale-samples" for doubt in found.doubts) == 1
+    assert lines[0].endswith("no fault found.")
+    assert {fault.fault for fault in inspect(slow).faults} == {"stale-samples"}
+
+
+def test_a_velocity_that_is_measured_every_40_ms_is_how_its_controller_works():
+    def slow(run):
+        latest = np.arange(len(run)) // 8 * 8
+        return replace(held(run, 4), velocity=run.velocity[latest])
+
+    assert inspect(each(bench(period=0.005), slow)).is_clean
+
+
+# Brownouts
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_real_brownout_is_one_and_no_run_is_to_be_renamed(seed):
+    found = inspect(browned_out(seed=seed))
+
+    assert {fault.fault for fault in found.faults} == {"brownout"}
+    assert {fault.where.test for fault in found.faults} == {"dynamic-forward", "dynamic-reverse"}
+    worst = found.by_kind()[0][0]
+    assert "falls to 5.8 V" in worst.evidence
+    assert "smaller step than 3.5 V" in worst.advice
+
+
+def test_a_voltage_that_is_cut_again_and_again_is_a_brownout_without_the_bus():
+    log = each(browned_out(), lambda run: replace(run, bus_voltage=None, current=None))
+
+    assert {fault.fault for fault in inspect(log).faults} == {"brownout"}
+
+
+def test_a_bus_that_stays_up_is_no_brownout():
+    rng = np.random.default_rng(3)
+    log = simulate(MECHANISMS["drivetrain"], GENTLE, rng=rng, electrical=True)
+    cut = contaminate(log, "brownout", rng=np.random.default_rng(1)).log
+    steady = each(cut, lambda run: replace(run, bus_voltage=np.full(len(run), 12.3)))
+
+    assert "brownout" in {fault.fault for fault in inspect(cut).faults}
+    assert "brownout" not in {fault.fault for fault in inspect(steady).faults}
+
+
+# Runs that stand first, and teams that count the other way
+
+
+def test_a_run_that_stands_before_its_step_keeps_its_name():
+    log = bench()
+    run = log.runs_of_test("dynamic-forward")[0]
+    rest = np.arange(250) * 0.02  # five seconds, and a voltage left over from the run before
+    zeros = np.zeros(rest.size)
+    waits = replace(
+        run,
+        time=np.concatenate((run.time[0] + rest, run.time + rest[-1] + 0.02)),
+        voltage=np.concatenate((np.where(rest == 0.0, 3.5, 0.0), run.voltage)),
+        position=np.concatenate((zeros + run.position[0], run.position)),
+        velocity=np.concatenate((zeros, run.velocity)),
+        current=None,
+        bus_voltage=None,
+    )
+
+    assert LogFeatures(Log((waits,))).recognized_tests == ("dynamic-forward",)
+
+
+def test_a_team_whose_forward_is_our_reverse_has_mislabelled_nothing():
+    turned = {"forward": "reverse", "reverse": "forward"}
+    log = each(bench(), lambda run: replace(run, test=f"{run.kind}-{turned[run.direction]}"))
+
+    assert inspect(log).is_clean
+
+
+# Advice from this log
+
+
+def test_advice_counts_with_what_the_log_shows():
+    log = bench()
+    missing = inspect(replace(log, runs=log.runs[:3])).faults[0]
+
+    assert missing.advice.startswith("Run dynamic-reverse with up to 3.5 V, as the other")
+
+
+def test_a_velocity_that_is_the_position_is_said_to_be_one():
+    log = each(bench(), lambda run: replace(run, velocity=4.2 * run.position))
+
+    faults = inspect(log).faults
+
+    assert {fault.fault for fault in faults} == {"unit-error"}
+    assert [fault.where.run for fault in faults] == [0, 1, 2, 3]
+    assert all("is the position, multiplied by 4.2" in fault.evidence for fault in faults)
+
+
+def test_a_factor_in_one_run_of_four_is_no_unit():
+    log = bench()
+    odd = replace(log.runs[1], velocity=log.runs[1].velocity * 60.0)
+
+    found = inspect(replace(log, runs=(log.runs[0], odd, *log.runs[2:])))
+
+    assert "unit-error" not in {fault.fault for fault in found.faults}
+
+
+@pytest.mark.parametrize(("scale", "words"), [(3.7, "faster than 9"), (0.2, "slower than 1.2")])
+def test_a_drivetrain_that_cannot_be_is_in_another_unit(scale, words):
+    log = each(
+        bench(),
+        lambda run: replace(run, position=run.position * scale, velocity=run.velocity * scale),
+    )
+
+    (fault,) = inspect(log).faults
+
+    assert (fault.fault, fault.where.run) == ("unit-error", None)
+    assert words in fault.evidence
+    assert inspect(replace(log, mechanism="shooter")).is_clean
