@@ -202,8 +202,8 @@ def invert_information(table: Array, *, weak: NDArray[np.bool_] | None = None) -
 
     Args:
         table: (n, k) the Jacobian, its prior rows included.
-        weak: (k,) columns whose prior is all that keeps them from others; they are eliminated first,
-            so that a weak prior is not lost beside much information.
+        weak: (k,) columns that a prior alone tells from others. They are eliminated first, so that
+            a weak prior is not lost beside much information.
     """
     if weak is None or not weak.any():
         square = table.T @ table
