@@ -580,7 +580,7 @@ down = all_rows["quasistatic-reverse"]
 
 def up_and(down_rows: int) -> Picture:
     """How well kS and kG are known from the way up and some rows of the way down."""
-    used = {**forward, "quasistatic-reverse": down.where(slice(down_rows))}
+    used = {**forward, "quasistatic-reverse": down.select(slice(down_rows))}
     told = compute_information(used, type="elevator", noise=noise_of(elevator)).information_on_pair(
         *SIDES
     )

@@ -261,10 +261,10 @@ import numpy as np
 from sim.physics.effects import EFFECTS
 for name in {*EFFECTS} - {"drag"}:
     del EFFECTS[name]
-from sim.physics.engine import State, move
+from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
-track = move(Model("simple", {"kS": 0.2, "kV": 2.0, "kA": 0.3}), time=np.arange(0, 1, 0.02),
-             voltage=np.full(50, 3.0), state=State())
+track = simulate_run(Model("simple", {"kS": 0.2, "kV": 2.0, "kA": 0.3}), time=np.arange(0, 1, 0.02),
+                     voltage=np.full(50, 3.0), state=State())
 print(round(float(track.velocity[-1]), 6))
 """
 

@@ -19,7 +19,7 @@ from wpiutil.log import DataLogReader
 
 from sim.io.formats.wpilog.contents import read_contents
 from sim.io.formats.wpilog.control import Start, start_payload
-from sim.io.formats.wpilog.entry import KINDS, STRING
+from sim.io.formats.wpilog.entry import KINDS
 from sim.io.formats.wpilog.records import MAGIC, load_records
 
 HEADER = MAGIC + bytes((0, 1, 0, 0, 0, 0))
@@ -87,9 +87,9 @@ def ours(path: Path) -> int:
     """Read everything, in arrays; strings in lists."""
     found = read_contents(load_records(path))
     kept = {
-        entry.name: (entry.time, entry.texts() if entry.type == STRING else entry.values())
+        entry.name: (entry.time, entry.texts() if entry.type == "string" else entry.values())
         for entry in found.entries
-        if entry.type in KINDS or entry.type == STRING
+        if entry.type in KINDS or entry.type == "string"
     }
     return sum(len(time) for time, _ in kept.values())
 
