@@ -49,7 +49,7 @@ def main() -> None:
             "ruff format --check .",
             "mypy",
             "lint-imports",
-            "mkdocs build --strict",
+            "mkdocs build --strict -f .ci/mkdocs.yml",
         ):
             say(step)
             run(step.split(), environment)

@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 LISTED = re.findall(
-    r"^::: ([\w.]+)$", (ROOT / "docs/reference.md").read_text("utf-8"), re.MULTILINE
+    r"^::: ([\w.]+)$", (ROOT / "sim/docs/reference.md").read_text("utf-8"), re.MULTILINE
 )
 MODULES = sorted(
     {name if name == "sim.core.errors" else name.rpartition(".")[0] for name in LISTED}
