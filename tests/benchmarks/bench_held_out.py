@@ -4,7 +4,8 @@
 
 The logs are not part of the project; without them nothing is printed but where they were looked
 for. A prediction moves the fitted model along the voltages of the run that was left out, open loop,
-friction that holds included, for both methods alike; ours with the lag that it found.
+friction that holds included, for both methods alike; ours with the lag and the small effects that it
+found.
 
 SysId itself refuses three tests. Its recipe is therefore prepared with all four, which tells it
 what to trim, and regressed on the rows of three.
@@ -98,7 +99,7 @@ def by_ours(log: Log, run: Run, type_: str) -> Model | None:
         parts.append(Part("velocity-filter", {"window": window}))
     if found.position_delay > 0.0:
         parts.append(Part("delay", {"lag": found.position_delay}))
-    return Model(type_, found.gains, tuple(parts))
+    return Model(type_, found.gains, (*parts, *found.parts))
 
 
 def miss(model: Model | None, log: Log, run: Run) -> float:
