@@ -75,13 +75,15 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="From a log: tell SysId what it looks at",
     ),
     "M-NOISE-AVERAGES": Misconception(
-        "Noise in a column you fit with does not average out: it pulls the gain of that column "
-        "toward zero. Let the noisiest column be the one you explain.",
+        "Noise in a column you fit with does not average out: it pulls that column's coefficient "
+        "toward zero. In SysId's regression the coefficient of the voltage is 1/kA, so kA comes "
+        "out too large. Let the noisiest column be the one you explain.",
         lesson="07_fit_it_yourself",
         section="Which side is noisy?",
     ),
     "M-REVERSE-WASTE": Misconception(
-        "The reverse runs show friction from the other side; without them kS is only half seen.",
+        "The reverse runs show whether friction is the same both ways, and gravity or a slope "
+        "shows only as a difference between the two. SysId refuses to fit without them.",
         lesson="03_test_design",
         section="Why reverse? Three reasons",
     ),
@@ -94,7 +96,8 @@ MISCONCEPTIONS: dict[str, Misconception] = {
     ),
     "M-BIG-STEP": Misconception(
         "A big step spins the wheels, meets the current limit and drains the battery. A smaller "
-        "one shows kA just as well.",
+        "one shows kA as well, as long as the motion stands out of the noise: 2 V does, 0.6 V "
+        "does not.",
         lesson="03_test_design",
         section="Choose the step: hard enough, not too hard",
     ),
@@ -149,8 +152,8 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="Droop: what kP can do, and what not",
     ),
     "M-HEAVIER-MORE-KS": Misconception(
-        "Dry friction comes from bearings, gears and belts. Weight makes kG and kA larger, and "
-        "kS hardly.",
+        "Dry friction comes mostly from bearings, gears and belts. Weight makes kG and kA larger. "
+        "kS grows much less; on a drivetrain the carpet adds a little.",
         lesson="00_guess_or_measure",
         section="Week 3: a brace",
     ),
@@ -167,8 +170,9 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="Do not trim for beauty",
     ),
     "M-FILTER-FREE": Misconception(
-        "A filter is not free: a long one bends whatever is quicker than itself, and a step "
-        "then looks like the start of a heavier mechanism.",
+        "A filter is not free: a long one bends whatever is quicker than itself. A long median "
+        "cuts away the start of a step, and kA comes out too small; an average makes the velocity "
+        "late, and kA comes out too large.",
         lesson="07_fit_it_yourself",
         section="A filter is not free",
     ),

@@ -142,9 +142,13 @@ Table(
 print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the earth is 9.81.")
 
 # %% [markdown]
-# On a real elevator the ratio is a little smaller, because kA also pays for the motors' own
-# spinning parts, which weigh nothing on the rope. It is never larger. If yours says 15, look for a
-# mistake before you trust either gain.
+# On a real elevator with one stage the ratio is a little smaller, because kA also pays for the
+# motors' own spinning parts, which weigh nothing on the rope. If yours says 15, look for a mistake
+# before you trust either gain.
+#
+# A **cascade** elevator is different. Its lower stage moves at half the carriage's speed. With a
+# carriage of mass m and a lower stage of mass m₁, the motor carries the weight (m + m₁/2)·g and speeds
+# up the inertia m + m₁/4. So kG/kA lies between g and 2·g: 11.8 m/s² where both have the same mass.
 
 # %% [markdown]
 # ## 3 Doing it: hold it still
@@ -714,7 +718,7 @@ print(f"{let_go(wrong, height=0.3):.2f} m/s.")
 # - [ ] You used **both** edges, or a log with both directions. Not one edge.
 # - [ ] The analysis type is the mechanism's: Elevator, Arm or Simple.
 # - [ ] An arm's angle is 0 when it is **level**, and in radians where the code wants radians.
-# - [ ] Elevator: kG/kA is near 9.81 m/s², and not above.
+# - [ ] Elevator: kG/kA is near 9.81 m/s²; above it (up to 19.6) only with a cascade.
 # - [ ] In the code kG stands second, and the carriage holds still at zero speed.
 #
 # ## 9 Knowledge check

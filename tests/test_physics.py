@@ -194,15 +194,23 @@ def test_a_difference_within_the_errors_is_no_doubt():
 
 @pytest.mark.parametrize(
     ("share", "code"),
-    [(1.10, None), (1.0, None), (0.90, "gravity-above-g"), (1.30, "gravity-below-g")],
+    [
+        (1.10, None),
+        (1.0, None),
+        (0.90, "gravity-above-g"),
+        (0.55, "gravity-above-g"),
+        (0.45, "gravity-above-g"),
+        (1.30, "gravity-below-g"),
+    ],
 )
-def test_weight_over_inertia_of_an_elevator_is_at_most_g(share, code):
+def test_weight_over_inertia_of_an_elevator_is_at_most_g_and_of_a_cascade_2_g(share, code):
     truth = MECHANISMS["elevator"].gains["kA"]
 
     said = physical_doubts(found_in("elevator", kA=truth * share))
 
     assert codes(said) == ([code] if code else [])
-    assert [doubt.grave for doubt in said] == ([code == "gravity-above-g"] if code else [])
+    assert [doubt.grave for doubt in said] == ([share < 0.5] if code else [])
+    assert all("cascade" in doubt.message for doubt in said if 0.5 < share < 1.0)
     assert all("m/s²" in doubt.message for doubt in said)
 
 

@@ -9,6 +9,7 @@ from sim.fit.result import Fit
 from sim.physics.motors import NOMINAL
 
 GRAVITY = 9.81  # [m/s²]
+CASCADE = 2.0  # [g] weight over inertia of a cascade elevator at most
 WATCH = {"simple": 0.5, "elevator": 0.8, "arm": 0.8}  # [V] kS; arms of real robots read up to 0.74
 CRUISE = 0.4  # [of free speed] a typical velocity: 2 m/s of a drivetrain's 4.7
 LOOPS = 2.0  # [sample periods] a shorter timescale leaves too few samples while it speeds up
@@ -51,7 +52,11 @@ def _format_speed(found: Fit, speed: float) -> str:
 
 
 def gravity_doubts(found: Fit) -> list[Doubt]:
-    """An elevator's weight against its inertia: both are the same mass."""
+    """An elevator's weight against its inertia: both are the same mass.
+
+    A stage of mass m that moves at half the carriage's speed adds m/2 to the weight that the motor
+    feels and m/4 to the inertia, so the quotient is between g and 2 g.
+    """
     kg, ka = found.gains.get("kG", 0.0), found.gains["kA"]
     if found.type != "elevator" or find_unit(found.units).angular or kg <= 0.0 or ka <= 0.0:
         return []
@@ -59,13 +64,20 @@ def gravity_doubts(found: Fit) -> list[Doubt]:
     unsure = SURELY * lift * math.hypot(found.errors["kG"] / kg, found.errors["kA"] / ka)
     said = f"kG/kA = {lift:.3g} m/s²"
     if lift - unsure > GRAVITY / BELOW:
+        cascade = lift - unsure <= CASCADE * GRAVITY / BELOW
+        may = (
+            f"A cascade elevator, whose lower stages move slower than its carriage, has up to "
+            f"{CASCADE * GRAVITY:.3g}, and then this is right. An elevator of one stage cannot"
+            if cascade
+            else f"No elevator has more than {CASCADE * GRAVITY:.3g}"
+        )
         return [
             Doubt(
                 "gravity-above-g",
-                f"{said} is above the {GRAVITY} m/s² that weight over inertia is at most, so kA is "
-                "too small or kG too large: look at the unit of position, at the dynamic tests, "
-                "and for something that pulls it down besides its weight.",
-                grave=True,
+                f"{said} is above {GRAVITY} m/s². {may}: kA would be too small or kG too large. "
+                "Look at the unit of position, at the dynamic tests, and for something that pulls "
+                "it down besides its weight.",
+                grave=not cascade,
             )
         ]
     if lift + unsure < GRAVITY / HEAVY * BELOW:

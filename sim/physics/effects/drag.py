@@ -1,4 +1,4 @@
-"""Quadratic drag: air, grease and churning push back with the square of speed.
+"""Quadratic drag: air pushes back with the square of speed.
 
     V = ... + drag·v·|v|
 
@@ -30,12 +30,13 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 EFFECT = Effect(
     name="drag",
     kind="term",
-    summary="resistance that grows with the square of speed (air, grease)",
+    summary="resistance of the air, which grows with the square of speed",
     formula="drag·v·|v|",
     parameters=(Parameter("drag", "volts per squared speed", "V·s²/{u}²", power=2),),
     fingerprint="What is missing grows with speed, the same in both directions, and is nothing "
     "near standstill.",
-    inspect="Grease that is too thick, a belt that is too tight, a flywheel that fans air.",
+    inspect="Whatever moves air: a flywheel or a roller that works as a fan, spokes, a large flat "
+    "surface. It is not thick grease, which raises kV, nor a tight belt, which raises kS.",
     apart={
         "stribeck": "A faster ramp or step: drag keeps growing, Stribeck friction stays small.",
         "voltage-limit": "A coast: drag slows it while no voltage is applied.",
