@@ -147,8 +147,9 @@ print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the
 # before you trust either gain.
 #
 # A **cascade** elevator is different. Its lower stage moves at half the carriage's speed. With a
-# carriage of mass m and a lower stage of mass m₁, the motor carries the weight (m + m₁/2)·g and speeds
-# up the inertia m + m₁/4. So kG/kA lies between g and 2·g: 11.8 m/s² where both have the same mass.
+# carriage of mass m and a lower stage of mass m₁, the motor carries the weight (m + m₁/2)·g and
+# speeds up the inertia m + m₁/4. So kG/kA lies between g and 2·g: 11.8 m/s² where both have the
+# same mass.
 
 # %% [markdown]
 # ## 3 Doing it: hold it still

@@ -40,6 +40,8 @@ TESTS = {  # ramp [V/s] and step [V] of the log and of the validation, step [V] 
 
 FLOOR = 1.3  # [of the gap that the truth leaves on the held-out log] for full marks
 SNUG = 0.9  # [of FLOOR] within which the fit of the right effects must be
+MISSED = 1.07  # [of the validation's gap] by which it is wider without any one of the effects
+SEEN = 1.08  # [noises] of a gap in which something is visibly missing
 MOST_DRAWS = 50  # so many in a row that cannot be determined would be our fault
 TIMEOUT = 8.0  # [s] of a test of the validation and of the held-out log
 
@@ -79,10 +81,17 @@ def draw(student: str) -> Variant:
 
 
 def _determined(variant: Variant) -> bool:
-    """Whether the right effects, fitted to the log, predict the held-out log as the truth does."""
-    truth, shown = variant.mechanism.model, variant.held_out
+    """Whether the right effects predict the held-out log, and each of them is missed if left out."""
+    truth, shown, validation = variant.mechanism.model, variant.held_out, variant.validation
     found = with_effects(variant.log, variant.hidden, like=truth)
-    return gap(found, shown) <= SNUG * FLOOR * max(noise(shown), gap(truth, shown))
+    if gap(found, shown) > SNUG * FLOOR * max(noise(shown), gap(truth, shown)):
+        return False
+    least = max(MISSED * gap(found, validation), SEEN * noise(validation))
+    for name in variant.hidden:
+        rest = [other for other in variant.hidden if other != name]
+        if rest and gap(with_effects(variant.log, rest, like=found), validation) < least:
+            return False
+    return True
 
 
 def _one(rng: "np.random.Generator") -> Variant:

@@ -4,8 +4,8 @@
 
 The logs are not part of the project; without them nothing is printed but where they were looked
 for. A prediction moves the fitted model along the voltages of the run that was left out, open loop,
-friction that holds included, for both methods alike; ours with the lag and the small effects that it
-found.
+friction that holds included, for both methods alike; ours with the lag and the small effects that
+it found.
 
 SysId itself refuses three tests. Its recipe is therefore prepared with all four, which tells it
 what to trim, and regressed on the rows of three.
