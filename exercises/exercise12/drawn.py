@@ -81,7 +81,7 @@ def draw(student: str) -> Variant:
 
 
 def _determined(variant: Variant) -> bool:
-    """Whether the right effects predict the held-out log, and each of them is missed if left out."""
+    """Whether the right effects predict the held-out log, and each is missed if it is left out."""
     truth, shown, validation = variant.mechanism.model, variant.held_out, variant.validation
     found = with_effects(variant.log, variant.hidden, like=truth)
     if gap(found, shown) > SNUG * FLOOR * max(noise(shown), gap(truth, shown)):
