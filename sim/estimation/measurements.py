@@ -7,6 +7,7 @@ model, from third differences, which a smooth motion hardly has:
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +26,7 @@ GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] h
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
 AROUND = 5  # samples before a motion and after it that say when it began and ended
 MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
-TREMBLES = 0.3  # [of that speed] a velocity with more noise cannot tell a slow motion from a rest
+TREMBLES = 0.005  # [share of the top speed] a velocity that reads more where the position stands
 JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
 SURELY = 4.0  # [standard deviations] noise hardly ever goes so far
 
@@ -84,7 +85,7 @@ def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, 
     runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
     seen = tuple(_measure_run(run, top=top, friction=friction) for run in runs)
     noise = estimate_noise(seen) if seen else None
-    if noise is None or noise.velocity <= TREMBLES * MOVING * top:
+    if noise is None or _rest_velocity(runs, speed=MOVING * top, noise=noise) <= TREMBLES * top:
         return seen
     return tuple(_measure_run(run, top=top, friction=friction, noise=noise) for run in runs)
 
@@ -181,6 +182,13 @@ def _measure_run(
         _find_informative(run, moving)[cut], _find_rest_readings(run, moving)[cut],
         float(run.position[first]), start,
     )  # fmt: skip
+
+
+def _rest_velocity(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> float:
+    """[m/s or rad/s] root mean square of the velocity where the position stands."""
+    rest = [run.velocity[~_find_progress(run, speed=speed, noise=noise)] for run in runs]
+    every = np.concatenate(rest)
+    return float(np.sqrt(np.mean(every**2))) if every.size else 0.0
 
 
 def _find_progress(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:
