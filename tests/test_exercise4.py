@@ -256,3 +256,46 @@ def test_guards_that_leave_the_voltage_alone_lose_nothing(case, tmp_path):
     grade = find_exercise("exercise4", ROOT).grade(tmp_path / JAVA, student="ann")
 
     assert {one.id: one.seen for one in grade.checks if one.status != "passed"} == {}
+
+
+LOST = [
+    "{ m_routine = null; }",
+    "public ExampleSubsystem() { m_routine = null; }",
+    "public ExampleSubsystem() { this.m_routine = null; }",
+    "public ExampleSubsystem() { clean(); }\n  private void clean() { m_routine = null; }",
+]
+KEPT = [
+    "public void close() { m_routine = null; }",
+    "public ExampleSubsystem() { m_other = null; }\n  private Object m_other;",
+]
+
+
+@pytest.mark.parametrize(("more", "right"), [(m, False) for m in LOST] + [(m, True) for m in KEPT])
+def test_a_routine_that_is_set_to_null_again_is_lost(tmp_path, more, right):
+    text = (ROOT / "solutions" / "exercise4" / JAVA).read_text("utf-8")
+    text = text.replace("private final SysIdRoutine", "private SysIdRoutine")
+    (tmp_path / JAVA).write_text(text.rstrip("}\n") + f"  }}\n\n  {more}\n}}\n", "utf-8")
+    grade = EXERCISE.grade(tmp_path / JAVA, student="ann", run=False)
+    found = {one.id: one for one in grade.checks}["assembled"]
+
+    assert (grade.score == grade.max_score) is (found.status == "passed") is right
+    assert right or "sets the field of the SysIdRoutine to null" in found.seen
+
+
+def test_a_field_that_is_empty_until_the_routine_is_made_is_right(tmp_path):
+    text = (ROOT / "solutions" / "exercise4" / PYTHON).read_text("utf-8")
+    made = "        self.routine = SysIdRoutine("
+    assert made in text
+    for name, changed, right in (
+        ("before", text.replace(made, f"        self.routine = None\n{made}"), True),
+        (
+            "after",
+            text.replace("    def drive(", "        self.routine = None\n\n    def drive("),
+            False,
+        ),
+    ):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / PYTHON).write_text(changed, "utf-8")
+        grade = EXERCISE.grade(tmp_path / name / PYTHON, student="ann", run=False)
+
+        assert (grade.score == grade.max_score) is right

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from binding_styles import ARM, FOUR, PLAIN, PYTHON_STYLES, STYLES, four, java, python
+from binding_styles import ARM, FOUR, PLAIN, PYTHON_STYLES, STYLES, SUBSYSTEM, four, java, python
 
 from grader.exercise import Exercise
 from grader.robotcode.binding_facts import Hold
@@ -334,3 +334,151 @@ def test_a_commands_own_condition_is_read_with_its_sign(tmp_path, decorated, rig
 )
 def test_a_guard_turned_round_twice_and_one_that_excludes_matches_are_guards(tmp_path, guard):
     assert judged(tmp_path, java(PLAIN.replace(START, guard)))["guard"].status == "passed"
+
+
+HINDERED = {  # what follows the command of each test, and what its author is told
+    "unless(() -> true)": "from starting",
+    "unless(() -> !false)": "from starting",
+    "onlyIf(() -> false)": "from starting",
+    "onlyIf(() -> 2 < 1)": "from starting",
+    "onlyWhile(() -> Boolean.FALSE)": "from starting",
+    "onlyWhile(() -> DriverStation.isTest() && false)": "from starting",
+    "onlyIf(this::never)": "from starting",
+    "beforeStarting(Commands.idle())": "from starting",
+    "beforeStarting(Commands.waitSeconds(60))": "from starting",
+    "until(() -> true)": "early",
+    "withTimeout(0.1)": "early",
+    "withTimeout(Seconds.of(0.1))": "early",
+    "withTimeout(kShort)": "early",
+    "withTimeout(howLong())": "I cannot tell",
+    "raceWith(Commands.waitSeconds(0.1))": "early",
+    "raceWith(Commands.none())": "early",
+    "withDeadline(Commands.waitSeconds(1))": "early",
+    "butOnlyIfThatIsFine()": "I cannot tell",
+}
+NEVER = "boolean never() { return false; } static final double kShort = 0.5;"
+
+
+@pytest.mark.parametrize("decorated", HINDERED)
+def test_a_test_that_is_bound_and_cannot_run_whole_is_not_held(tmp_path, decorated):
+    bound = PLAIN.replace("));", f").{decorated});")
+    found = judged(tmp_path, java(bound, more=NEVER))["held"]
+
+    assert (found.status, found.points < 3) == ("failed", True)
+    assert HINDERED[decorated] in found.seen
+
+
+@pytest.mark.parametrize("decorated", ["withTimeout(0.1)", "unless(() -> true)"])
+def test_a_decorator_in_the_subsystems_own_method_counts_as_well(tmp_path, decorated):
+    beside = SUBSYSTEM.replace("(way);", f"(way).{decorated};")
+
+    assert judged(tmp_path, java(PLAIN, beside=beside))["held"].status == "failed"
+
+
+@pytest.mark.parametrize(
+    "decorated",
+    [
+        'withName("test")',
+        "finallyDo(() -> System.out.println())",
+        "beforeStarting(() -> System.out.println())",
+        'beforeStarting(Commands.print("go"))',
+        "withInterruptBehavior(InterruptionBehavior.kCancelIncoming)",
+        "ignoringDisable(false)",
+        "withTimeout(10)",
+        "withTimeout(Seconds.of(12))",
+        "until(m_arm::atLimit)",
+        "until(() -> false)",
+        "unless(() -> false)",
+        "unless(DriverStation::isFMSAttached)",
+        "onlyIf(() -> kCharacterize)",
+        "onlyWhile(() -> true)",
+        "raceWith(Commands.waitSeconds(20))",
+        "deadlineWith(Commands.waitSeconds(0.1))",
+        'alongWith(Commands.print("go"))',
+        'andThen(Commands.print("done"))',
+    ],
+)
+def test_a_decorator_that_lets_a_test_run_is_right(tmp_path, decorated):
+    bound = PLAIN.replace("));", f").{decorated});")
+    more = "static final boolean kCharacterize = false;"
+
+    found = judged(tmp_path, java(bound, more=more))
+
+    assert {found[name].status for name in ("held", "each-once", "guard")} == {"passed"}
+
+
+@pytest.mark.parametrize("decorated", ["unless(() -> false)", "onlyIf(() -> 1 < 2)"])
+def test_a_condition_that_always_holds_guards_nothing(tmp_path, decorated):
+    bound = PLAIN.replace(f".and({START})", "").replace("));", f").{decorated});")
+
+    assert judged(tmp_path, java(bound))["guard"].status == "failed"
+
+
+@pytest.mark.parametrize(
+    ("guard", "check"),
+    [
+        ("() -> DriverStation.isTest() && false", "held"),
+        ("new Trigger(() -> false).and(RobotModeTriggers.test())", "held"),
+        ("RobotModeTriggers.test().and(RobotModeTriggers.teleop())", "held"),
+        ("RobotModeTriggers.test().and(() -> !DriverStation.isTest())", "held"),
+        ("RobotModeTriggers.test().debounce(100)", "held"),
+        ("RobotModeTriggers.test().debounce(later())", "held"),
+        ("() -> DriverStation.isTest() || true", "guard"),
+        ("() -> DriverStation.isTest() || !false", "guard"),
+    ],
+)
+def test_a_trigger_that_never_changes_or_answers_late_is_told(tmp_path, guard, check):
+    found = judged(tmp_path, java(PLAIN.replace(START, guard)))
+
+    assert found[check].status == "failed"
+
+
+@pytest.mark.parametrize(
+    "guard", [f"{START}.debounce(0.1)", "() -> DriverStation.isTest() && true"]
+)
+def test_a_short_debounce_and_a_part_that_is_always_true_are_right(tmp_path, guard):
+    found = judged(tmp_path, java(PLAIN.replace(START, guard)))
+
+    assert {found[name].status for name in ("held", "guard")} == {"passed"}
+
+
+LOOP = "CommandScheduler.getInstance().getDefaultButtonLoop()"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "right"),
+    [
+        ("", f"{LOOP}.clear();", False),
+        ("", "CommandScheduler.getInstance().getActiveButtonLoop().clear();", False),
+        ("", f"var loop = {LOOP};\nloop.clear();", False),
+        (f"{LOOP}.clear();", "", True),
+        ("", "m_list.clear();", True),
+        ("", "CommandScheduler.getInstance().cancelAll();", True),  # at the start nothing runs
+        ("", f"m_driver.back().onTrue(Commands.runOnce(() -> {LOOP}.clear()));", True),
+    ],
+)
+def test_bindings_that_are_cleared_again_are_none(tmp_path, before, after, right):
+    found = judged(tmp_path, java(f"{before}\n{PLAIN}\n{after}"))["held"]
+
+    assert (found.status == "passed") is right
+    assert right or "removes the binding" in found.seen
+
+
+@pytest.mark.parametrize(
+    ("decorated", "right"),
+    [
+        ("unless(lambda: True)", False),
+        ("onlyIf(lambda: 1 > 2)", False),
+        ("withTimeout(0.1)", False),
+        ("until(lambda: True)", False),
+        ("withTimeout(10)", True),
+        ('withName("test")', True),
+        ("unless(DriverStation.isFMSAttached)", True),
+    ],
+)
+def test_decorators_are_read_in_robotpy_as_well(tmp_path, decorated, right):
+    body = four("self.driver.{key}().and_(self.driver.start())!")
+    bound = "\n".join(f"{line[:-1]}.{decorated})" for line in body.splitlines())
+    found = judged(tmp_path, python(bound), name=PYTHON)["held"]
+
+    assert (found.status == "passed") is right

@@ -311,6 +311,12 @@ def _assembled(facts: RoutineFacts) -> None:
             f"{facts.class_name} is not a subsystem",
             hint="Let it extend SubsystemBase (Python: Subsystem).",
         )
+    if facts.routine_lost:
+        empty = "null" if facts.language == "java" else "None"
+        raise Wrong(
+            f"line {facts.routine_lost} sets the field of the SysIdRoutine to {empty}",
+            hint="The routine is lost then, and no test can start. Remove that line.",
+        )
     check_compiles(facts.compile_errors, language=facts.language)
 
 

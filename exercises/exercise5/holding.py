@@ -1,7 +1,12 @@
 """Whether a test runs while its button is held, and on a button of its own."""
 
 from grader.check import Wrong
-from grader.robotcode.binding_facts import Binding, BindingFacts, Hold
+from grader.robotcode.binding_facts import (
+    Binding,
+    BindingFacts,
+    HindranceKind,
+    Hold,
+)
 
 from .four import TESTS
 
@@ -15,6 +20,33 @@ SAYS = {
     Hold.RELEASED: "Then it runs as long as nobody presses anything. It has to run while the "
     "button is held",
     Hold.UNKNOWN: "It has to run while the button is held",
+}
+
+HINDERED = {  # what is seen, and what to do about it
+    HindranceKind.NEVER: (
+        "{text} keeps the test of line {line} from starting",
+        "Whoever holds the button waits in vain. Remove it, or ask for something that changes.",
+    ),
+    HindranceKind.CLOSED: (
+        "the trigger of line {line} never becomes true: {text}",
+        "A part of it is always false. Ask for something that can become true.",
+    ),
+    HindranceKind.CUT: (
+        "{text} ends the test of line {line} early",
+        "The test has to run while its button is held, up to the routine's own timeout. Remove it.",
+    ),
+    HindranceKind.DELAYED: (
+        "{text} delays the trigger of line {line}",
+        "The test has to start and stop with its button. Debounce for 0.5 s at most, as a number.",
+    ),
+    HindranceKind.CLEARED: (
+        "{text} removes the binding of line {line} again",
+        "After it this button does nothing. Remove it.",
+    ),
+    HindranceKind.UNREAD: (
+        "I cannot tell by reading whether {text} lets the test of line {line} run",
+        "Hand the test itself to whileTrue(), or use WPILib's decorators with written numbers.",
+    ),
 }
 
 
@@ -41,6 +73,9 @@ def check_hold(one: Binding, facts: BindingFacts, *, earned: float) -> None:
             "Hand the test itself to whileTrue()."
         )
         raise Wrong(at, hint=hint, earned=earned)
+    for first in one.hindrances:
+        said, hint = HINDERED[first.kind]
+        raise Wrong(said.format(text=first.text, line=one.line), hint=hint, earned=earned)
     for name, line in facts.uncalled:
         raise Wrong(
             f"nothing calls {name} in line {line}",
@@ -66,6 +101,9 @@ def held_share(facts: BindingFacts) -> float:
     for one in facts.bindings:
         good = one.hold is Hold.WHILE and not one.scheduled and not facts.uncalled
         started = one.hold is Hold.PRESS or one.scheduled
+        if one.hindrances:
+            cut = {first.kind for first in one.hindrances} == {HindranceKind.CUT}
+            good, started = False, (good or started) and cut
         share = 1.0 if good else PRESSED if started else 0.0
         if one.trigger:
             best[one.trigger] = max(best.get(one.trigger, 0.0), share)

@@ -32,6 +32,30 @@ class Guard(Enum):
     OTHER_MODE = "other mode"  # teleop, say, or every mode but test mode: guards nothing
 
 
+class HindranceKind(Enum):
+    """Why a test that is bound may not start, or not last."""
+
+    NEVER = "never"  # a condition that never holds, or a wait before it
+    CLOSED = "closed"  # the trigger never becomes true
+    CUT = "cut"  # it is ended long before its own timeout
+    DELAYED = "delayed"  # the trigger answers late, or how late cannot be told
+    CLEARED = "cleared"  # the bindings are removed again
+    UNREAD = "unread"  # a decorator that is not known, or a time that cannot be told
+
+
+@dataclass(frozen=True)
+class Hindrance:
+    """What keeps a bound test from starting, or ends it early.
+
+    Args:
+        kind: why.
+        text: the source text that does it.
+    """
+
+    kind: HindranceKind
+    text: str
+
+
 @dataclass(frozen=True)
 class SysIdTest:
     """One of the four tests.
@@ -63,6 +87,7 @@ class Binding:
         comment: the comments beside it and directly above it.
         text: its source text.
         line: its line, from 1.
+        hindrances: what keeps the tests from starting, or ends them early.
     """
 
     tests: tuple[SysIdTest, ...]
@@ -75,6 +100,7 @@ class Binding:
     comment: str
     text: str
     line: int
+    hindrances: tuple[Hindrance, ...] = ()
 
 
 @dataclass(frozen=True)

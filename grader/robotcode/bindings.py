@@ -13,9 +13,11 @@ from grader.robotcode.binding_facts import (
     Binding,
     BindingFacts,
     Guard,
+    Hindrance,
+    HindranceKind,
     Hold,
 )
-from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS
+from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS, LOOPS
 from grader.robotcode.closure import (
     BoundNode,
     enter_call,
@@ -27,6 +29,7 @@ from grader.robotcode.commands import Commands, Runs
 from grader.robotcode.comments import comments, comments_near
 from grader.robotcode.compiling import compile_errors
 from grader.robotcode.constant_folding import ConstantFolder
+from grader.robotcode.constant_truth import TruthFolder
 from grader.robotcode.controllers import controllers
 from grader.robotcode.factories import factories, is_private
 from grader.robotcode.facts import ParseProblem
@@ -42,6 +45,10 @@ DEEPEST = 120  # pieces of code one inside the other
 LEAVES = re.compile(r"if\s*\(?\s*true\s*\)?\s*[:{]?\s*return", re.IGNORECASE)
 MOST_CALLS = 5  # methods followed, one inside the other
 MOST_STEPS = 50_000  # pieces of code gone through; a robot's container has a thousandth
+ASKED = re.compile(r"test mode( of RobotModeTriggers)?")  # the key of a part that asks for it
+OPPOSED = re.compile(  # ... and of one that does not hold in test mode
+    r"not\(test mode( of RobotModeTriggers)?\)|(is)?(teleop|autonomous)(enabled)?", re.IGNORECASE
+)
 _GUARDS = {
     Asks.TEST_MODE: Guard.TEST_MODE,
     Asks.SWITCH: Guard.TOGGLE,
@@ -88,10 +95,12 @@ class _Reader:
     def __init__(self, names: SymbolTable) -> None:
         measures = ConstantFolder(names)
         self._names = names
-        self._commands = Commands(names)
+        self._commands = Commands(names, measures)
         self._triggers = Triggers(names, measures)
+        self._truth = TruthFolder(names, measures)
         self._comments = comments(names.main)
         self._bindings: list[Binding] = []
+        self._start = 0  # how many bindings there were before the method that is gone through
         self._elsewhere: dict[str, int] = {}
         self._unread: list[ParseProblem] = []
         self._steps = 0
@@ -107,7 +116,7 @@ class _Reader:
                 fields = [one for one in node.body if not isinstance(one, Function | Class)]
                 self._several(fields, BoundNode(node, scope.within(node)), _Way())
             elif isinstance(node, Function) and node.name and node not in called_:
-                before = len(self._bindings)
+                before = self._start = len(self._bindings)
                 way = _Way(functions=(node,))
                 self._several(node.body, BoundNode(node, scope.within(node)), way)
                 if len(self._bindings) > before and is_private(node, main.language):
@@ -154,7 +163,7 @@ class _Reader:
         inner = replace(way, depth=way.depth + 1)
         if isinstance(node, Branch) and node.inside and node.place.text.startswith(("if", "elif")):
             condition = seen.at(node.inside[0])
-            if condition.node.place.text.strip("( )").lower() == "false":
+            if self._truth.of(condition) is False:
                 return
             inner = replace(inner, conditions=(*way.conditions, condition))
         self._several(node.parts, seen, inner)
@@ -196,7 +205,9 @@ class _Reader:
         name = java_spelling(last_name(call.target))
         args = [*call.args, *(node for _, node in call.named)]
         functions = functions_of(seen, self._names)
-        if name in HOLDS and isinstance(call.target, Member) and args and not functions:
+        if name == "clear" and isinstance(call.target, Member) and not functions:
+            self._cleared(seen, call, call.target.owner)
+        elif name in HOLDS and isinstance(call.target, Member) and args and not functions:
             self._bound(seen, call, seen.at(args[-1]), way)
         elif name in CHOOSERS and not functions:
             self._chosen(seen, call, args)
@@ -211,6 +222,19 @@ class _Reader:
                 depth=way.depth + 1,
             )
             self._several(function.body, enter_call(seen, functions[0]), into)
+
+    def _cleared(self, seen: BoundNode, call: Call, owner: Node) -> None:
+        """All bindings made so far are lost where the loop that asks the buttons is cleared."""
+        loop = resolve_bound(seen.at(owner), self._names).node
+        later = any(not one.name for one in seen.scope.functions)  # a lambda: not at the start
+        if later or not isinstance(loop, Call):
+            return
+        if java_spelling(last_name(loop.target)) in LOOPS:
+            lost = Hindrance(HindranceKind.CLEARED, call.place.text)
+            self._bindings[self._start :] = [
+                replace(one, hindrances=(*one.hindrances, lost))
+                for one in self._bindings[self._start :]
+            ]
 
     def _chosen(self, seen: BoundNode, call: Call, args: list[Node]) -> None:
         """A test that somebody chooses instead of holding a button."""
@@ -228,7 +252,8 @@ class _Reader:
         if runs.either or not runs.tests or not isinstance(call.target, Member):
             return
         parts = self._triggers.parts(seen.at(call.target.owner))
-        keys = sorted({part.key for part in parts if part.asks is not Asks.NOTHING})
+        silent = {Asks.NOTHING, Asks.DELAYED}
+        keys = sorted({part.key for part in parts if part.asks not in silent})
         unknown = any(part.asks is Asks.UNKNOWN for part in parts)
         hold = HOLDS[java_spelling(last_name(call.target))]
         kinds = {part.asks for part in parts}
@@ -247,16 +272,25 @@ class _Reader:
                 self._said((*way.places, call.place)),
                 said,
                 way.places[-1].line if seen.given and way.places else line,
+                (*runs.hindrances, *self._hindered(seen.at(call.target.owner), parts, runs)),
             )
         )
 
+    def _hindered(
+        self, trigger: BoundNode, parts: tuple[TriggerPart, ...], runs: Runs
+    ) -> Iterator[Hindrance]:
+        """Why a trigger never becomes true, alone or with its command's condition, or only late."""
+        keys = [part.key for part in self._asked(parts, runs)]
+        never = self._truth.of(trigger) is False
+        if never or (any(map(OPPOSED.fullmatch, keys)) and any(map(ASKED.fullmatch, keys))):
+            yield Hindrance(HindranceKind.CLOSED, trigger.node.place.text)
+        for part in parts:
+            if part.asks is Asks.DELAYED:
+                yield Hindrance(HindranceKind.DELAYED, part.key)
+
     def _guards(self, parts: tuple[TriggerPart, ...], runs: Runs, way: _Way) -> tuple[Guard, ...]:
         """What has to be true beside the button."""
-        asked = [*parts]
-        for condition in runs.conditions:
-            asked += self._triggers.parts(condition)
-        for condition in runs.exceptions:
-            asked += self._triggers.opposite(condition)
+        asked = self._asked(parts, runs)
         found = [_GUARDS[part.asks] for part in asked if part.asks in _GUARDS]
         buttons = {part.key for part in asked if part.asks is Asks.BUTTON}
         if len(buttons) > 1:
@@ -267,6 +301,15 @@ class _Reader:
                 if once or part.asks is Asks.SWITCH:
                     found.append(Guard.ASKED_ONCE if once else Guard.TOGGLE)
         return tuple(dict.fromkeys(found))
+
+    def _asked(self, parts: tuple[TriggerPart, ...], runs: Runs) -> list[TriggerPart]:
+        """What the trigger and the command's own decorators ask; all of it has to hold."""
+        asked = [*parts]
+        for condition in runs.conditions:
+            asked += self._triggers.parts(condition)
+        for condition in runs.exceptions:
+            asked += self._triggers.opposite(condition)
+        return asked
 
     def _said(self, places: tuple[SourceSpan, ...]) -> str:
         """The comments beside the places that led to a binding."""

@@ -38,6 +38,24 @@ DISCARDS = frozenset(  # what runs a function each time, and makes nothing of wh
     {"runOnce", "run", "runEnd", "startEnd", "startRun", "InstantCommand", "RunCommand",
      "StartEndCommand", "FunctionalCommand"}
 )  # fmt: skip
+BEFORE = frozenset({"sequence", "andThen", "beforeStarting", "SequentialCommandGroup"})
+RACES = frozenset({"race", "raceWith", "ParallelRaceGroup", "withDeadline"})
+DEADLINES = frozenset({"deadline", "deadlineWith", "deadlineFor", "ParallelDeadlineGroup"})
+CHAINED = frozenset({"raceWith", "withDeadline", "deadlineWith", "deadlineFor"})  # of a command
+HARMLESS = frozenset(  # what leaves when a command starts and ends as it is
+    {"withName", "finallyDo", "handleInterrupt", "withInterruptBehavior", "ignoringDisable",
+     "addRequirements", "setName", "alongWith", "parallel", "ParallelCommandGroup", "repeatedly",
+     "RepeatCommand", "repeatingSequence", "asProxy", "proxy", "deferredProxy", "ProxyCommand",
+     "defer", "DeferredCommand", "select", "SelectCommand", "WrapperCommand", "schedule",
+     "ScheduleCommand", "get", "requireNonNull", "of", "entry", "ofEntries", "asList", "list",
+     "tuple", "dict", "set", "Set"}
+)  # fmt: skip
+INSTANT = frozenset({"none", "print", "runOnce", "InstantCommand", "PrintCommand"})
+ENDLESS = frozenset({"idle", "run", "runEnd", "startEnd", "startRun", "RunCommand",
+                     "StartEndCommand"})  # fmt: skip
+WAITING = frozenset({"waitSeconds", "waitTime", "WaitCommand"})
+WAITING_UNTIL = frozenset({"waitUntil", "WaitUntilCommand"})
+LOOPS = frozenset({"getDefaultButtonLoop", "getActiveButtonLoop"})  # they hold all bindings
 ENDED = frozenset({"until", "onlyWhile"})  # ... that end it, too
 EXCEPT = frozenset({"unless", "until"})  # ... and let it run while the condition is false
 CHOOSERS = frozenset({"addOption", "setDefaultOption", "addDefaultOption", "addCmd", "schedule"})

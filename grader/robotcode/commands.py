@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from grader.robotcode.binding_facts import KINDS, SysIdTest
+from grader.robotcode.binding_facts import KINDS, Hindrance, HindranceKind, SysIdTest
 from grader.robotcode.button_vocabulary import CONDITIONED, DISCARDS, ENDED, EXCEPT
 from grader.robotcode.closure import (
     BoundNode,
@@ -14,6 +14,8 @@ from grader.robotcode.closure import (
     resolve_bound,
     returned_nodes,
 )
+from grader.robotcode.constant_folding import ConstantFolder
+from grader.robotcode.decorators import Decorators, make_hindrance
 from grader.robotcode.ir import (
     Call,
     Choice,
@@ -55,6 +57,7 @@ class Runs:
         stopped: whether a decorator ends it early.
         unclear: what could not be told; None if nothing was left open.
         either: whether it is one of the tests, and which one cannot be told.
+        hindrances: what keeps a test from starting, or ends it early.
     """
 
     tests: tuple[SysIdTest, ...] = ()
@@ -64,6 +67,7 @@ class Runs:
     stopped: bool = False
     unclear: Node | None = None
     either: bool = False
+    hindrances: tuple[Hindrance, ...] = ()
 
 
 class Commands:
@@ -71,10 +75,12 @@ class Commands:
 
     Args:
         names: the names of the program.
+        measures: its constants.
     """
 
-    def __init__(self, names: SymbolTable) -> None:
+    def __init__(self, names: SymbolTable, measures: ConstantFolder) -> None:
         self._names = names
+        self._decorators = Decorators(names, measures)
 
     def of(self, seen: BoundNode, *, depth: int = 0) -> Runs:
         """What a command, or what makes one, runs."""
@@ -150,6 +156,10 @@ class Commands:
         found = join_runs(several)
         if not found.tests:
             return None
+        first = next((at for at, one in enumerate(several) if one.tests), 0)
+        hindrance = self._decorators.hindrance(seen, name, parts, first)
+        if hindrance is not None:
+            found = replace(found, hindrances=(*found.hindrances, hindrance))
         if asked is not None:
             found = self._conditioned(found, tuple(map(seen.at, args)), name, asked, depth)
         unclear = found.unclear if len(found.tests) > 1 else None
@@ -166,7 +176,15 @@ class Commands:
         """A command with the condition of a decorator, or of a choice between two commands."""
         condition = args[asked : asked + 1]
         second = asked > 1 and bool(args) and not self.of(args[0], depth=depth).tests
-        if name in EXCEPT or second:
+        negated = name in EXCEPT or second
+        truth = self._decorators.truth(condition[0]) if condition else None
+        if condition and truth is not None:  # it guards nothing
+            if truth is not negated:
+                return found
+            kind = HindranceKind.CUT if name == "until" else HindranceKind.NEVER
+            hindrance = make_hindrance(kind, name, condition[0].node)
+            return replace(found, hindrances=(*found.hindrances, hindrance))
+        if negated:
             return replace(found, exceptions=(*found.exceptions, *condition))
         return replace(found, conditions=(*found.conditions, *condition))
 
@@ -221,4 +239,5 @@ def join_runs(several: Iterable[Runs]) -> Runs:
         stopped=any(one.stopped for one in found),
         unclear=next((one.unclear for one in found if one.unclear is not None), None),
         either=any(one.either for one in found),
+        hindrances=tuple(dict.fromkeys(each for one in found for each in one.hindrances)),
     )

@@ -153,6 +153,8 @@ class RoutineFacts:
         subsystem_passed: whether the Mechanism gets ``this``/``self``; None if it cannot be told.
         config_argument, mechanism_argument: positions of the two in the constructor call (0 and 1
             when right), -1 if absent.
+        routine_lost: line where the field that holds the routine is set to null after that; 0 if
+            it is not.
         problems: syntax errors; when there are any, the other facts may be incomplete.
         geared: motors that get a configuration, where one has a sensor-to-mechanism ratio.
         inverted: motors that the code sets to turn the other way round; ``*`` is one that cannot
@@ -185,6 +187,7 @@ class RoutineFacts:
     subsystem_passed: bool | None = None
     config_argument: int = -1
     mechanism_argument: int = -1
+    routine_lost: int = 0
     problems: tuple[ParseProblem, ...] = ()
     unread: tuple[ParseProblem, ...] = ()
     compile_errors: tuple[ParseProblem, ...] = ()

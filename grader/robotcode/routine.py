@@ -16,6 +16,7 @@ from grader.robotcode.facts import (
 )
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Function, Member, Node, Null, Number, Self, Text
+from grader.robotcode.kept_field import line_of_loss
 from grader.robotcode.log_callback import LogTrace
 from grader.robotcode.motors import owned_motors
 from grader.robotcode.name_resolution import (
@@ -101,6 +102,7 @@ def facts_of(path: Path) -> RoutineFacts:
         routine_line=routine.call.place.line,
         config_argument=routine.config,
         mechanism_argument=routine.mechanism,
+        routine_lost=line_of_loss(routine.call, home, names),
     )
     facts = _with_config(facts, routine.argument(routine.config), names, measures)
     return _with_mechanism(facts, routine.argument(routine.mechanism), names, measures)

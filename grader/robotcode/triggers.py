@@ -27,6 +27,7 @@ from grader.robotcode.closure import (
     returned_nodes,
 )
 from grader.robotcode.constant_folding import ConstantFolder
+from grader.robotcode.constant_truth import TruthFolder, literal_truth, sign_of
 from grader.robotcode.ir import (
     Call,
     Choice,
@@ -44,10 +45,10 @@ from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import java_spelling
 
 DEEPEST = 12  # triggers made of triggers
+LONGEST_DEBOUNCE = 0.5  # [s] longer, and whoever holds the button waits in vain
 COMPARING = {"==": True, "is": True, "!=": False, "is not": False, "^": False}
 NOT_TEST = re.compile(r"not\(test mode.*\)")  # the key of a part that asks for any other mode
 MATCH = re.compile(r"(is)?fmsattached", re.IGNORECASE)  # true in a match only
-JOINING = {"&": "and", "&&": "and", "and": "and", "|": "or", "||": "or", "or": "or"}
 
 
 class Asks(Enum):
@@ -57,6 +58,7 @@ class Asks(Enum):
     TEST_MODE = "test mode"
     OTHER_MODE = "other mode"
     RELEASED = "released"  # a button that nobody presses keeps nobody from anything
+    DELAYED = "delayed"  # true only after a time that is long, or cannot be told
     SWITCH = "switch"  # anything a person sets before the test
     NOTHING = "nothing"  # literally true
     ONCE = "asked once"  # test mode, asked while the program starts and kept in a variable
@@ -89,6 +91,7 @@ class Triggers:
     def __init__(self, names: SymbolTable, measures: ConstantFolder) -> None:
         self._names = names
         self._measures = measures
+        self._truth = TruthFolder(names, measures)
         self.asked: set[Node] = set()  # calls that were looked at as part of some trigger
 
     def parts(self, seen: BoundNode, *, depth: int = 0) -> tuple[TriggerPart, ...]:
@@ -96,8 +99,9 @@ class Triggers:
         before = seen
         seen = resolve_bound(seen, self._names)
         node = seen.node
-        if depth > DEEPEST:
-            return (TriggerPart(Asks.UNKNOWN, ""),)
+        if depth > DEEPEST or self._truth.of(before):
+            asks = Asks.UNKNOWN if depth > DEEPEST else Asks.NOTHING
+            return (TriggerPart(asks, node.place.text if asks is Asks.NOTHING else ""),)
         if isinstance(node, Call):
             found = self._call(seen, node, depth + 1)
             kept = node is not before.node and isinstance(before.node, Name | Member)
@@ -185,7 +189,16 @@ class Triggers:
             return (self._mixed(seen, [owner, *args], name, depth),)
         if self.controller(seen.at(owner)):
             return self._on_controller(seen, owner, name, args, depth)
+        if name == "debounce":
+            return (*self.parts(seen.at(owner), depth=depth), *self._debounced(seen, args))
         return self.parts(seen.at(owner), depth=depth) if name in UNCHANGED else ()
+
+    def _debounced(self, seen: BoundNode, args: list[Node]) -> tuple[TriggerPart, ...]:
+        """A debounce that is longer than a person waits for."""
+        found = self._measures.of(args[0], seen.scope) if args else None
+        if found is not None and found.value <= LONGEST_DEBOUNCE:
+            return ()
+        return (TriggerPart(Asks.DELAYED, seen.node.place.text),)
 
     def _on_controller(
         self, seen: BoundNode, owner: Node, name: str, args: list[Node], depth: int
@@ -236,9 +249,9 @@ class Triggers:
         if isinstance(node, Choice):
             return self._choice(seen, node, depth)
         inside = [part for part in node.parts if not isinstance(part, Return)]
-        sign = _sign(node)
+        sign = sign_of(node)
         if sign in COMPARING and len(inside) > 1:
-            said = [_truth(part) for part in inside]
+            said = [literal_truth(part) for part in inside]
             open_ = [part for part, truth in zip(inside, said, strict=True) if truth is None]
             if len(open_) == 1:
                 same = (said[0] if said[1] is None else said[1]) is COMPARING[sign]
@@ -254,7 +267,7 @@ class Triggers:
 
     def _choice(self, seen: BoundNode, node: Choice, depth: int) -> tuple[TriggerPart, ...]:
         """``condition ? true : false``; any other choice is a switch of the program's own."""
-        one, other = _truth(node.one), _truth(node.other)
+        one, other = literal_truth(node.one), literal_truth(node.other)
         if one is None or other is None or one is other:
             return (self._mixed(seen, [node.condition, node.one, node.other], "?", depth),)
         return self._same_or_not(seen.at(node.condition), depth, same=one)
@@ -272,7 +285,14 @@ class Triggers:
         key = f"{'not' if turned else sign}({', '.join(sorted(part.key for part in found))})"
         kinds = {part.asks for part in found}
         controllers = {part.controller for part in found if part.controller}
-        weak = (Asks.UNKNOWN, Asks.NOTHING, Asks.BUTTON, Asks.RELEASED, Asks.OTHER_MODE)
+        weak = (
+            Asks.UNKNOWN,
+            Asks.DELAYED,
+            Asks.NOTHING,
+            Asks.BUTTON,
+            Asks.RELEASED,
+            Asks.OTHER_MODE,
+        )
         asks = next((kind for kind in weak if kind in kinds), Asks.SWITCH)
         if turned and len(found) == 1 and NOT_TEST.fullmatch(found[0].key):
             return TriggerPart(Asks.TEST_MODE, found[0].key[4:-1])
@@ -330,22 +350,3 @@ class Triggers:
 def _kept(part: TriggerPart) -> TriggerPart:
     """A part that a variable holds: test mode is then what it was when the program started."""
     return replace(part, asks=Asks.ONCE) if part.asks is Asks.TEST_MODE else part
-
-
-def _sign(node: Operation | Opaque) -> str:
-    """``and``, ``or``, ``not`` or a sign; Python's own words stand in the text only."""
-    first, *more = node.parts or (node,)
-    source = node.place.source
-    if isinstance(node, Operation) and node.sign != "?":
-        return JOINING.get(node.sign, node.sign)
-    if not more:
-        said = source[node.place.start : first.place.start].decode("utf-8", errors="replace")
-        return "not" if said.strip(" (") in {"not", "~"} else ""
-    said = source[first.place.end : more[0].place.start].decode("utf-8", errors="replace")
-    said = " ".join(said.strip(" ()\n\t\\").split())
-    return said if said in COMPARING else JOINING.get(said, "")
-
-
-def _truth(node: Node) -> bool | None:
-    """What a literal says; None for anything else."""
-    return {"true": True, "false": False}.get(node.place.text.lower())

@@ -11,6 +11,10 @@ SENT = r"setVoltage\(voltage\.in\(Volts\)\)"
 STATEMENT = r"^ {4,}[\w.]+(?:\([^\n]*\)|\s=[^\n]*);\n"
 PERIODIC = "\n\n  @Override\n  public void periodic() {{\n    {};\n  }}"
 WRAPPED = r"\b(?:Volts|Meters|MetersPerSecond|Rotations|RotationsPerSecond)\.of"
+FORTH = r"SysIdRoutine\.Direction\.k"
+LAST_WAY = rf"{FORTH}(?:Forward|Reverse)\)(?=\);)"
+ASKS = "edu.wpi.first.wpilibj.DriverStation.isTest()"
+SCHEDULER = "edu.wpi.first.wpilibj2.command.CommandScheduler.getInstance()"
 
 RULES = (
     # Guards and buttons.
@@ -31,6 +35,42 @@ RULES = (
     Rule("reassign-guard", r"^( +)(?=m_driverController\.\w\(\)\.and)", r"\1testing = new Trigger(() -> true);\n\1"),
     Rule("may-not-run", r"^( +)(?=m_driverController\.\w\(\)\.and)", r"\1if (false) "),
     Rule("may-not-run", r"^( +)(?=m_driverController\.\w\(\)\.and)", r"\1if (true) return;\n\1"),
+    # Bound, and yet it never starts, or ends long before its time.
+    *(
+        Rule("never-starts", LAST_WAY, rf"\g<0>.{decorator}")
+        for decorator in (
+            "unless(() -> true)",
+            "unless(() -> !false)",
+            "onlyIf(() -> false)",
+            "onlyIf(() -> 1 > 2)",
+            "onlyWhile(() -> false)",
+            "onlyWhile(() -> edu.wpi.first.wpilibj.DriverStation.isTest() && false)",
+        )
+    ),
+    *(
+        Rule("ends-early", LAST_WAY, rf"\g<0>.{decorator}")
+        for decorator in (
+            "withTimeout(0.1)",
+            "withTimeout(Seconds.of(0.1))",
+            "until(() -> true)",
+            "raceWith(edu.wpi.first.wpilibj2.command.Commands.waitSeconds(0.1))",
+        )
+    ),
+    Rule("slow-trigger", r"\.and\(testing\)", r"\g<0>.debounce(100)"),
+    Rule("slow-trigger", r"(?<=RobotModeTriggers\.test\(\))(?=;)", ".debounce(100)"),
+    *(
+        Rule("constant-guard", r"RobotModeTriggers\.test\(\)", f"new Trigger(() -> {ASKS} {more})")
+        for more in ("&& false", "|| true", "&& !true", "|| !false")
+    ),
+    Rule("constant-guard", r"\.and\(testing\)", r"\g<0>.and(() -> false)"),
+    *(
+        Rule("clear-bindings", rf"^ +m_subsystem\.sysIdDynamic\({FORTH}Reverse\)\);\n", rf"\g<0>    {SCHEDULER}.{loop}().clear();\n")
+        for loop in ("getDefaultButtonLoop", "getActiveButtonLoop")
+    ),
+    Rule("null-routine", r"^  private final( SysIdRoutine m_routine =[^;]*;\n)", r"  private\1\n  {\n    m_routine = null;\n  }\n"),
+    Rule("never-starts", LAST_WAY, r"\g<0>.unless(edu.wpi.first.wpilibj.DriverStation::isTest)"),
+    Rule("may-not-run", r"^( +)(?=m_driverController\.\w\(\)\.and)", r"\1if (1 > 2) "),
+    Rule("may-not-run", r"^( +)(?=m_driverController\.\w\(\)\.and)", rf"\1if ({ASKS} && false) "),
     Rule("on-true", r"whileTrue", "onTrue"),
     Rule("toggle", r"whileTrue", "toggleOnTrue"),
     Rule("while-false", r"whileTrue", "whileFalse"),

@@ -10,6 +10,8 @@ NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?![\w.])"
 PERIODIC = "\n\n    def periodic(self) -> None:\n        {}\n"
 SENT = r"setVoltage\(voltage\)"
 ASKS = r"(?:wpilib\.)?DriverStation\.isTest"
+LAST_WAY = r"SysIdRoutine\.Direction\.k(?:Forward|Reverse)\)(?=\n)"
+SCHEDULER = "CommandScheduler.getInstance()"
 
 RULES = (
     # Guards and buttons.
@@ -25,6 +27,28 @@ RULES = (
     Rule("discarded-command", r"(?<=return )self\.routine\.\w+\(direction\)", r"self.runOnce(lambda: \g<0>)"),
     Rule("reassign-guard", r"^( +)(?=self\.driver\.\w\(\)\.and_)", r"\1testing = lambda: True\n\1"),
     Rule("may-not-run", r"^( +)(?=self\.driver\.\w\(\)\.and_)", r"\1if True:\n\1    return\n\1"),
+    # Bound, and yet it never starts, or ends long before its time.
+    *(
+        Rule("never-starts", LAST_WAY, rf"\g<0>.{decorator}")
+        for decorator in (
+            "unless(lambda: True)",
+            "onlyIf(lambda: False)",
+            "onlyIf(lambda: 1 > 2)",
+            "onlyWhile(lambda: not True)",
+        )
+    ),
+    Rule("ends-early", LAST_WAY, r"\g<0>.withTimeout(0.1)"),
+    Rule("ends-early", LAST_WAY, r"\g<0>.until(lambda: True)"),
+    Rule("slow-trigger", r"\.and_\(testing\)", r"\g<0>.debounce(100)"),
+    *(
+        Rule("constant-guard", rf"= {ASKS}\n", f"= lambda: wpilib.DriverStation.isTest() {more}\n")
+        for more in ("and False", "or True", "and not True")
+    ),
+    Rule("constant-guard", r"\.and_\(testing\)", r"\g<0>.and_(lambda: False)"),
+    *(
+        Rule("clear-bindings", r"^ +self\.subsystem\.dynamic\(SysIdRoutine\.Direction\.kReverse\)\n( +)\)\n", rf"\g<0>\1from commands2 import CommandScheduler\n\1{SCHEDULER}.{loop}().clear()\n")
+        for loop in ("getDefaultButtonLoop", "getActiveButtonLoop")
+    ),
     Rule("on-true", r"whileTrue", "onTrue"),
     Rule("toggle", r"whileTrue", "toggleOnTrue"),
     Rule("while-false", r"whileTrue", "whileFalse"),

@@ -1,0 +1,179 @@
+"""Conditions that are always true or always false: ``() -> 1 > 2``, ``isTest() && false``.
+
+A literal behind a name is no constant here. A team sets such a constant before a test and deploys,
+so it serves as a switch.
+"""
+
+from collections.abc import Callable
+
+from grader.robotcode.button_vocabulary import BOTH, EITHER, NOT, UNCHANGED, WRAPPERS
+from grader.robotcode.closure import (
+    BoundNode,
+    enter_call,
+    functions_of,
+    resolve_bound,
+    returned_nodes,
+)
+from grader.robotcode.constant_folding import ConstantFolder
+from grader.robotcode.ir import (
+    Call,
+    Choice,
+    Function,
+    Member,
+    Name,
+    Node,
+    Opaque,
+    Operation,
+    Return,
+)
+from grader.robotcode.name_resolution import last_name
+from grader.robotcode.symbol_table import SymbolTable
+from grader.robotcode.vocabulary import java_spelling
+
+DEEPEST = 12  # conditions made of conditions
+JOINING = {"&": "and", "&&": "and", "and": "and", "|": "or", "||": "or", "or": "or"}
+NEGATING = frozenset({"not", "!", "~"})
+COMPARISONS: dict[str, Callable[[float, float], bool]] = {
+    "==": lambda one, other: one == other,
+    "is": lambda one, other: one == other,
+    "!=": lambda one, other: one != other,
+    "is not": lambda one, other: one != other,
+    "^": lambda one, other: one != other,
+    "<": lambda one, other: one < other,
+    ">": lambda one, other: one > other,
+    "<=": lambda one, other: one <= other,
+    ">=": lambda one, other: one >= other,
+}
+
+
+class TruthFolder:
+    """Works out which conditions never change.
+
+    Args:
+        names: the names of the program.
+        measures: its constants.
+    """
+
+    def __init__(self, names: SymbolTable, measures: ConstantFolder) -> None:
+        self._names = names
+        self._measures = measures
+
+    def of(self, seen: BoundNode, *, depth: int = 0) -> bool | None:
+        """What a condition, a supplier or a trigger always says; None if it may change."""
+        before = seen.node
+        if isinstance(before, Name) and before.name in seen.given:
+            seen = seen.given[before.name]
+            before = seen.node
+        said = literal_truth(before)
+        if said is not None or depth > DEEPEST:
+            return said
+        seen = resolve_bound(seen, self._names)
+        node = seen.node
+        if isinstance(node, Name | Member):
+            return self._method(seen, depth + 1)
+        if isinstance(node, Function):
+            inside = BoundNode(node, seen.scope.within(node), seen.given)
+            return self._returned(inside, node, depth + 1)
+        if isinstance(node, Call):
+            return self._call(seen, node, depth + 1)
+        if isinstance(before, Name | Member):  # a constant by its name
+            return None
+        return self._operation(seen, node, depth + 1)
+
+    def _method(self, seen: BoundNode, depth: int) -> bool | None:
+        """A method that is named, not called: ``this::enabled``."""
+        call = seen.at(Call(seen.node.place, seen.node, ()))
+        functions = functions_of(call, self._names)
+        if len(functions) != 1 or functions[0][0] in seen.scope.functions:
+            return None
+        return self._returned(enter_call(call, functions[0]), functions[0][0], depth)
+
+    def _returned(self, inside: BoundNode, function: Function, depth: int) -> bool | None:
+        results = returned_nodes(function)
+        return self.of(inside.at(results[0]), depth=depth) if len(results) == 1 else None
+
+    def _call(self, seen: BoundNode, call: Call, depth: int) -> bool | None:
+        """What a call of a trigger's method, or of a function of these files, gives."""
+        functions = functions_of(seen, self._names)
+        if functions:
+            inside = enter_call(seen, functions[0])
+            return self._returned(inside, functions[0][0], depth) if len(functions) == 1 else None
+        name = java_spelling(last_name(call.target))
+        args = [*call.args, *(node for _, node in call.named)]
+        if name in WRAPPERS:
+            return self.of(seen.at(args[-1]), depth=depth) if args else None
+        if isinstance(call.target, Name):  # a variable that holds a supplier: testing()
+            held = resolve_bound(seen.at(call.target), self._names)
+            return self.of(held, depth=depth) if isinstance(held.node, Function) else None
+        if not isinstance(call.target, Member):
+            return None
+        parts = [call.target.owner, *args]
+        if name in BOTH | EITHER:
+            return self._joined(seen, parts, "and" if name in BOTH else "or", depth)
+        owner = (
+            self.of(seen.at(call.target.owner), depth=depth) if name in NOT | UNCHANGED else None
+        )
+        return not owner if owner is not None and name in NOT else owner
+
+    def _choice(self, seen: BoundNode, node: Choice, depth: int) -> bool | None:
+        said = self.of(seen.at(node.condition), depth=depth)
+        one, other = (self.of(seen.at(part), depth=depth) for part in (node.one, node.other))
+        if said is None:
+            return one if one is other else None
+        return one if said else other
+
+    def _operation(self, seen: BoundNode, node: Node, depth: int) -> bool | None:
+        """A condition made of others, or a comparison of constants."""
+        if not isinstance(node, Operation | Opaque):
+            return self._choice(seen, node, depth) if isinstance(node, Choice) else None
+        parts = [part for part in node.parts if not isinstance(part, Return)]
+        sign = sign_of(node)
+        if sign in {"and", "or"} and len(parts) > 1:
+            return self._joined(seen, parts, sign, depth)
+        if len(parts) == 2 and sign in COMPARISONS:  # noqa: PLR2004 - left and right
+            return self._compared(seen, parts, sign, depth)
+        if len(parts) != 1:
+            return None
+        said = self.of(seen.at(parts[0]), depth=depth)
+        if said is None or sign not in NEGATING:
+            return said if isinstance(node, Opaque) and not sign else None
+        return not said
+
+    def _joined(self, seen: BoundNode, parts: list[Node], sign: str, depth: int) -> bool | None:
+        """Several conditions of which all, or one, must hold."""
+        decides = sign == "or"  # the value of one part that decides for all
+        found = [self.of(seen.at(part), depth=depth) for part in parts]
+        if decides in found:
+            return decides
+        return None if None in found else not decides
+
+    def _compared(self, seen: BoundNode, parts: list[Node], sign: str, depth: int) -> bool | None:
+        truths = [self.of(seen.at(part), depth=depth) for part in parts]
+        if truths[0] is not None and truths[1] is not None:
+            return COMPARISONS[sign](truths[0], truths[1])
+        if any(isinstance(part, Name | Member) for part in parts):
+            return None
+        found = [self._measures.of(part, seen.scope) for part in parts]
+        if found[0] is None or found[1] is None:
+            return None
+        return COMPARISONS[sign](found[0].value, found[1].value)
+
+
+def literal_truth(node: Node) -> bool | None:
+    """What a literal says; None for anything else."""
+    text = node.place.text.lower().removeprefix("boolean.")
+    return {"true": True, "false": False}.get(text)
+
+
+def sign_of(node: Operation | Opaque) -> str:
+    """``and``, ``or``, ``not`` or a sign; Python's own words stand in the text only."""
+    first, *more = node.parts or (node,)
+    source = node.place.source
+    if isinstance(node, Operation) and node.sign != "?":
+        return JOINING.get(node.sign, node.sign)
+    if not more:
+        said = source[node.place.start : first.place.start].decode("utf-8", errors="replace")
+        return "not" if said.strip(" (") in {"not", "~"} else ""
+    said = source[first.place.end : more[0].place.start].decode("utf-8", errors="replace")
+    said = " ".join(said.strip(" ()\n\t\\").split())
+    return said if said in COMPARISONS else JOINING.get(said, "")
