@@ -11,7 +11,7 @@ from itertools import chain, count
 from pathlib import Path
 
 from grader.class_package import PLACE as ISSUED
-from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
+from grader.fingerprint import PACKAGES, fingerprint_folders, fingerprint_packages
 from grader.variant import check_student_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
@@ -43,7 +43,7 @@ def find_course(start: Path) -> Path:
     )
 
 
-def other_code(course: Path) -> str:
+def describe_other_code(course: Path) -> str:
     """What is to be said where a course folder holds other code than the one that is running.
 
     The folder one stands in decides about exercises and lessons; grader and sim are those of the
@@ -52,7 +52,7 @@ def other_code(course: Path) -> str:
     own = [course / one.name for one in PACKAGES]
     if not all((one / "__init__.py").is_file() for one in own) or own[0].samefile(PACKAGES[0]):
         return ""
-    if fingerprint_packages(own) == fingerprint():
+    if fingerprint_packages(own) == fingerprint_folders():
         return ""
     return (
         f"the grader and sim that run are those in {PACKAGES[0].parent}, and {course} holds other "
@@ -120,7 +120,7 @@ def load_progress(course: Path) -> tuple[Progress, str]:
     path = course / PLACE
     try:
         text = path.read_text(encoding="utf-8")
-        return _parsed(tomllib.loads(text)), ""
+        return _parse_progress(tomllib.loads(text)), ""
     except FileNotFoundError:
         return Progress(), ""
     except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError, Refusal):
@@ -140,7 +140,7 @@ def _free_name(path: Path) -> Path:
     return next(one for one in chain((first,), later) if not one.exists())
 
 
-def _parsed(raw: dict[str, object]) -> Progress:
+def _parse_progress(raw: dict[str, object]) -> Progress:
     """Progress from its file's content; whatever does not fit raises."""
     if not raw:  # a disk that was full, or a machine that lost its power
         raise ValueError
@@ -175,7 +175,7 @@ def update_progress(course: Path, change: Callable[[Progress], Progress]) -> str
     path = course / PLACE
     try:
         path.parent.mkdir(exist_ok=True)
-        with _locked(path.with_name("progress.lock")):
+        with _lock_file(path.with_name("progress.lock")):
             before, said = load_progress(course)
             after = change(before)
             if after != before or said:
@@ -199,7 +199,7 @@ def _text(progress: Progress) -> str:
 
 
 @contextmanager
-def _locked(path: Path) -> Iterator[None]:
+def _lock_file(path: Path) -> Iterator[None]:
     """Be the only process in here; the others wait.
 
     Where a file system knows no locks, nobody waits.

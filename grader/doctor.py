@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from grader.isolation import isolation_level
+from grader.isolation import find_isolation_level
 
 OLDEST = (3, 11)
 NEEDED = ("numpy", "scipy", "matplotlib", "numba", "jupyterlab", "ipywidgets", "tree-sitter")
@@ -34,7 +34,7 @@ class MachineFinding:
     advice: str = ""
 
 
-def examine(course: Path) -> Iterator[MachineFinding]:
+def examine_machine(course: Path) -> Iterator[MachineFinding]:
     """Look at this machine, one thing after another.
 
     Args:
@@ -96,7 +96,7 @@ def _terminal() -> MachineFinding:
 
 
 def _isolation() -> MachineFinding:
-    found = isolation_level()
+    found = find_isolation_level()
     right = found.startswith("isolated")
     advice = (
         "Fine for your own answers. Grade a class's code on Linux, where it can be shut in, or in "
@@ -106,9 +106,9 @@ def _isolation() -> MachineFinding:
 
 
 def _container() -> MachineFinding:
-    from grader.classroom.container import BUILD, answering_engines  # noqa: PLC0415 - beside its use
+    from grader.classroom.container import BUILD, find_engines  # noqa: PLC0415 - beside its use
 
-    there = answering_engines()
+    there = find_engines()
     found = f"{' and '.join(there)} answers" if there else "neither docker nor podman answers"
     advice = (
         "For grade class --in docker: install Docker or Podman, start it, and in the course "

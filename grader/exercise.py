@@ -32,9 +32,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.check import Check, Result, Status, run_all, skip_check
+from grader.check import Check, Result, Status, run_checks, skip_check
 from grader.consequence import Consequence
-from grader.submission import find_files, whole_answer
+from grader.submission import find_files, find_whole_answer
 from sim.core.errors import BadRequest, Refusal
 
 HINTS = ("concept", "pointer", "step")  # from far to near
@@ -167,7 +167,7 @@ class Exercise:
                 only read, and what only running can tell makes the exercise ungradable.
         """
         try:
-            whole = whole_answer(given, names=self.files, beside=self.beside)
+            whole = find_whole_answer(given, names=self.files, beside=self.beside)
             files = find_files(whole, folder=self.folder, names=self.files)
         except Refusal as refusal:
             return self._ungradable(str(refusal), student=student)
@@ -195,7 +195,7 @@ class Exercise:
             subject = self.module.read(file, student=student, **asked)
         except Refusal as refusal:
             return replace(self._ungradable(str(refusal), student=student), file=file)
-        results = run_all(self.checks, subject)
+        results = run_checks(self.checks, subject)
         score, most = (sum(points) for points in zip(*_points(results), strict=True))
         broken = next((one for one in results if one.status is Status.ERROR), None)
         status = "passed" if score == most else "failed"
@@ -233,7 +233,7 @@ def best_grade(grades: Sequence[Grade]) -> Grade:
     return max(grades, key=rank)
 
 
-def exercises(course: Path) -> tuple[Exercise, ...]:
+def list_exercises(course: Path) -> tuple[Exercise, ...]:
     """The exercises of a course, in order of their numbers."""
     found = [
         Exercise(checks.parent.name, checks.parent)
@@ -253,7 +253,7 @@ def find_exercise(asked: str, course: Path) -> Exercise:
     Raises:
         BadRequest: there is none; the message lists those there are.
     """
-    there = exercises(course)
+    there = list_exercises(course)
     short = re.fullmatch(r"(?:exercise|ex|e)?[ _-]?0*(\d+)", asked.strip().lower().rstrip("/\\"))
     name = f"exercise{short[1]}" if short else asked.strip()
     for one in there:

@@ -20,7 +20,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.exercise import Exercise, exercises
+from grader.exercise import Exercise, list_exercises
 from grader.fingerprint import PACKAGES
 from sim.core.errors import BadRequest
 
@@ -85,7 +85,7 @@ def select_package_files(course: Path) -> PackageFiles:
         )
     listed = _read_starters(course)
     chosen = {name: course / name for name in (*TOPS, STARTERS)}
-    for one in exercises(course):
+    for one in list_exercises(course):
         chosen |= {path.relative_to(course).as_posix(): path for path in _exercise_files(one)}
     chosen |= {name: course / name for name in listed}
     chosen |= {path.relative_to(course).as_posix(): path for path in _lesson_files(course)}
@@ -132,7 +132,7 @@ def _read_starters(course: Path) -> dict[str, str]:
             where=str(path),
             advice=f"Get it back: git checkout -- {STARTERS}",
         ) from None
-    for one in exercises(course):
+    for one in list_exercises(course):
         for file in (*one.files, *one.beside):
             if f"exercises/{one.name}/{file}" not in listed:
                 raise BadRequest(
@@ -146,10 +146,12 @@ def _read_starters(course: Path) -> dict[str, str]:
 def _exercise_files(one: Exercise) -> set[Path]:
     """The authored files of an exercise, without its starters."""
     texts = {one.folder / name for name in AUTHORED}
-    return {path for path in texts if path.is_file()} | imported_modules(one.folder / "checks.py")
+    return {path for path in texts if path.is_file()} | find_imported_modules(
+        one.folder / "checks.py"
+    )
 
 
-def imported_modules(module: Path) -> set[Path]:
+def find_imported_modules(module: Path) -> set[Path]:
     """A module of an exercise, and every module beside it that it imports, directly or not."""
     found: set[Path] = set()
     left = {module}

@@ -80,7 +80,7 @@ def explain_wrong_number(
         key: gain -> its value in the unit asked for.
         scene: the mechanism and its tests.
     """
-    found = list(_factors_off(name, value, right=right, scene=scene))
+    found = list(_explain_by_factors(name, value, right=right, scene=scene))
     if name == "kS" and {"kV", "kA"} <= key.keys():
         excess = key["kA"] / key["kV"] * scene.ramp
         if excess > 0 and right(value - excess):
@@ -99,7 +99,7 @@ _INTERCEPT = WrongNumber(
 )
 
 
-def _factors_off(
+def _explain_by_factors(
     name: str, value: float, *, right: Callable[[float], bool], scene: Scene
 ) -> Iterator[WrongNumber]:
     if right(-value):

@@ -9,13 +9,13 @@ import pytest
 from authored import authored_answer, mistakes_of
 
 from grader.course import find_course
-from grader.exercise import HINTS, exercises
+from grader.exercise import HINTS, list_exercises
 from grader.misconception import MISCONCEPTIONS
 from grader.starter import remove_answers
-from grader.variant import class_secret
+from grader.variant import use_class_secret
 
 ROOT = find_course(Path(__file__).resolve().parent)
-EXERCISES = {one.name: one for one in exercises(ROOT)}
+EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 STUDENTS = ("ann", "ben", "zoë")  # between them they get every kind of mechanism there is
 
 
@@ -139,7 +139,7 @@ def test_a_class_has_numbers_of_its_own_even_in_one_process(name, tmp_path):
     moved = type(EXERCISES[name])(name, copy)
     made = []
     for secret in (b"east", b"west", b"east"):
-        with class_secret(secret):
+        with use_class_secret(secret):
             moved.prepare("ann", say=lambda _: None)
         made.append(
             {path.name: path.read_bytes() for path in sorted((copy / "data" / "ann").iterdir())}

@@ -17,20 +17,20 @@ import pytest
 from grader.isolation import (
     Call,
     Limits,
-    isolation_level,
+    find_isolation_level,
     landlock,
     run_functions,
     sandbox_parent,
     seccomp,
 )
 from grader.isolation.scratch import remove_tree
-from grader.variant import class_secret
+from grader.variant import use_class_secret
 
 ROOT = Path(__file__).resolve().parents[1]
 
 SHORT = Limits(seconds=0.6)  # where the end of it is waited for
 LONG = Limits(seconds=10.0)  # where it is not, however busy the machine
-LEVEL = isolation_level()
+LEVEL = find_isolation_level()
 NO_ISOLATION = "" if LEVEL.startswith("isolated") else f"this system is {LEVEL}"
 isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolated")
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such call")
@@ -342,7 +342,7 @@ def test_neither_arguments_nor_environment_nor_memory_hold_a_secret(apart_run, m
         "    ours = any(n.startswith('grader') for n in sys.modules)\n"
         "    return {'secret': name in seen, 'grader': ours}\n"
     )
-    with class_secret(b"swordfish"):
+    with use_class_secret(b"swordfish"):
         (answer,) = apart_run(text).answers
 
     assert answer.reason == ""
@@ -575,8 +575,8 @@ def test_memory_and_files_are_limited(apart_run):
 @posix
 def test_processor_time_is_limited_and_the_end_says_so():
     code = (
-        "from grader.isolation.limits import limit\n"
-        "limit(seconds=1, memory=2**31, file=1, processes=True)\n"
+        "from grader.isolation.limits import set_limits\n"
+        "set_limits(seconds=1, memory=2**31, file=1, processes=True)\n"
         "while True: pass\n"
     )
     ended = subprocess.run([sys.executable, "-c", code], timeout=20, check=False).returncode
@@ -606,9 +606,9 @@ def alive(pid):
     return said.stdout.strip()[:1] not in {b"", b"Z"}
 
 
-@pytest.mark.skipif(not landlock.abi(), reason="this system has no Landlock")
+@pytest.mark.skipif(not landlock.find_abi_version(), reason="this system has no Landlock")
 def test_where_the_kernel_can_isolate_it_does():
-    assert LEVEL.startswith(f"isolated (Landlock ABI {landlock.abi()}, ")
+    assert LEVEL.startswith(f"isolated (Landlock ABI {landlock.find_abi_version()}, ")
     if platform.machine() in seccomp.TABLES:
         assert LEVEL.endswith("system calls filtered)")
 
@@ -631,7 +631,7 @@ def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
     text = "def fit(number): return {}\n"
     assert apart_run(text).level == LEVEL
     monkeypatch.setattr(sandbox_parent, "LANDLOCK_ABI", 4)
-    if landlock.abi() > 4:
+    if landlock.find_abi_version() > 4:
         assert apart_run(text).level.startswith("isolated (Landlock ABI 4, ")
     monkeypatch.setattr(sandbox_parent, "CONFINED", False)
 

@@ -11,7 +11,7 @@ from page_flaws import page_flaws
 from small_course import HALF, RIGHT, answer, lay_out
 
 from grader import submit
-from grader.cli import run
+from grader.cli import run_command
 from grader.course import load_progress
 
 STARTER = '# Measure it.\nsize = ""  # in units\ncolor = "" # a word\n'
@@ -45,13 +45,13 @@ def test_answers_go_into_the_file_and_its_comments_stay(course):
 def test_notebook_and_file_give_the_same(course, capsys, text):
     answer(course, text)
     shown = submit("exercise1")
-    run(["1", "--json"])
+    run_command(["1", "--json"])
     by_command = json.loads(capsys.readouterr().out)
 
     assert [one.points for one in shown.grade.checks] == [
         one["points"] for one in by_command["checks"]
     ]
-    run(["1"])
+    run_command(["1"])
     assert f"{shown}\n" == capsys.readouterr().out
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from grader.fingerprint import authored_files
+from grader.fingerprint import list_authored_files
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ def pack_course(course: Path) -> Bundle:
     """The exercises of a course, packed; the same files give the same bytes."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in authored_files(course / "exercises"):
+        for path in list_authored_files(course / "exercises"):
             info = zipfile.ZipInfo(path.relative_to(course).as_posix())  # its time is always 1980
             archive.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
     content = stream.getvalue()
@@ -41,11 +41,11 @@ def pack_course(course: Path) -> Bundle:
 
 def unpack_course(given: Path | Bundle) -> Path:
     """The folder of a course: as it is, or unpacked once in each process."""
-    return given if isinstance(given, Path) else _unpacked(given)
+    return given if isinstance(given, Path) else _unpack_bundle(given)
 
 
 @cache
-def _unpacked(given: Bundle) -> Path:
+def _unpack_bundle(given: Bundle) -> Path:
     folder = tempfile.TemporaryDirectory(prefix="course-", ignore_cleanup_errors=True)
     _KEPT.append(folder)  # removed when this process ends
     with zipfile.ZipFile(io.BytesIO(given.content)) as archive:

@@ -55,7 +55,7 @@ def grade_in_container(context: click.Context, *, course: Path, output: Path) ->
     if program is None:
         raise BadRequest(f"{engine} is not installed", advice=f"Install {engine}, then try again.")
     output.mkdir(parents=True, exist_ok=True)
-    words = [program, *container_arguments(context, course=course, output=output)]
+    words = [program, *build_container_arguments(context, course=course, output=output)]
     try:
         code = subprocess.run(words, check=False).returncode  # noqa: S603 - a list, no shell
     except KeyboardInterrupt:
@@ -69,7 +69,7 @@ def grade_in_container(context: click.Context, *, course: Path, output: Path) ->
     return code
 
 
-def container_arguments(context: click.Context, *, course: Path, output: Path) -> list[str]:
+def build_container_arguments(context: click.Context, *, course: Path, output: Path) -> list[str]:
     """The words after ``docker``: no network, nothing writable but the output folder."""
     engine, given = context.params["engine"], context.params
     mounts = [_mount(course, "/course"), _mount(output, "/out", write=True)]
@@ -122,7 +122,7 @@ def _option(parameter: click.Parameter, value: Any) -> Iterator[str]:  # noqa: A
             yield from (parameter.opts[-1], str(one))
 
 
-def answering_engines() -> list[str]:
+def find_engines() -> list[str]:
     """The engines that answer on this machine."""
     found = []
     for engine in ENGINES:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from statistics import fmean, median
 from typing import Any
 
-from grader.classroom.grading import MISSING, Graded
+from grader.classroom.grading import MISSING, GradedStudent
 
 MOST = 3  # wrong answers listed of one question
 FEWEST = 5  # [students] below, how a question tells them apart is chance
@@ -62,7 +62,7 @@ class Column:
     median: float
 
 
-def analyze_items(students: Sequence[Graded]) -> tuple[Item, ...]:
+def analyze_items(students: Sequence[GradedStudent]) -> tuple[Item, ...]:
     """Every question, in the order of the course."""
     rows: dict[tuple[str, str], list[tuple[float, float, Mapping[str, Any]]]] = {}
     for one in students:
@@ -76,7 +76,7 @@ def analyze_items(students: Sequence[Graded]) -> tuple[Item, ...]:
     return tuple(_item(*key, those) for key, those in rows.items())
 
 
-def summarize_exercises(students: Sequence[Graded]) -> tuple[Column, ...]:
+def summarize_exercises(students: Sequence[GradedStudent]) -> tuple[Column, ...]:
     """Every exercise, in the order of the course."""
     rows: dict[str, list[Mapping[str, Any]]] = {}
     for one in students:
@@ -85,9 +85,9 @@ def summarize_exercises(students: Sequence[Graded]) -> tuple[Column, ...]:
     return tuple(_column(name, those) for name, those in rows.items())
 
 
-def count_misconceptions(students: Sequence[Graded]) -> tuple[tuple[str, int], ...]:
+def count_misconceptions(students: Sequence[GradedStudent]) -> tuple[tuple[str, int], ...]:
     """Code -> how many students were told of it, most frequent first."""
-    return _ranked(
+    return _rank_texts(
         code
         for one in students
         for code in {
@@ -117,7 +117,7 @@ def _item(
 ) -> Item:
     most = max(float(one["max_points"]) for _, _, one in rows)
     points = [mine for mine, _, _ in rows]
-    seen = _ranked(str(one["seen"]) for _, _, one in rows if one["status"] == "failed")
+    seen = _rank_texts(str(one["seen"]) for _, _, one in rows if one["status"] == "failed")
     return Item(
         exercise,
         check,
@@ -126,7 +126,7 @@ def _item(
         sum(one["status"] == "passed" for _, _, one in rows),
         fmean(points) / most if most else math.nan,
         _correlation(points, [rest for _, rest, _ in rows]),
-        _ranked(str(one["misconception"]) for _, _, one in rows if one["misconception"]),
+        _rank_texts(str(one["misconception"]) for _, _, one in rows if one["misconception"]),
         tuple((text, count) for text, count in seen[:MOST] if count > 1),
     )
 
@@ -157,6 +157,6 @@ def _number(record: Mapping[str, Any], name: str) -> float:
     return float(record[name])
 
 
-def _ranked(texts: Iterable[str]) -> tuple[tuple[str, int], ...]:
+def _rank_texts(texts: Iterable[str]) -> tuple[tuple[str, int], ...]:
     found = Counter(text for text in texts if text)
     return tuple(sorted(found.items(), key=lambda one: (-one[1], one[0])))

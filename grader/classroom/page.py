@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.feedback_text import feedback
-from grader.classroom.grading import MISSING, Graded
+from grader.classroom.feedback_text import compose_feedback
+from grader.classroom.grading import MISSING, GradedStudent
 from grader.classroom.items import FEWEST, analyze_items, count_misconceptions, summarize_exercises
-from grader.classroom.results import Results, scores, status_of
+from grader.classroom.results import Results, collect_scores, find_status
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import make_folder_name
 
@@ -33,9 +33,9 @@ def write_pages(results: Results, folder: Path) -> Path:
     """
     templates = _templates()
     for one in results.students:
-        text = templates.get_template("student.html.jinja").render(_of_student(one, results))
+        text = templates.get_template("student.html.jinja").render(_fill_student_page(one, results))
         write_private_file(folder / _page(one), text)
-    text = templates.get_template("class.html.jinja").render(_of_class(results))
+    text = templates.get_template("class.html.jinja").render(_fill_class_page(results))
     return write_private_file(folder / "index.html", text)
 
 
@@ -43,17 +43,17 @@ def _templates() -> "Environment":
     from sim.report.page_file import load_templates  # noqa: PLC0415 - only who writes pages needs them
 
     found = load_templates(FOLDER)
-    found.filters |= {"percent": _percent, "signed": _signed}
+    found.filters |= {"percent": _format_percent, "signed": _format_signed}
     return found
 
 
-def _page(one: Graded) -> str:
+def _page(one: GradedStudent) -> str:
     return f"{PEOPLE}/{make_folder_name(one.student)}.html"
 
 
-def class_summary(results: Results) -> str:
+def summarize_class(results: Results) -> str:
     """The class in two sentences."""
-    there = [one for one in results.students if set(status_of(one).values()) != {MISSING}]
+    there = [one for one in results.students if set(find_status(one).values()) != {MISSING}]
     shares = [_share(one, results) for one in there]
     handed = f"{len(there)} of {len(results.students)} students handed something in"
     if not there:
@@ -63,12 +63,12 @@ def class_summary(results: Results) -> str:
     return f"{handed}; {mean}, and {full or 'nobody'} {'have' if full > 1 else 'has'} full marks."
 
 
-def _share(one: Graded, results: Results) -> float:
+def _share(one: GradedStudent, results: Results) -> float:
     most = sum(results.max_scores.values())
-    return sum(scores(one).values()) / most if most else 0.0
+    return sum(collect_scores(one).values()) / most if most else 0.0
 
 
-def _of_class(results: Results) -> dict[str, Any]:
+def _fill_class_page(results: Results) -> dict[str, Any]:
     from sim.plot import plot_score_heatmap, plot_score_histogram  # noqa: PLC0415 - matplotlib only where it draws
 
     names = [one.student for one in results.students]
@@ -78,14 +78,14 @@ def _of_class(results: Results) -> dict[str, Any]:
     )
     return {
         "name": results.name,
-        "verdict": class_summary(results),
-        "open": _open(results),
+        "verdict": summarize_class(results),
+        "open": _list_open_cases(results),
         "count": len(results.students),
         "columns": summarize_exercises(results.students),
         "heat": plot_score_heatmap(names, results.exercises, table).html,
         "spread": plot_score_histogram([_share(one, results) for one in results.students]).html,
         "misconceptions": [
-            {"code": code, "count": count, "says": _put_right(code)}
+            {"code": code, "count": count, "says": _explain_misconception(code)}
             for code, count in count_misconceptions(results.students)
         ],
         "fewest": FEWEST,
@@ -95,13 +95,13 @@ def _of_class(results: Results) -> dict[str, Any]:
     }
 
 
-def _put_right(code: str) -> str:
+def _explain_misconception(code: str) -> str:
     """What puts a misconception right, and which lesson shows it; empty for a code of no list."""
     known = MISCONCEPTIONS.get(code)
     return f"{known.says} See {known.where}." if known else ""
 
 
-def _open(results: Results) -> list[dict[str, str]]:
+def _list_open_cases(results: Results) -> list[dict[str, str]]:
     """What a person has to look at: whatever could not be graded, with the reason; once each."""
     found = []
     for one in results.students:
@@ -116,8 +116,8 @@ def _open(results: Results) -> list[dict[str, str]]:
     return found
 
 
-def _row(one: Graded, results: Results) -> dict[str, Any]:
-    points, how = scores(one), status_of(one)
+def _row(one: GradedStudent, results: Results) -> dict[str, Any]:
+    points, how = collect_scores(one), find_status(one)
     cells = [SIGNS.get(how.get(name, MISSING), f"{points.get(name, 0):g}") for name in
              results.exercises]  # fmt: skip
     total = f"{sum(points.values()):g} of {sum(results.max_scores.values()):g}"
@@ -129,17 +129,17 @@ def _cell_share(record: Mapping[str, Any]) -> float:
     return float(record["score"]) / float(record["max_score"]) if graded else math.nan
 
 
-def _of_student(one: Graded, results: Results) -> dict[str, Any]:
-    total, most = sum(scores(one).values()), sum(results.max_scores.values())
+def _fill_student_page(one: GradedStudent, results: Results) -> dict[str, Any]:
+    total, most = sum(collect_scores(one).values()), sum(results.max_scores.values())
     return {
         "student": one.student,
         "name": results.name,
         "verdict": f"{total:g} of {most:g} points.",
-        "records": [_told(record) for record in one.records],
+        "records": [_describe_record(record) for record in one.records],
     }
 
 
-def _told(record: Mapping[str, Any]) -> dict[str, Any]:
+def _describe_record(record: Mapping[str, Any]) -> dict[str, Any]:
     graded = record["status"] in {"passed", "failed"}
     checks = record["checks"] if graded else []
     return {
@@ -151,16 +151,16 @@ def _told(record: Mapping[str, Any]) -> dict[str, Any]:
                 "mark": MARKS.get(check["status"], "– not looked at:"),
                 "description": check["description"],
                 "points": f"{check['points']:g} of {check['max_points']:g}",
-                "lines": feedback(check).splitlines(),
+                "lines": compose_feedback(check).splitlines(),
             }
             for check in checks
         ],
     }
 
 
-def _percent(value: float) -> str:
+def _format_percent(value: float) -> str:
     return "" if math.isnan(value) else f"{100 * value:.0f}"
 
 
-def _signed(value: float | None) -> str:
+def _format_signed(value: float | None) -> str:
     return "" if value is None else f"{value:+.2f}".replace("-", "−")

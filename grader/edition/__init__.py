@@ -5,6 +5,6 @@ rendered.py   its cells as HTML; a widget as it is first shown
 pages.py      a page for each lesson, slides of it, and the handout of all system checks
 """
 
-from grader.edition.pages import build
+from grader.edition.pages import build_pages
 
-__all__ = ["build"]
+__all__ = ["build_pages"]

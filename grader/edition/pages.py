@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
-from grader.edition.executed import execute
+from grader.edition.executed import execute_notebook
 from grader.edition.rendered import LessonPart, split_notebook
 from sim.core.errors import BadRequest
 from sim.report.page_file import load_templates
@@ -42,7 +42,7 @@ class Lesson:
         return f"{self.name}-slides.html"
 
 
-def build(
+def build_pages(
     notebooks: Sequence[Path], folder: Path, *, say: Callable[[str], None] = lambda _: None
 ) -> Path:
     """Run lessons and write their pages.
@@ -63,7 +63,7 @@ def build(
     lessons = []
     for path in notebooks:
         say(path.stem)
-        lessons.append(Lesson(path.stem, split_notebook(execute(path))))
+        lessons.append(Lesson(path.stem, split_notebook(execute_notebook(path))))
     for place, lesson in enumerate(lessons):
         before = lessons[place - 1].page if place else ""
         after = lessons[place + 1].page if place + 1 < len(lessons) else ""

@@ -6,7 +6,7 @@ The child (``sandbox_child.py``) confines itself before it reads the learner's f
 Python's own, the data and an empty folder (``landlock.py``), no network, no processes,
 nobody else's process (``seccomp.py``), so much time, memory and disk (``limits.py``). What it
 says is judged outside (``result_parsing.py``), where nothing it made is ever imported or unpickled.
-Where a system has no such confinement there are limits only, and ``isolation_level`` says so.
+Where a system has no such confinement there are limits only, and ``find_isolation_level`` says so.
 
 What has to run as a whole program, as a robot does, is confined in the same way by ``run_program``
 (``sandbox_program.py`` outside, ``sandbox_program_child.py`` in the child); it leaves files for
@@ -18,7 +18,7 @@ from grader.isolation.sandbox_parent import (
     Call,
     Limits,
     SandboxOutcome,
-    isolation_level,
+    find_isolation_level,
     run_functions,
 )
 from grader.isolation.sandbox_program import run_program
@@ -29,7 +29,7 @@ __all__ = [
     "Call",
     "Limits",
     "SandboxOutcome",
-    "isolation_level",
+    "find_isolation_level",
     "one_line",
     "run_functions",
     "run_program",

@@ -17,7 +17,7 @@ def end_with_parent() -> None:
         ctypes.CDLL(None).prctl(PARENT_DEATH_SIGNAL, int(signal.SIGKILL), 0, 0, 0)
 
 
-def limit(*, seconds: int, memory: int, file: int, processes: bool) -> tuple[str, ...]:
+def set_limits(*, seconds: int, memory: int, file: int, processes: bool) -> tuple[str, ...]:
     """Set the limits this system has; there is no way back.
 
     Args:

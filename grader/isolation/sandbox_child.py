@@ -15,9 +15,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.isolation.landlock import restrict
-from grader.isolation.limits import end_with_parent, limit
-from grader.isolation.seccomp import forbid
+from grader.isolation.landlock import restrict_files
+from grader.isolation.limits import end_with_parent, set_limits
+from grader.isolation.seccomp import forbid_syscalls
 
 HERE = Path(__file__).resolve()
 MOST_NAMES = 32  # numbers of one answer
@@ -28,10 +28,10 @@ LONGEST = 200  # [characters] of what is said about anything
 def main() -> None:
     """Do what standard input asks for."""
     orders = json.load(sys.stdin)
-    say = _speaker(orders["nonce"])
+    say = _open_result_stream(orders["nonce"])
     sys.path[:] = [path for path in sys.path if Path(path) != Path(orders["root"])]
-    sys.meta_path.append(Packages(orders["packages"]))
-    force = confine(orders)
+    sys.meta_path.append(PackageFinder(orders["packages"]))
+    force = confine_process(orders)
     unload_course_modules()
     if orders["arrays"]:
         import numpy as np  # noqa: F401, PLC0415 - before the clock starts; only where it is needed
@@ -50,7 +50,7 @@ def main() -> None:
         say({"call": number, **said})
 
 
-def _speaker(nonce: str) -> Callable[[Mapping[str, object]], None]:
+def _open_result_stream(nonce: str) -> Callable[[Mapping[str, object]], None]:
     """Keep what was standard output for what is said; prints go to standard error."""
     out = os.dup(1)
     os.dup2(2, 1)
@@ -73,7 +73,7 @@ def close_input() -> None:
     os.close(empty)
 
 
-class Packages:
+class PackageFinder:
     """Finds the packages a learner may import, and no others that happen to be installed."""
 
     def __init__(self, places: Mapping[str, str]) -> None:
@@ -98,7 +98,7 @@ class Packages:
         return spec
 
 
-def confine(orders: Mapping[str, Any]) -> dict[str, object]:
+def confine_process(orders: Mapping[str, Any]) -> dict[str, object]:
     """Give up what the learner's code does not need, and say what that was."""
     end_with_parent()
     readable = [Path(orders["given"])]
@@ -107,14 +107,18 @@ def confine(orders: Mapping[str, Any]) -> dict[str, object]:
     hidden = HERE.parents[1]
     asked, confined = orders["limits"], orders["confined"]
     newest = orders["landlock_abi"]
-    landlock = confined and restrict(
+    landlock = confined and restrict_files(
         readable=readable, folder=Path.cwd(), hidden=hidden, newest=newest
     )
-    limited = limit(**asked, processes=True)
-    seccomp = confined and forbid()
+    limited = set_limits(**asked, processes=True)
+    seccomp = confined and forbid_syscalls()
     if not seccomp:  # a filter lets no process start; without it the limit does what it can
-        limit(**asked, processes=False)
-    return {"landlock": landlock if _closed() else 0, "seccomp": seccomp, "limited": limited}
+        set_limits(**asked, processes=False)
+    return {
+        "landlock": landlock if _is_source_hidden() else 0,
+        "seccomp": seccomp,
+        "limited": limited,
+    }
 
 
 def unload_course_modules() -> None:
@@ -123,7 +127,7 @@ def unload_course_modules() -> None:
         del sys.modules[name]
 
 
-def _closed() -> bool:
+def _is_source_hidden() -> bool:
     """Whether this program can no longer be read: a try tells more than a promise."""
     try:
         HERE.open("rb").close()

@@ -121,7 +121,7 @@ def run_functions(
             "root": str(ROOT),
             "confined": CONFINED,
             "landlock_abi": LANDLOCK_ABI,
-            "packages": package_paths(packages),
+            "packages": find_package_paths(packages),
             **_hand_over(source, calls, given),
             "limits": limits.for_child(),
         }
@@ -131,7 +131,7 @@ def run_functions(
     return _outcome(received, calls, ended, child, time.monotonic() - begin)
 
 
-def isolation_level() -> str:
+def find_isolation_level() -> str:
     """What confines a learner's code on this system: tried, not assumed."""
     with tempfile.TemporaryDirectory() as made:
         probe = Path(made, "probe.py")
@@ -139,7 +139,7 @@ def isolation_level() -> str:
         return run_functions(probe, calls=[Call("probe")]).level
 
 
-def package_paths(packages: Sequence[str]) -> dict[str, str]:
+def find_package_paths(packages: Sequence[str]) -> dict[str, str]:
     """Package -> its folder, or its only file, of those that are installed."""
     specs = {name: importlib.util.find_spec(name) for name in packages}
     found: dict[str, str] = {}
@@ -202,7 +202,7 @@ class _Child:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             cwd=work,
-            env=child_environment(work),
+            env=make_child_environment(work),
             start_new_session=True,
         )
         into, said, printed = (
@@ -250,7 +250,7 @@ def _nothing() -> None:
     pass
 
 
-def child_environment(work: Path) -> dict[str, str]:
+def make_child_environment(work: Path) -> dict[str, str]:
     """The few variables a child gets; what is temporary or at home is in its own folder."""
     kept = {name: os.environ[name] for name in KEPT if name in os.environ}
     own = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), str(work))

@@ -76,7 +76,7 @@ TABLES = {
 }  # fmt: skip
 
 
-def forbid() -> bool:
+def forbid_syscalls() -> bool:
     """Give the calls up; whether this system and processor could."""
     table = TABLES.get(platform.machine())
     if table is None or not sys.platform.startswith("linux") or sys.maxsize < 2**32:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.serve.student_folders import assign_account
-from grader.start import QUIET, as_root
+from grader.start import QUIET, choose_root_option
 from sim.bench.dataset.secret import VARIABLE
 from sim.core.errors import BadRequest
 from sim.support.work.cache import CACHE
@@ -108,7 +108,7 @@ class JupyterServers:
 def _start(student: str, course: Path, *, host: str, account: int | None) -> JupyterServer:
     port, token = _free_port(host), secrets.token_hex(16)
     command = [
-        sys.executable, "-m", "jupyterlab", *QUIET, *as_root(),
+        sys.executable, "-m", "jupyterlab", *QUIET, *choose_root_option(),
         "--no-browser", f"--ip={host}", f"--port={port}", "--ServerApp.port_retries=0",
         f"--ServerApp.root_dir={course}",
         f"--ServerApp.shutdown_no_activity_timeout={IDLE}",
@@ -118,7 +118,7 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Jup
         command.append("--KernelManager.transport=ipc")
     runtime = _runtime_folder(account)
     environment = {
-        **server_environment(course, runtime, own=account is not None),
+        **make_server_environment(course, runtime, own=account is not None),
         "JUPYTER_TOKEN": token,
     }
     try:
@@ -132,7 +132,7 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Jup
     deadline = time.monotonic() + PATIENCE
     listening = runtime / f"jpserver-{process.pid}.json"  # written once the port is its own
     while time.monotonic() < deadline and process.poll() is None:
-        if listening.exists() and _answers(host, port):
+        if listening.exists() and _is_answering(host, port):
             return JupyterServer(student, port, token, process, runtime)
         time.sleep(PAUSE)
     process.kill()
@@ -144,7 +144,7 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Jup
     )
 
 
-def _answers(host: str, port: int) -> bool:
+def _is_answering(host: str, port: int) -> bool:
     """Whether the server answers a request: its port is open some seconds before it does."""
     connection = http.client.HTTPConnection(
         "127.0.0.1" if host == EVERY_ADDRESS else host, port, timeout=ONE_ANSWER
@@ -196,7 +196,7 @@ def _free_port(host: str) -> int:
         return int(one.getsockname()[1])
 
 
-def server_environment(course: Path, runtime: Path, *, own: bool) -> dict[str, str]:
+def make_server_environment(course: Path, runtime: Path, *, own: bool) -> dict[str, str]:
     """The environment of a student's server: what it writes and caches goes into their home.
 
     Args:

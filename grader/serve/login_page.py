@@ -16,7 +16,7 @@ from tornado.httpserver import HTTPServer
 from tornado.web import Application, RequestHandler, stream_request_body
 
 from grader.serve.jupyter_servers import JupyterServer, JupyterServers
-from grader.serve.student_folders import code_is_right, find_student
+from grader.serve.student_folders import find_student, is_code_right
 from sim.core.errors import Refusal
 
 _PAGES = template.Loader(str(Path(__file__).parent))
@@ -62,7 +62,7 @@ class ServedClass:
         return self.rooms.open(student, self.home(student))
 
 
-class Delays:
+class LoginDelays:
     """Growing waits after wrong codes, one for each student and one for each address.
 
     Args:
@@ -100,7 +100,7 @@ class Delays:
 
 
 @dataclass
-class Queue:
+class StartQueue:
     """Students whose servers start, in the order they came.
 
     Args:
@@ -144,13 +144,13 @@ class Queue:
             self.waiting.remove(student)
 
 
-class Page(RequestHandler):
+class BasePage(RequestHandler):
     """What both pages share."""
 
-    queue: Queue
-    delays: Delays
+    queue: StartQueue
+    delays: LoginDelays
 
-    def initialize(self, queue: Queue, delays: Delays) -> None:
+    def initialize(self, queue: StartQueue, delays: LoginDelays) -> None:
         """Tornado's own way to hand something in."""
         self.queue, self.delays = queue, delays
 
@@ -176,7 +176,7 @@ class Page(RequestHandler):
 
 
 @stream_request_body
-class LoginPage(Page):
+class LoginPage(BasePage):
     """Asks who is there."""
 
     def prepare(self) -> None:
@@ -208,7 +208,7 @@ class LoginPage(Page):
         if not await self.delays.hold(keys):
             self.refuse(name, "Too many wrong codes. Wait a minute, then try again.", 429)
             return
-        if student is None or not code_is_right(code, known[student]):
+        if student is None or not is_code_right(code, known[student]):
             self.delays.count_wrong(keys)
             self.refuse(name, "No student of that name has that code. Look at both once more.")
             return
@@ -221,7 +221,7 @@ class LoginPage(Page):
             self.redirect(f"/wait?ticket={quote(self.queue.ticket(student))}", status=303)
 
 
-class Wait(Page):
+class WaitingPage(BasePage):
     """Tells a student their place until their server runs."""
 
     def get(self) -> None:
@@ -238,8 +238,8 @@ class Wait(Page):
 
 def make_application(house: ServedClass) -> Application:
     """The door as a web application."""
-    shared = {"queue": Queue(house), "delays": Delays(house.wait)}
-    return Application([("/", LoginPage, shared), ("/wait", Wait, shared)])
+    shared = {"queue": StartQueue(house), "delays": LoginDelays(house.wait)}
+    return Application([("/", LoginPage, shared), ("/wait", WaitingPage, shared)])
 
 
 async def serve_forever(house: ServedClass, *, port: int, ready: Callable[[int], None]) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 
 from grader.classroom.results import Results
-from grader.classroom.roster import Members
+from grader.classroom.roster import Roster
 from sim.core.errors import BadRequest
 
 
@@ -33,7 +33,7 @@ class Export:
     roster: tuple[str, ...] = ()
 
 
-def exports() -> dict[str, Export]:
+def list_exports() -> dict[str, Export]:
     """Name -> format, of all there are."""
     found = sorted(one.name for one in iter_modules(__path__))
     modules = {name: import_module(f"{__name__}.{name}") for name in found}
@@ -43,7 +43,7 @@ def exports() -> dict[str, Export]:
     }
 
 
-def choose_exports(wanted: Sequence[str], *, roster: Members | None) -> tuple[Export, ...]:
+def choose_exports(wanted: Sequence[str], *, roster: Roster | None) -> tuple[Export, ...]:
     """The formats to write: a gradebook, and those that are wanted besides.
 
     Args:
@@ -53,7 +53,7 @@ def choose_exports(wanted: Sequence[str], *, roster: Members | None) -> tuple[Ex
     Raises:
         BadRequest: there is no such format, or the roster lacks what it needs.
     """
-    formats = exports()
+    formats = list_exports()
     unknown = [one for one in wanted if one not in formats]
     if unknown:
         raise BadRequest(
