@@ -32,7 +32,10 @@ def list_starters(old: dict[str, dict[str, str]]) -> str:
 
 
 def _section(one: Exercise, old: dict[str, str]) -> str:
-    names = {name for name in old if (one.folder / name).is_file()} | {*one.files, *one.beside}
+    names = {name for name in old if (one.folder / name).is_file()} | {
+        *one.files,
+        *one.companion_files,
+    }
     lines = [
         f'"{name}" = "{digest_starter((one.folder / name).read_bytes())}"\n'
         for name in sorted(names)

@@ -66,7 +66,7 @@ class AskedNumber:
         """Whether a value earns full marks."""
         return abs(value - self.expected) <= self.band.widths(self.expected)[0]
 
-    def tolerance(self, width: float, share: float) -> str:
+    def describe_tolerance(self, width: float, share: float) -> str:
         """A band in plain words: ``±3 %``, or ``±0.03 V`` where that is the wider."""
         if width > share * abs(self.expected):
             return f"±{width:g} {self.unit}"
@@ -172,10 +172,10 @@ def judge_number(
         return f"{raw} is {shown}" if converted and f"{value:.4g}" not in str(raw) else None
     full, partial = asked.band.widths(asked.expected)
     away = abs(value - asked.expected)
-    near = asked.tolerance(full, asked.band.full)
+    near = asked.describe_tolerance(full, asked.band.full)
     earned, verdict = 0.0, f"outside the accepted {near}, by a lot"
     if away <= partial:
-        wider = asked.tolerance(partial, asked.band.partial)
+        wider = asked.describe_tolerance(partial, asked.band.partial)
         earned, verdict = HALF * points, f"close: within {wider}, not yet within {near}"
     elif away <= LITTLE * partial:
         verdict = f"outside the accepted {near}, by a little"

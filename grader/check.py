@@ -103,19 +103,19 @@ class Check(Generic[Subject]):
         description: the first line of the function's docstring.
         points: for a full pass.
         after: the checks that have to pass first.
-        look: the function.
+        judge: the function.
     """
 
     id: str
     description: str
     points: float
     after: tuple["Check[Subject]", ...]
-    look: Callable[[Subject], str | None]
+    judge: Callable[[Subject], str | None]
 
     def run(self, subject: Subject) -> Result:
         """Look at the subject; whatever happens is a result."""
         try:
-            note = self.look(subject) or ""
+            note = self.judge(subject) or ""
         except WrongAnswer as wrong:
             points = min(max(wrong.earned, 0.0), self.points)
             found = (wrong.seen, wrong.hint, wrong.misconception)

@@ -69,7 +69,7 @@ class Standing:
     hints: int = 0
 
     @property
-    def done(self) -> bool:
+    def is_done(self) -> bool:
         """Whether it has earned full marks."""
         return 0 < self.max_score <= self.score
 
@@ -86,28 +86,28 @@ class Progress:
     student: str = NOBODY
     standings: Mapping[str, Mapping[str, Standing]] = field(default_factory=dict)
 
-    def of(self, student: str, exercise: str) -> Standing:
+    def find_standing(self, student: str, exercise: str) -> Standing:
         """How far a learner is with an exercise."""
         return self.standings.get(student, {}).get(exercise, Standing())
 
-    def with_standing(self, student: str, exercise: str, standing: Standing) -> "Progress":
+    def replace_standing(self, student: str, exercise: str, standing: Standing) -> "Progress":
         """The same, with one standing changed."""
         mine = {**self.standings.get(student, {}), exercise: standing}
         return replace(self, standings={**self.standings, student: mine})
 
-    def with_score(
+    def add_score(
         self, student: str, exercise: str, *, score: float, max_score: float
     ) -> "Progress":
         """The same, with a score noted; a better one from before is kept."""
-        old = self.of(student, exercise)
+        old = self.find_standing(student, exercise)
         best = score if old.max_score != max_score else max(score, old.score)
         new = replace(old, score=best, max_score=max_score)
-        return self.with_standing(student, exercise, new)
+        return self.replace_standing(student, exercise, new)
 
-    def with_hints(self, student: str, exercise: str, hints: int) -> "Progress":
+    def add_hints(self, student: str, exercise: str, hints: int) -> "Progress":
         """The same, with so many hints shown; more from before are kept."""
-        old = self.of(student, exercise)
-        return self.with_standing(student, exercise, replace(old, hints=max(hints, old.hints)))
+        old = self.find_standing(student, exercise)
+        return self.replace_standing(student, exercise, replace(old, hints=max(hints, old.hints)))
 
 
 def load_progress(course: Path) -> tuple[Progress, str]:

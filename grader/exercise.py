@@ -64,7 +64,7 @@ class Grade:
     reason: str = ""
 
     @property
-    def reached(self) -> bool:
+    def is_readable(self) -> bool:
         """Whether the answer could be read, so that there is something to tell about it."""
         return any(result.status is not Status.NOT_REACHED for result in self.checks)
 
@@ -114,12 +114,12 @@ class Exercise:
         return tuple(self.module.FILES)
 
     @property
-    def beside(self) -> tuple[str, ...]:
+    def companion_files(self) -> tuple[str, ...]:
         """The files to fill in that belong to the one graded, and stand beside it."""
         return tuple(getattr(self.module, "BESIDE", ()))
 
     @property
-    def logs(self) -> tuple[str, ...]:
+    def log_endings(self) -> tuple[str, ...]:
         """Endings of the logs of a learner's own robot that may belong to the answer."""
         return tuple(getattr(self.module, "LOG_ENDINGS", ()))
 
@@ -131,12 +131,12 @@ class Exercise:
         return heading[1] if heading else self.name
 
     @property
-    def personal(self) -> bool:
+    def is_personal(self) -> bool:
         """Whether each learner works on numbers or data of their own."""
         return hasattr(self.module, "prepare")
 
     @property
-    def runs(self) -> bool:
+    def runs_code(self) -> bool:
         """Whether it can run the code it is given, besides reading it."""
         return "run" in inspect.signature(self.module.read).parameters
 
@@ -167,13 +167,13 @@ class Exercise:
                 only read, and what only running can tell makes the exercise ungradable.
         """
         try:
-            whole = find_whole_answer(given, names=self.files, beside=self.beside)
+            whole = find_whole_answer(given, names=self.files, companion_files=self.companion_files)
             files = find_files(whole, folder=self.folder, names=self.files)
         except Refusal as refusal:
             return self._ungradable(str(refusal), student=student)
         return best_grade([self._grade_file(file, student=student, run=run) for file in files])
 
-    def consequence(self, grade: Grade) -> Consequence | None:
+    def find_consequence(self, grade: Grade) -> Consequence | None:
         """What an answer would do on the robot; None where it is all right, or nothing is to see.
 
         Args:
@@ -182,7 +182,7 @@ class Exercise:
         tell = getattr(self.module, "consequence", None)
         if tell is None or grade.file is None or grade.status != "failed":
             return None
-        asked = {"run": False} if self.runs else {}
+        asked = {"run": False} if self.runs_code else {}
         try:
             found = tell(self.module.read(grade.file, student=grade.student, **asked))
         except Refusal:  # it was readable a moment ago: somebody is saving it
@@ -190,7 +190,7 @@ class Exercise:
         return found if isinstance(found, Consequence) else None
 
     def _grade_file(self, file: Path, *, student: str, run: bool) -> Grade:
-        asked = {"run": run} if self.runs else {}
+        asked = {"run": run} if self.runs_code else {}
         try:
             subject = self.module.read(file, student=student, **asked)
         except Refusal as refusal:

@@ -86,7 +86,7 @@ def submit(
         if answers:
             write_answers(one, answers)
         of_class = read_class_package(folder)
-        if of_class and one.personal and of_class.is_for(who):
+        if of_class and one.is_personal and of_class.is_for(who):
             return _show_receipt(one, explain_no_grading(one.name, of_class))
         one.prepare(who, say=lambda _: None)
         grade = one.grade(None, student=who)
@@ -95,12 +95,12 @@ def submit(
     if grade.status == "ungradable":
         return _show_refusal(grade.reason)
     points = {"score": grade.score, "max_score": grade.max_score}
-    if said := update_progress(folder, lambda now: now.with_score(who, one.name, **points)):
+    if said := update_progress(folder, lambda now: now.add_score(who, one.name, **points)):
         print_error(said)
-    then = one.consequence(grade)
+    then = one.find_consequence(grade)
     lines = format_grade(
         grade,
-        hints_shown=progress.of(who, one.name).hints,
+        hints_shown=progress.find_standing(who, one.name).hints,
         solution=one.solution,
         then=then.words if then else "",
     )

@@ -133,7 +133,7 @@ def _read_starters(course: Path) -> dict[str, str]:
             advice=f"Get it back: git checkout -- {STARTERS}",
         ) from None
     for one in list_exercises(course):
-        for file in (*one.files, *one.beside):
+        for file in (*one.files, *one.companion_files):
             if f"exercises/{one.name}/{file}" not in listed:
                 raise BadRequest(
                     f"{one.name} has a starter {file} that is not listed",

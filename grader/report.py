@@ -168,8 +168,8 @@ def format_overview(
     plain: bool = False,
 ) -> list[Line]:
     """Where a learner stands: lessons, exercises, and the next step."""
-    standings = [progress.of(student, one.name) for one in found]
-    done = sum(standing.done for standing in standings)
+    standings = [progress.find_standing(student, one.name) for one in found]
+    done = sum(standing.is_done for standing in standings)
     name = f" ({student})" if student != Progress().student else ""
     lines = [style_line(f"{done} of {len(found)} exercises done{name}", "bold"), style_line()]
     lessons = sorted((course / "lessons").glob("*.ipynb"))
@@ -177,7 +177,9 @@ def format_overview(
     lines += [style_line()] if lessons else []
     for one, standing in zip(found, standings, strict=True):
         tried = standing.max_score > 0
-        status = Status.PASSED if standing.done else Status.FAILED if tried else Status.NOT_REACHED
+        status = (
+            Status.PASSED if standing.is_done else Status.FAILED if tried else Status.NOT_REACHED
+        )
         mark, style = MARKS[status]
         score = f"{standing.score:g} of {standing.max_score:g}" if tried else "not tried yet"
         room = find_width() - len(score) - 1
@@ -192,7 +194,7 @@ def format_overview(
                 StyledText(score, style),
             )
         )
-    open_ones = [one for one, how in zip(found, standings, strict=True) if not how.done]
+    open_ones = [one for one, how in zip(found, standings, strict=True) if not how.is_done]
     return [*lines, style_line(), *_next_step(open_ones)]
 
 

@@ -51,14 +51,14 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
 
 
 def find_whole_answer(
-    given: Path | None, *, names: Sequence[str], beside: Sequence[str]
+    given: Path | None, *, names: Sequence[str], companion_files: Sequence[str]
 ) -> Path | None:
     """What to grade where a learner names a file that is only a part of the answer.
 
     Args:
         given: the file or folder the learner named, or None.
         names: what the exercise's own files are called, the preferred one first.
-        beside: what the files are called that belong to them.
+        companion_files: what the files are called that belong to them.
 
     Returns:
         The file the part belongs to; ``given`` itself where it is no part.
@@ -66,7 +66,7 @@ def find_whole_answer(
     Raises:
         UnreadableFile: the part stands alone.
     """
-    if given is None or given.name not in beside or not given.is_file():
+    if given is None or given.name not in companion_files or not given.is_file():
         return given
     for name in names:
         if given.with_name(name).is_file():

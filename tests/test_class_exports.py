@@ -14,8 +14,8 @@ from page_flaws import page_flaws
 from grader.check import Check, Result, Status
 from grader.classroom.exports import list_exports
 from grader.classroom.grading import MISSING, GradedStudent, make_grade_record, make_missing_record
-from grader.classroom.items import analyze_items, count_misconceptions, summarize_exercises
-from grader.classroom.page import summarize_class, write_pages
+from grader.classroom.item_analysis import analyze_items, count_misconceptions, summarize_exercises
+from grader.classroom.result_pages import summarize_class, write_pages
 from grader.classroom.results import Results
 from grader.exercise import Grade
 from sim.core.errors import BadRequest

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 from small_course import HALF, RIGHT, lay_out
 
+from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
 from grader.classroom.roster import read_class_roster
-from grader.classroom.run import GradedClass, grade_class, plan_grading
 from grader.classroom.store import Store
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run_command
@@ -122,7 +122,7 @@ def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_
         )
         todo = plan_grading(work, store, travel=False, again=again)
         grade_class(work, todo, store, processes=1, cluster=None, say=lambda: None)
-        return [job.student for job in todo.todo]
+        return [job.student for job in todo.jobs]
 
     assert left() == ["ann", "ben"]
     assert left() == []

@@ -8,7 +8,7 @@ from robot_mistakes import RIGHT, ROOT, changed, needs_robot
 from small_course import lay_out
 
 import grader.isolation
-from grader.classroom.run import GradedClass
+from grader.classroom.class_grading import GradedClass
 from grader.classroom.submissions import find_submissions
 from grader.cli import run_command
 from grader.exercise import Exercise, list_exercises
@@ -90,10 +90,10 @@ def test_the_digest_says_whether_code_was_run_and_by_which_robotpy(course, tmp_p
     def digest(*, run):
         there = list_exercises(course)
         work = GradedClass(find_submissions(tmp_path / "in", there), there, course, run=run)
-        return work.jobs(travel=False)[0].digest
+        return work.make_jobs(travel=False)[0].digest
 
     found = {digest(run=True), digest(run=False)}
-    monkeypatch.setattr("grader.classroom.run.version", lambda _: "2027.1.1")
+    monkeypatch.setattr("grader.classroom.class_grading.version", lambda _: "2027.1.1")
 
     assert digest(run=False) in found
     assert len(found | {digest(run=True)}) == 3
@@ -107,14 +107,14 @@ def test_an_exercise_that_only_reads_is_not_asked_to_run(tmp_path, monkeypatch, 
     )
     shutil.copytree(tmp_path / "exercises", tmp_path / "in" / "ann")
 
-    assert list_exercises(tmp_path)[0].runs is False
+    assert list_exercises(tmp_path)[0].runs_code is False
     assert run_command(["class", str(tmp_path / "in"), "--processes", "1"]) == 0
     assert "students' code" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["exercise4", "exercise5", "exercise9", "practice"])
 def test_what_runs_a_learners_code_can_be_told_not_to(name):
-    assert Exercise(name, ROOT / "exercises" / name).runs
+    assert Exercise(name, ROOT / "exercises" / name).runs_code
 
 
 @needs_robot

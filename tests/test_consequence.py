@@ -55,7 +55,7 @@ def write(one, **answers):
 def consequence(one, *, student="ann", **answers):
     if answers:
         write(one, **answers)
-    return one.consequence(one.grade(None, student=student))
+    return one.find_consequence(one.grade(None, student=student))
 
 
 TABLE = [
@@ -222,7 +222,7 @@ def test_words_wait_for_no_drawing_library_and_take_little_time(course):
     code = (
         "import sys, time; from pathlib import Path; from grader.exercise import find_exercise\n"
         "one = find_exercise('3', Path.cwd()); grade = one.grade(None, student='me')\n"
-        "start = time.perf_counter(); found = one.consequence(grade)\n"
+        "start = time.perf_counter(); found = one.find_consequence(grade)\n"
         "print(time.perf_counter() - start, 'matplotlib' in sys.modules, 'sinks' in found.words)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

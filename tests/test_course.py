@@ -108,7 +108,7 @@ from grader.course import update_progress
 number = int(sys.argv[1])
 name = f"exercise{number}"
 for _ in range(5):
-    update_progress(Path(), lambda now: now.with_score("ann", name, score=1, max_score=1))
+    update_progress(Path(), lambda now: now.add_score("ann", name, score=1, max_score=1))
 """
 
 
@@ -124,7 +124,7 @@ def test_eight_that_grade_at_once_all_keep_their_scores(course):
     assert [one.wait(120) for one in running] == [0] * 8
     standings = load_progress(course)[0].standings["ann"]
 
-    assert {name for name, one in standings.items() if one.done} == {
+    assert {name for name, one in standings.items() if one.is_done} == {
         f"exercise{number}" for number in range(8)
     }
     assert list((course / ".course").glob("*.part")) == []
@@ -143,7 +143,7 @@ def test_damaged_progress_is_said_and_each_is_set_aside(course, content, capsys)
             capsys.readouterr().err
         )
         assert (path.parent / name).read_text(encoding="utf-8") == content
-        assert load_progress(course)[0].of("me", "exercise1").done
+        assert load_progress(course)[0].find_standing("me", "exercise1").is_done
 
 
 def test_a_disk_that_is_full_leaves_the_old_file_and_no_part(tmp_path, monkeypatch):

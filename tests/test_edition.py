@@ -8,7 +8,7 @@ from page_flaws import page_flaws
 
 from grader.cli import run_command
 from grader.edition import build_pages
-from grader.edition.rendered import highlight_python
+from grader.edition.notebook_html import highlight_python
 from sim.core.errors import BadRequest
 
 MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell

@@ -71,7 +71,7 @@ def _as_folders(course: Path, there: Path) -> None:
     for one in list_exercises(course):
         target = there / "Anna Bauer" / one.name
         target.mkdir(parents=True)
-        for name in (*one.files, *one.beside):
+        for name in (*one.files, *one.companion_files):
             shutil.copy(one.folder / name, target)
 
 

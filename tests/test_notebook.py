@@ -38,7 +38,7 @@ def test_answers_go_into_the_file_and_its_comments_stay(course):
     assert (shown.grade.score, shown.grade.status) == (2.5, "failed")
     submit(1, COLOR="green")
     assert 'color = "green" # a word' in text_of(course)
-    assert load_progress(course)[0].of("me", "exercise1").done
+    assert load_progress(course)[0].find_standing("me", "exercise1").is_done
 
 
 @pytest.mark.parametrize("text", [RIGHT, HALF, "size = 1\n"])

@@ -191,7 +191,7 @@ def test_a_wrong_gain_does_not_cost_the_constants_too(tmp_path, solved):
 def test_the_learner_gets_a_log_and_its_parts(tmp_path):
     copy = tmp_path / "exercises" / "practice"
     copy.mkdir(parents=True)
-    for name in (*OWN.files, *OWN.beside, "checks.py", "measured.py"):
+    for name in (*OWN.files, *OWN.companion_files, "checks.py", "measured.py"):
         (copy / name).write_bytes((OWN.folder / name).read_bytes())
     said = []
     Exercise("practice", copy).prepare("zoë", say=said.append)

@@ -7,7 +7,7 @@ import pytest
 from small_course import RIGHT, lay_out
 
 from grader.classroom import workers
-from grader.classroom.run import GradedClass, grade_class, plan_grading
+from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
 from grader.classroom.store import Store
 from grader.classroom.submissions import find_submissions
 from grader.cli import run_command
@@ -63,11 +63,11 @@ def graded(course, there, out, *, seconds):
     left = plan_grading(work, store, travel=False, again=False)
     store.open()
     found = list(left.kept)
-    for one in workers.grade_in_workers(left.todo, processes=2, seconds=seconds):
+    for one in workers.grade_in_workers(left.jobs, processes=2, seconds=seconds):
         store.put(one)
         found.append(one)
     results = {one.student: (one.records[0]["score"], one.records[0]["reason"]) for one in found}
-    return results, [job.student for job in left.todo]
+    return results, [job.student for job in left.jobs]
 
 
 def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_path):

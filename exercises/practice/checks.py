@@ -148,7 +148,7 @@ def _borrowed(room: ModuleType, part: str, *, step: str, leave: tuple[str, ...] 
             continue
 
         def look(answers: Answers, theirs: Check[Any] = one) -> str | None:
-            return theirs.look(getattr(answers, part))
+            return theirs.judge(getattr(answers, part))
 
         before = tuple(ours[first.id] for first in one.after)
         name = f"{step}-{one.id}"

@@ -380,7 +380,7 @@ class _SortedFiles:
         mine[name] = file
 
     def _taken(self, found: _FoundFile, exercise: Exercise, depth: int) -> "_TakenFile":
-        log = found.path.suffix.lower() in exercise.logs
+        log = found.path.suffix.lower() in exercise.log_endings
         most = LARGEST_LOG if log else LARGEST
         content = self._content(found, most)
         if log and len(content) > most:
@@ -424,14 +424,14 @@ class _SortedFiles:
 
 def _endings(exercise: Exercise) -> set[str]:
     """What the names of an exercise's files end in."""
-    named = {Path(file).suffix for file in (*exercise.files, *exercise.beside)}
-    return {*named, *exercise.logs}
+    named = {Path(file).suffix for file in (*exercise.files, *exercise.companion_files)}
+    return {*named, *exercise.log_endings}
 
 
 def _find_only_holders(exercises: Sequence[Exercise]) -> dict[str, Exercise]:
     """File name -> the only exercise that has a file of this name."""
     holders: dict[str, list[Exercise]] = {}
     for one in exercises:
-        for name in (*one.files, *one.beside):
+        for name in (*one.files, *one.companion_files):
             holders.setdefault(name, []).append(one)
     return {name: held[0] for name, held in holders.items() if len(held) == 1}

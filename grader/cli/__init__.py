@@ -173,7 +173,7 @@ def grade_file(
     from grader.report import format_grade, format_receipt, grade_to_json  # noqa: PLC0415 - the same
 
     of_class = read_class_package(folder)
-    if of_class and one.personal and of_class.is_for(who):
+    if of_class and one.is_personal and of_class.is_for(who):
         print_lines(format_receipt(one, file))
         raise explain_no_grading(one.name, of_class)
     with enable_draw_cache():
@@ -182,12 +182,12 @@ def grade_file(
     gradable = result.status != "ungradable"
     if gradable:  # kept before anything is shown: a reader may stop reading
         points = {"score": result.score, "max_score": result.max_score}
-        _tell(update_progress(folder, lambda now: now.with_score(who, one.name, **points)))
-    then = None if as_json and picture is None else one.consequence(result)
+        _tell(update_progress(folder, lambda now: now.add_score(who, one.name, **points)))
+    then = None if as_json and picture is None else one.find_consequence(result)
     if as_json:
         click.echo(grade_to_json(result))
-    elif result.reached:
-        shown, words = progress.of(who, one.name).hints, then.words if then else ""
+    elif result.is_readable:
+        shown, words = progress.find_standing(who, one.name).hints, then.words if then else ""
         print_lines(
             format_grade(result, hints_shown=shown, solution=one.solution, plain=plain, then=words)
         )
@@ -214,11 +214,11 @@ def _hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.report import format_hints  # noqa: PLC0415 - the same
 
-    standing = progress.of(who, one.name)
+    standing = progress.find_standing(who, one.name)
     print_lines(format_hints(one, shown=standing.hints))
     if standing.hints < len(one.hints):
         shown = standing.hints + 1
-        _tell(update_progress(folder, lambda now: now.with_hints(who, one.name, shown)))
+        _tell(update_progress(folder, lambda now: now.add_hints(who, one.name, shown)))
     return 0
 
 

@@ -11,11 +11,11 @@ from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from grader.classroom.class_grading import GradedClass
     from grader.classroom.exports import Export
     from grader.classroom.grading import GradedStudent
     from grader.classroom.results import Results
     from grader.classroom.roster import Roster
-    from grader.classroom.run import GradedClass
     from grader.classroom.submissions import Submission
     from grader.exercise import Exercise
 
@@ -71,11 +71,11 @@ def class_(  # noqa: PLR0917 - click passes options by name
 
     Exit codes: 0 all graded, 1 some could not be, 2 could not do it.
     """
+    from grader.classroom.class_grading import GradedClass  # noqa: PLC0415 - the same
     from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.identity import check_identities  # noqa: PLC0415 - the same
     from grader.classroom.results import Results  # noqa: PLC0415 - the same
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
-    from grader.classroom.run import GradedClass  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.course import describe_other_code, find_course  # noqa: PLC0415 - the same
 
@@ -171,7 +171,7 @@ def _decide_running(asked: "Sequence[Exercise]", *, run: bool | None, cluster: s
     """Whether students' code is run: as told, else where it does no harm; says what that means."""
     from grader.isolation import find_isolation_level  # noqa: PLC0415 - --help must not wait for it
 
-    if run is False or not any(one.runs for one in asked):
+    if run is False or not any(one.runs_code for one in asked):
         return False
     found = "one of a cluster, and nobody knows of all" if cluster else find_isolation_level()
     if found.startswith("isolated"):
@@ -194,7 +194,7 @@ def _run(
     work: "GradedClass", out: Path, *, processes: int | None, cluster: str | None, again: bool
 ) -> "tuple[GradedStudent, ...] | None":
     """Grade what is left; None where it was stopped."""
-    from grader.classroom.run import grade_class, plan_grading  # noqa: PLC0415 - --help must not wait
+    from grader.classroom.class_grading import grade_class, plan_grading  # noqa: PLC0415 - --help must not wait
     from grader.classroom.store import Store  # noqa: PLC0415 - the same
     from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
     from sim.support.work.process_pool import available_cores  # noqa: PLC0415 - the same
@@ -202,7 +202,7 @@ def _run(
 
     store = Store(out)
     left = plan_grading(work, store, travel=cluster is not None, again=again)
-    total = len(left.kept) + len(left.todo)
+    total = len(left.kept) + len(left.jobs)
     with (
         progress_bar("students", total, done=len(left.kept)) as (step, done),
         deferred_interrupt() as stop_if_noted,
@@ -240,7 +240,7 @@ def _add_absent(
 
 
 def _write_results(results: "Results", out: Path, formats: "Sequence[Export]") -> int:
-    from grader.classroom.page import summarize_class, write_pages  # noqa: PLC0415 - --help must not wait
+    from grader.classroom.result_pages import summarize_class, write_pages  # noqa: PLC0415 - --help must not wait
     from grader.classroom.results import find_status  # noqa: PLC0415 - the same
 
     page = write_pages(results, out)

@@ -80,7 +80,7 @@ def _tell_gradescope(asked: "tuple[Exercise, ...]", output: Path, *, with_secret
             "where that cannot be shut in (the autograder's output says so), it can read the "
             "secret, and then anybody's numbers. Upload it nowhere else"
         )
-    elif any(one.personal for one in asked):
+    elif any(one.is_personal for one in asked):
         print_error(
             "without --secret, numbers depend on the student's name alone; if you released with a "
             "roster, students have others, and right answers would be marked wrong"

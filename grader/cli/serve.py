@@ -60,7 +60,7 @@ def serve(
         given = [shared, *([own.read_bytes()] if own else [])]
         return prepare_student_folder(folder, student, packages=given)
 
-    house = ServedClass(
+    served = ServedClass(
         load_login_codes(folder, students), at_home, JupyterServers(host, separate=separate), first
     )
 
@@ -74,7 +74,7 @@ def serve(
         ])  # fmt: skip
 
     try:
-        asyncio.run(serve_forever(house, port=port, ready=ready))
+        asyncio.run(serve_forever(served, port=port, ready=ready))
     except KeyboardInterrupt:
         return DONE
     except OSError as error:

@@ -26,7 +26,7 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
     one = (
         find_exercise(exercise, folder)
         if exercise
-        else find_first_unfinished(found, lambda name: progress.of(who, name).done)
+        else find_first_unfinished(found, lambda name: progress.find_standing(who, name).is_done)
     )
     if one is None:
         print_lines([style_line("Everything here is done.", "bold green")])
@@ -53,7 +53,7 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
     except KeyboardInterrupt:
         return DONE
     _, after, _ = locate_course(student)
-    rest = find_first_unfinished(found, lambda name: after.of(who, name).done)
+    rest = find_first_unfinished(found, lambda name: after.find_standing(who, name).is_done)
     print_lines(
         [style_line(f"Next: grade watch {rest.name}" if rest else "Everything here is done.")]
     )

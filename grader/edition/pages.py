@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
-from grader.edition.executed import execute_notebook
-from grader.edition.rendered import LessonPart, split_notebook
+from grader.edition.notebook_execution import execute_notebook
+from grader.edition.notebook_html import LessonPart, split_notebook
 from sim.core.errors import BadRequest
 from sim.report.page_file import load_templates
 

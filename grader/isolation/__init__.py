@@ -1,6 +1,6 @@
 """A learner's code is run apart: a process of its own that holds no key and returns only numbers.
 
-    outcome = run(Path("fit.py"), calls=[Call("fit", {"time": time, "voltage": voltage})])
+    outcome = run_functions(Path("fit.py"), calls=[Call("fit", {"time": time, "voltage": voltage})])
 
 The child (``sandbox_child.py``) confines itself before it reads the learner's file: no files but
 Python's own, the data and an empty folder (``landlock.py``), no network, no processes,

@@ -46,7 +46,7 @@ class JupyterServer:
     process: "subprocess.Popen[bytes]"
     runtime: Path
 
-    def alive(self) -> bool:
+    def is_alive(self) -> bool:
         """Whether it still runs."""
         return self.process.poll() is None
 
@@ -62,7 +62,7 @@ class JupyterServers:
     def __init__(self, host: str, *, separate: bool = False) -> None:
         self.host = host
         self.separate = separate
-        self._rooms: dict[str, JupyterServer] = {}
+        self._servers: dict[str, JupyterServer] = {}
         self._closed = False
 
     def open(self, student: str, course: Path) -> JupyterServer:
@@ -73,36 +73,36 @@ class JupyterServers:
         """
         if there := self.find(student):
             return there
-        if ended := self._rooms.pop(student, None):
+        if ended := self._servers.pop(student, None):
             shutil.rmtree(ended.runtime, ignore_errors=True)
         course = course.absolute()  # a link that the student made is not followed
         account = assign_account(course.parent) if self.separate else None
-        self._rooms[student] = room = _start(student, course, host=self.host, account=account)
+        self._servers[student] = server = _start(student, course, host=self.host, account=account)
         if self._closed:  # ended while this one started
-            room.process.terminate()
-        return room
+            server.process.terminate()
+        return server
 
     def find(self, student: str) -> JupyterServer | None:
         """The student's server if it runs."""
-        there = self._rooms.get(student)
-        return there if there and there.alive() else None
+        there = self._servers.get(student)
+        return there if there and there.is_alive() else None
 
     def close(self) -> None:
         """End them all, and those that still start as soon as they have."""
         self._closed = True
-        for room in tuple(self._rooms.values()):
-            room.process.terminate()
-        for room in tuple(self._rooms.values()):
+        for server in tuple(self._servers.values()):
+            server.process.terminate()
+        for server in tuple(self._servers.values()):
             with contextlib.suppress(subprocess.TimeoutExpired):
-                room.process.wait(timeout=10)
-            if room.alive():
-                room.process.kill()
-            shutil.rmtree(room.runtime, ignore_errors=True)
+                server.process.wait(timeout=10)
+            if server.is_alive():
+                server.process.kill()
+            shutil.rmtree(server.runtime, ignore_errors=True)
 
     @property
-    def running(self) -> int:
+    def running_count(self) -> int:
         """How many run."""
-        return sum(room.alive() for room in self._rooms.values())
+        return sum(server.is_alive() for server in self._servers.values())
 
 
 def _start(student: str, course: Path, *, host: str, account: int | None) -> JupyterServer:

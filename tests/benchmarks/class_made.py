@@ -135,7 +135,7 @@ def _right(one: Exercise, who: str) -> Texts:
 def _one_language(one: Exercise, texts: Texts, rng: np.random.Generator) -> Texts:
     """Of the files of an exercise that may be answered in several, one; and what is beside it."""
     file = str(rng.choice(one.files))
-    return {name: texts[name] for name in (file, *one.beside)}
+    return {name: texts[name] for name in (file, *one.companion_files)}
 
 
 def _spoiled(one: Exercise, texts: Texts, kind: str, rng: np.random.Generator) -> Texts:

@@ -5,7 +5,7 @@ import io
 from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.cells import escape_formula
+from grader.classroom.csv_cells import escape_formula
 from grader.classroom.results import Results, collect_scores, find_status
 
 SUMMARY = "gradebook.csv: a row for each student, for a spreadsheet"

@@ -33,7 +33,7 @@ class GradedClass:
     secret: bytes | None = None
     run: bool = False
 
-    def jobs(self, *, travel: bool) -> tuple[GradingJob, ...]:
+    def make_jobs(self, *, travel: bool) -> tuple[GradingJob, ...]:
         """One for each student whose files could be read.
 
         Args:
@@ -78,11 +78,11 @@ class GradingPlan:
 
     Args:
         kept: results from before that still hold.
-        todo: the rest.
+        jobs: the rest.
     """
 
     kept: tuple[GradedStudent, ...]
-    todo: tuple[GradingJob, ...]
+    jobs: tuple[GradingJob, ...]
 
 
 def plan_grading(asked: GradedClass, store: Store, *, travel: bool, again: bool) -> GradingPlan:
@@ -95,7 +95,7 @@ def plan_grading(asked: GradedClass, store: Store, *, travel: bool, again: bool)
         again: grade everything again.
     """
     kept, todo = [], []
-    for job in asked.jobs(travel=travel):
+    for job in asked.make_jobs(travel=travel):
         known = None if again else store.get(job.student, job.digest)
         if known is None:
             todo.append(job)
@@ -131,9 +131,9 @@ def grade_class(
     found = list(plan.kept)
     store.open()
     grading = (
-        run_jobs_on_cluster(grade_student, plan.todo, address=cluster)
+        run_jobs_on_cluster(grade_student, plan.jobs, address=cluster)
         if cluster
-        else grade_in_workers(plan.todo, processes=processes, stop_if_asked=stop_if_asked)
+        else grade_in_workers(plan.jobs, processes=processes, stop_if_asked=stop_if_asked)
     )
     for one in grading:
         store.put(one)

@@ -8,7 +8,12 @@ from typing import TYPE_CHECKING, Any
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import MISSING, GradedStudent
-from grader.classroom.items import FEWEST, analyze_items, count_misconceptions, summarize_exercises
+from grader.classroom.item_analysis import (
+    FEWEST,
+    analyze_items,
+    count_misconceptions,
+    summarize_exercises,
+)
 from grader.classroom.results import Results, collect_scores, find_status
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import make_folder_name
