@@ -107,7 +107,7 @@ def read_answer_number(raw: object, asked: AskedNumber) -> float:
     if isinstance(raw, bool):
         raise WrongAnswer(f"{str(raw).lower()}, which is yes or no and not a number", hint=ask)
     if isinstance(raw, int | float):
-        return _finite(raw, asked)
+        return _require_finite(raw, asked)
     if not isinstance(raw, str):
         kind = "list" if isinstance(raw, list) else type(raw).__name__
         raise WrongAnswer(f"a {kind}, not one number", hint=ask)
@@ -115,10 +115,10 @@ def read_answer_number(raw: object, asked: AskedNumber) -> float:
     if found is None:
         raise WrongAnswer(f'"{shorten(raw)}", which is not one number', hint=ask)
     value, unit = found
-    return _finite(value * _scale(unit, asked) if unit else value, asked)
+    return _require_finite(value * _find_scale(unit, asked) if unit else value, asked)
 
 
-def _finite(value: float, asked: AskedNumber) -> float:
+def _require_finite(value: float, asked: AskedNumber) -> float:
     if not -LARGEST < value < LARGEST:
         raise WrongAnswer(
             f"{'nan' if value != value else 'a number without end'}, which no gain can be",  # noqa: PLR0124 - only nan differs from itself
@@ -128,7 +128,7 @@ def _finite(value: float, asked: AskedNumber) -> float:
     return float(value)
 
 
-def _scale(unit: str, asked: AskedNumber) -> float:
+def _find_scale(unit: str, asked: AskedNumber) -> float:
     """How many of the unit asked for one of the unit given is."""
     wanted = read_unit(asked.unit or "1")
     try:
@@ -206,21 +206,21 @@ def diagnose_number(
 def _find_wrong_numbers(
     name: str, given: Mapping[str, object], key: AnswerKey
 ) -> tuple[WrongNumber, ...]:
-    value = _value(name, given, key)
+    value = _read_value(name, given, key)
     asked = key.asked[name]
     if value is None or asked.right(value):
         return ()
     numbers = {other: one.expected for other, one in key.asked.items()}
     found = explain_wrong_number(name, value, right=asked.right, key=numbers, scene=key.scene)
     for other, one in key.asked.items():
-        theirs = _value(other, given, key)
+        theirs = _read_value(other, given, key)
         if other != name and theirs is not None and one.right(value) and asked.right(theirs):
             says = f"it would be right for {other}, and yours for {other} for {name}: swapped?"
             found += (WrongNumber("swapped", says, "M-ARGORDER"),)
     return found
 
 
-def _value(name: str, given: Mapping[str, object], key: AnswerKey) -> float | None:
+def _read_value(name: str, given: Mapping[str, object], key: AnswerKey) -> float | None:
     try:
         return read_answer_number(given.get(name), key.asked[name])
     except WrongAnswer:

@@ -124,7 +124,7 @@ def load_progress(course: Path) -> tuple[Progress, str]:
     except FileNotFoundError:
         return Progress(), ""
     except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError, Refusal):
-        aside = _free_name(path)
+        aside = _find_free_name(path)
         said = f"your progress in {path} could not be read; it starts anew"
         try:
             path.replace(aside)
@@ -133,7 +133,7 @@ def load_progress(course: Path) -> tuple[Progress, str]:
         return Progress(), f"{said}, and the damaged file is now {aside.name}."
 
 
-def _free_name(path: Path) -> Path:
+def _find_free_name(path: Path) -> Path:
     """Where a damaged file is set aside: nothing lies there yet."""
     first = path.with_name(f"{path.name}.bak")
     later = (path.with_name(f"{path.name}.{number}.bak") for number in count(2))
@@ -149,11 +149,11 @@ def _parse_progress(raw: dict[str, object]) -> Progress:
     if not isinstance(tables, dict):
         raise TypeError
     for student, exercises in tables.items():
-        standings[student] = {name: _standing(one) for name, one in exercises.items()}
+        standings[student] = {name: _parse_standing(one) for name, one in exercises.items()}
     return Progress(check_student_name(str(raw.get("student", NOBODY))), standings)
 
 
-def _standing(one: Mapping[str, object]) -> Standing:
+def _parse_standing(one: Mapping[str, object]) -> Standing:
     score, most, hints = one["score"], one["max_score"], one["hints"]
     if not (isinstance(score, int | float) and isinstance(most, int | float)):
         raise TypeError
@@ -179,13 +179,13 @@ def update_progress(course: Path, change: Callable[[Progress], Progress]) -> str
             before, said = load_progress(course)
             after = change(before)
             if after != before or said:
-                write_atomically(path, _text(after))
+                write_atomically(path, _format_progress(after))
     except OSError as error:
         return f"your progress could not be saved to {path}: {error.strerror or error}."
     return said
 
 
-def _text(progress: Progress) -> str:
+def _format_progress(progress: Progress) -> str:
     import tomlkit  # noqa: PLC0415 - reading needs no writer
 
     tables = {

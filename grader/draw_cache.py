@@ -70,13 +70,13 @@ def find_cache_path(exercise: Path, student: str, what: str) -> Path | None:
     """
     if not (_KEEPING.get() and is_self_study()):
         return None
-    whole = f"{exercise.resolve()}\0{normalize_name(student)}\0{_code(exercise)}"
+    whole = f"{exercise.resolve()}\0{normalize_name(student)}\0{_fingerprint_code(exercise)}"
     name = f"{exercise.name}-{hashlib.sha256(whole.encode()).hexdigest()[:20]}.{what}"
     return kept_files.cache_folder() / "drawn" / name
 
 
 @cache
-def _code(exercise: Path) -> str:
+def _fingerprint_code(exercise: Path) -> str:
     """What decides what is drawn: it does not change while one answer is graded."""
     return fingerprint_folders(exercise)
 

@@ -196,7 +196,7 @@ class Exercise:
         except Refusal as refusal:
             return replace(self._ungradable(str(refusal), student=student), file=file)
         results = run_checks(self.checks, subject)
-        score, most = (sum(points) for points in zip(*_points(results), strict=True))
+        score, most = (sum(points) for points in zip(*_sum_points(results), strict=True))
         broken = next((one for one in results if one.status is Status.ERROR), None)
         status = "passed" if score == most else "failed"
         reason = ""
@@ -217,7 +217,7 @@ class Exercise:
         return Grade(self.name, student, 0.0, most, "ungradable", results, reason=reason)
 
 
-def _points(results: Sequence[Result]) -> list[tuple[float, float]]:
+def _sum_points(results: Sequence[Result]) -> list[tuple[float, float]]:
     return [(result.points, result.max_points) for result in results] or [(0.0, 0.0)]
 
 
@@ -239,10 +239,10 @@ def list_exercises(course: Path) -> tuple[Exercise, ...]:
         Exercise(checks.parent.name, checks.parent)
         for checks in (course / "exercises").glob("*/checks.py")
     ]
-    return tuple(sorted(found, key=lambda one: (_number(one.name), one.name)))
+    return tuple(sorted(found, key=lambda one: (_read_number(one.name), one.name)))
 
 
-def _number(name: str) -> int:
+def _read_number(name: str) -> int:
     digits = re.search(r"\d+$", name)
     return int(digits[0]) if digits else sys.maxsize
 

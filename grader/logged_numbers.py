@@ -41,8 +41,8 @@ def check_devices(facts: RoutineFacts, *, points: float) -> None:
         WrongAnswer: one does not.
     """
     faults = [
-        *_wrong_quantity(facts.logged),
-        *_wrong_side(facts.logged),
+        *_find_wrong_quantity(facts.logged),
+        *_find_wrong_side(facts.logged),
         *_find_shared_device(facts),
     ]
     if faults:
@@ -55,7 +55,7 @@ def check_devices(facts: RoutineFacts, *, points: float) -> None:
 Fault = tuple[str, str, str]  # which signal of which motor, what was seen, and the advice
 
 
-def _wrong_quantity(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
+def _find_wrong_quantity(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
     for one in signals:
         moving = one.signal in MOVING and one.quantity in {*MOVING, "acceleration", "current"}
         wrong = moving or (one.signal == "voltage" and one.quantity in {*MOVING, "current"})
@@ -70,10 +70,10 @@ def _wrong_quantity(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
             )
 
 
-def _wrong_side(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
+def _find_wrong_side(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
     for one in signals:
         for pair in SIDES:
-            named, asked = _side(one.motor, pair), _side(one.device, pair)
+            named, asked = _find_side(one.motor, pair), _find_side(one.device, pair)
             if named and asked and named != asked:
                 yield (
                     f"{one.motor} {one.signal}",
@@ -85,7 +85,7 @@ def _wrong_side(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
                 )
 
 
-def _side(name: str, pair: tuple[str, str]) -> str:
+def _find_side(name: str, pair: tuple[str, str]) -> str:
     """The side that a name tells, of a pair; empty if it tells none or both."""
     words = [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)]
     found = [side for side in pair if side in words]
@@ -154,8 +154,10 @@ def check_all_logged(facts: RoutineFacts, *, demanded: int, points: float) -> No
     names = list(dict.fromkeys(one.motor for one in facts.logged))
     driven = list(dict.fromkeys(call.motor for call in facts.drive))
     for pair in SIDES:
-        sides = {_side(name, pair) for name in driven} - {""}
-        logged = {_side(text, pair) for one in facts.logged for text in (one.motor, one.device)}
+        sides = {_find_side(name, pair) for name in driven} - {""}
+        logged = {
+            _find_side(text, pair) for one in facts.logged for text in (one.motor, one.device)
+        }
         if (
             len(sides) > 1
             and logged & sides
@@ -284,7 +286,7 @@ def check_sources(signals: Sequence[LoggedSignal], *, geared: frozenset[str]) ->
                 hint="Apply the configuration with the gear ratio to every motor.",
                 misconception="M-UNITS",
             )
-        hint = _slip(one)
+        hint = _describe_unit_slip(one)
         if hint:
             raise WrongAnswer(
                 f"{_locate(one)}: {one.device} reports {UNITS_OF[one.native]}, and the log says "
@@ -298,14 +300,14 @@ def check_sources(signals: Sequence[LoggedSignal], *, geared: frozenset[str]) ->
         _check_alike([one for one in signals if one.signal == signal])
 
 
-def _slip(one: LoggedSignal) -> str:
+def _describe_unit_slip(one: LoggedSignal) -> str:
     """What to say of a number whose unit is not the wrapper's; empty if it may be."""
     if one.native not in UNITS_OF or one.scale is None:
         return ""
     per_second = abs(one.scale) * (60.0 if one.native == "rpm" else 1.0)
     bare = math.isclose(abs(one.scale), 1.0, rel_tol=CLOSE)
     if one.family != "linear":
-        return _angular_slip(one, per_second, bare=bare)
+        return _describe_angular_slip(one, per_second, bare=bare)
     hint = ""
     if one.type == PULSE_COUNT:
         hint = "Ask getDistance() and getRate(): they know the distance of a pulse."
@@ -324,7 +326,7 @@ def _slip(one: LoggedSignal) -> str:
     return hint
 
 
-def _angular_slip(one: LoggedSignal, per_second: float, *, bare: bool) -> str:
+def _describe_angular_slip(one: LoggedSignal, per_second: float, *, bare: bool) -> str:
     unit = one.unit.lower()
     plain = "The unit's name around a number converts nothing. "
     if "radian" in unit or "degree" in unit:
@@ -367,7 +369,7 @@ def _check_rate(signals: Sequence[LoggedSignal]) -> None:
 
 def _check_alike(signals: Sequence[LoggedSignal]) -> None:
     """Whether both sides of a drivetrain count alike."""
-    sided = [one for one in signals if _side(one.motor, SIDES[0]) and one.scale and one.native]
+    sided = [one for one in signals if _find_side(one.motor, SIDES[0]) and one.scale and one.native]
     for one, other in itertools.pairwise(sided):
         if one.type != other.type or one.native != other.native or one.unit != other.unit:
             continue

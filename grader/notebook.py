@@ -104,7 +104,7 @@ def submit(
         solution=one.solution,
         then=then.words if then else "",
     )
-    return ShownGrade(tuple(lines), _html(grade) + _show_consequence(then), grade)
+    return ShownGrade(tuple(lines), _render_grade(grade) + _show_consequence(then), grade)
 
 
 def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
@@ -134,7 +134,7 @@ def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
     document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
     for name, value in answers.items():
         try:
-            document[known[name.lower()]] = _plain(value)
+            document[known[name.lower()]] = _make_plain(value)
         except (TOMLKitError, ValueError, TypeError) as error:
             raise BadRequest(
                 f"{name} = {value!r} cannot be written down ({error})",
@@ -143,7 +143,7 @@ def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
     write_atomically(path, tomlkit.dumps(document))
 
 
-def _plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
+def _make_plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
     """A value as a file holds it: what NumPy makes of a number is a number."""
     if value is None:
         return ""
@@ -164,11 +164,11 @@ def _show_receipt(exercise: Exercise, said: Refusal) -> ShownGrade:
     return ShownGrade((*rows, style_line(str(said))), html)
 
 
-def _html(grade: Grade) -> str:
+def _render_grade(grade: Grade) -> str:
     passed = grade.status == "passed"
     verdict = "all right" if passed else "not all right yet"
     head = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points, {verdict}"
-    rows = "".join(_check(result) for result in grade.checks)
+    rows = "".join(_render_check(result) for result in grade.checks)
     listed = f"<ul style='list-style:none;padding-left:0'>{rows}</ul>"
     return f"<p><strong>{escape_html(head)}</strong></p>{listed}"
 
@@ -181,7 +181,7 @@ def _show_consequence(consequence: Consequence | None) -> str:
     return says + consequence.draw().html
 
 
-def _check(result: Result) -> str:
+def _render_check(result: Result) -> str:
     mark, _ = MARKS[result.status]
     points = f"{result.points:g} of {result.max_points:g}"
     told = "".join(

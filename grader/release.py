@@ -14,7 +14,7 @@ from pathlib import Path
 import tomlkit
 
 from grader.class_package import PLACE, ClassPackage
-from grader.classroom.bundle import Bundle
+from grader.classroom.bundle import CourseBundle
 from grader.classroom.secret import seal_file, seal_identity
 from grader.exercise import list_exercises
 from grader.package_files import select_package_files
@@ -35,7 +35,7 @@ class StudentPackage:
     student: str
     secret: bytes
     name: str
-    course: Bundle
+    course: CourseBundle
 
     def __repr__(self) -> str:
         """Without the secret: a message may hold this."""

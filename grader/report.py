@@ -47,15 +47,15 @@ def format_grade(
         plain: words for signs and nothing in columns, as a screen reader reads it best.
         then: what the answer would do on the robot, in words; empty where that is not known.
     """
-    lines = [_verdict(grade), style_line()]
+    lines = [_format_verdict(grade), style_line()]
     said: set[str] = set()  # what has been said once is not said again
     for result in grade.checks:
-        lines += _result(result, said, plain=plain)
+        lines += _format_result(result, said, plain=plain)
     if then:
         lines += [style_line(), *wrap_text(then, lead="then  ")]
         lines.append(style_line(f"See it: grade {grade.exercise} --picture what.svg", "cyan"))
     if grade.status != "passed":
-        lines += [style_line(), style_line(_next_hint(grade.exercise, hints_shown), "cyan")]
+        lines += [style_line(), style_line(_format_next_hint(grade.exercise, hints_shown), "cyan")]
     elif solution is not None:
         place = f"{solution.parent.name}/{solution.name}"
         lines += [style_line(), style_line(f"A solution, for comparison: {place}", "cyan")]
@@ -90,7 +90,7 @@ def format_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
     return lines
 
 
-def _verdict(grade: Grade) -> Line:
+def _format_verdict(grade: Grade) -> Line:
     passed = grade.status == "passed"
     mark, style = MARKS[Status.PASSED if passed else Status.FAILED]
     score = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points"
@@ -99,13 +99,13 @@ def _verdict(grade: Grade) -> Line:
     return (StyledText(f"{mark} {score}, {said}", f"bold {style}"), StyledText(file, "dim"))
 
 
-def _result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
+def _format_result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
     mark, style = MARKS[result.status]
     points = f"{result.points:g} of {result.max_points:g}"
     if plain:
         rows = [style_line(f"{mark} {result.description}, {points} points", style)]
     else:
-        rows = _row(result.description, points, mark, style)
+        rows = _format_row(result.description, points, mark, style)
     for word, text in check_feedback(result):
         if text and text not in said:
             rows += wrap_text(text, lead=f"{INDENT}{word}")
@@ -114,7 +114,7 @@ def _result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
     return rows
 
 
-def _row(description: str, points: str, mark: str, style: str) -> list[Line]:
+def _format_row(description: str, points: str, mark: str, style: str) -> list[Line]:
     rows = wrap_text(description, lead="  ", spare=len(points) + 1)
     _, first = rows[0]
     room = find_width() - len(points) - 2
@@ -138,7 +138,7 @@ def check_feedback(result: Result) -> list[tuple[str, str]]:
     return told
 
 
-def _next_hint(exercise: str, shown: int) -> str:
+def _format_next_hint(exercise: str, shown: int) -> str:
     if shown >= len(HINTS):
         return f"All {len(HINTS)} hints again: grade {exercise} --hint"
     return f"Hint {shown + 1} of {len(HINTS)}: grade {exercise} --hint"
@@ -195,10 +195,10 @@ def format_overview(
             )
         )
     open_ones = [one for one, how in zip(found, standings, strict=True) if not how.is_done]
-    return [*lines, style_line(), *_next_step(open_ones)]
+    return [*lines, style_line(), *_format_next_step(open_ones)]
 
 
-def _next_step(open_ones: list[Exercise]) -> list[Line]:
+def _format_next_step(open_ones: list[Exercise]) -> list[Line]:
     if not open_ones:
         return [style_line("Everything here is done.", "bold green")]
     one = open_ones[0]

@@ -46,24 +46,24 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     print_lines([*format_overview(course, found, progress, student=student), style_line()])
     sys.stdout.flush()
     if not engine_is_cached():
-        _say("Compiling the simulation, once; this takes about twenty seconds…")
+        _print_line("Compiling the simulation, once; this takes about twenty seconds…")
         load_engine()
     with enable_draw_cache():  # what is drawn now, the first answer need not wait for
         for one in found:
-            one.prepare(student, say=_say)
+            one.prepare(student, say=_print_line)
     command = "grade"
-    if not _on_path(command):
+    if not _is_on_path(command):
         command = "python -m grader"
         if sys.prefix != sys.base_prefix:
-            _say(
+            _print_line(
                 "To type grade and sysid in this terminal:  "
                 f"{describe_activation(Path(sys.prefix))}"
             )
-        _say(f"Without that, type  {command} exercise4  for  grade exercise4")
+        _print_line(f"Without that, type  {command} exercise4  for  grade exercise4")
     lessons = sorted((course / "lessons").glob("*.ipynb"))
     if not lab:
         place = lessons[0].relative_to(course).as_posix() if lessons else "exercises"
-        _say(f"Ready. Begin with {place}; to open it in JupyterLab:  {command} start")
+        _print_line(f"Ready. Begin with {place}; to open it in JupyterLab:  {command} start")
         return 0
     return _open_lab(course, lessons[0] if lessons else course)
 
@@ -74,7 +74,7 @@ def describe_activation(prefix: Path, *, windows: bool = os.name == "nt") -> str
     return rf"{place}\Scripts\activate" if windows else f"source {place}/bin/activate"
 
 
-def _on_path(command: str) -> bool:
+def _is_on_path(command: str) -> bool:
     return shutil.which(command) is not None
 
 
@@ -90,7 +90,7 @@ def _open_lab(course: Path, what: Path) -> int:
             advice="Install it (python -m pip install jupyterlab), or: grade start --no-lab",
         )
     place = what.relative_to(course).as_posix()
-    _say("Opening JupyterLab in your browser. To end it: Ctrl-C here, twice.")
+    _print_line("Opening JupyterLab in your browser. To end it: Ctrl-C here, twice.")
     sys.stdout.flush()
     scripts = sysconfig.get_path("scripts")
     paths = os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part)
@@ -100,6 +100,6 @@ def _open_lab(course: Path, what: Path) -> int:
     return DONE if code in {DONE, INTERRUPTED} else COULD_NOT
 
 
-def _say(text: str) -> None:
+def _print_line(text: str) -> None:
     print_lines([style_line(text)])
     sys.stdout.flush()

@@ -61,13 +61,13 @@ def write_student_files(
     place = (folder / next(iter(files))).relative_to(exercise.parents[1]).as_posix()
     there = any((folder / name).is_file() for name in files)
     known = find_cache_path(exercise, student, "files")
-    if known is not None and read_cached(known) == _seals(folder, files):
+    if known is not None and read_cached(known) == _digest_files(folder, files):
         return
     try:
         folder.mkdir(parents=True, exist_ok=True)
         news = [_write_made_file(made, folder / name) for name, made in files.items()]
         if known is not None:
-            write_draw(known, _seals(folder, files))
+            write_draw(known, _digest_files(folder, files))
     except OSError as error:
         raise BadRequest(
             f"your {what} cannot be written: {error.strerror}",
@@ -92,7 +92,7 @@ def _are_files_whole(files: Mapping[str, Made], folder: Path, of_class: ClassPac
             )
 
 
-def _seals(folder: Path, names: Iterable[str]) -> bytes:
+def _digest_files(folder: Path, names: Iterable[str]) -> bytes:
     """What tells whether any of these files was changed."""
     found = {}
     for name in names:

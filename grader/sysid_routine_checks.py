@@ -38,7 +38,7 @@ def give_no_advice(_value: float) -> tuple[str, str]:
 
 
 @dataclass(frozen=True)
-class Setting:
+class ConfigSetting:
     """A number of the Config, as an exercise asks for it.
 
     Args:
@@ -248,13 +248,13 @@ def check_units(signals: Sequence[LoggedSignal], *, mechanism: str) -> None:
     Raises:
         WrongAnswer: they do not, or no unit can be told.
     """
-    seen = ", ".join(f"{s.signal} {_kind(s)} (line {s.line})" for s in signals)
+    seen = ", ".join(f"{s.signal} {_find_unit_kind(s)} (line {s.line})" for s in signals)
     families = {one.family for one in signals if one.family}
     if not families:
         raise WrongAnswer(
             explain_doubt("the units", seen), hint="Name the unit where you log the value."
         )
-    lengths = {_length(one.unit) for one in signals if one.unit}
+    lengths = {_find_length_unit(one.unit) for one in signals if one.unit}
     wanted = find_motion_family(mechanism)
     hint = ""
     if len(families) > 1:
@@ -268,13 +268,13 @@ def check_units(signals: Sequence[LoggedSignal], *, mechanism: str) -> None:
         raise WrongAnswer(seen, hint=hint, misconception="M-UNITS")
 
 
-def _kind(signal: LoggedSignal) -> str:
+def _find_unit_kind(signal: LoggedSignal) -> str:
     """The unit of a value, or where none is written, what kind of unit it has."""
     kinds = {"linear": "along a line", "angular": "as an angle"}
     return f"in {signal.unit}" if signal.unit else kinds.get(signal.family, "in an unknown unit")
 
 
-def _length(unit: str) -> str:
+def _find_length_unit(unit: str) -> str:
     """The length or angle in a unit's name: ``rotation`` of RotationsPerSecond."""
     name = unit.lower()
     if name == "rpm" or "minute" in name:

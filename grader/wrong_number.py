@@ -108,7 +108,7 @@ def _explain_by_factors(
             "the size is right, the sign is not. Positive volts have to give a positive velocity: "
             "is one of the two columns turned around?",
         )
-    factors = [*_factors(scene, velocity=name in {"kV", "kA"})]
+    factors = [*_list_factors(scene, velocity=name in {"kV", "kA"})]
     if name == "kA" and scene.period:
         says = (
             f"samples are {scene.period:g} s apart. Did you divide the change of velocity by that?"
@@ -121,7 +121,7 @@ def _explain_by_factors(
                 yield WrongNumber(factor.slip.code, says, factor.slip.misconception)
 
 
-def _factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
+def _list_factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
     """The factors a gain may be off by; kS and kG have no velocity in their unit."""
     duty = "12 V is a full battery. Did you use an output between -1 and 1 in place of volts?"
     yield _Factor(12.0, WrongNumber("duty", duty, "M-DUTY"))
@@ -130,7 +130,7 @@ def _factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
             1000.0, WrongNumber("milli", "1 V is 1000 mV. Are these millivolts?", "M-UNITS")
         )
         return
-    yield from _unit_factors(scene)
+    yield from _list_unit_factors(scene)
     gears = max(scene.ratio, 1.0 / scene.ratio)
     if gears > NOTICED:
         says = f"{gears:.3g} is the gear ratio. Is this the motor's velocity, not the mechanism's?"
@@ -142,7 +142,7 @@ def _factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
         yield _Factor(float(scene.motors), WrongNumber("motors", says))
 
 
-def _unit_factors(scene: Scene) -> Iterator[_Factor]:
+def _list_unit_factors(scene: Scene) -> Iterator[_Factor]:
     angular = (
         (2.0 * math.pi, "turns", "2π = 6.28. Were radians and rotations taken for each other?"),
         (180.0 / math.pi, "degrees", "57.3 = 180/π. Were degrees and radians mixed up?"),

@@ -16,7 +16,7 @@ from grader.classroom.exports import list_exports
 from grader.classroom.grading import MISSING, GradedStudent, make_grade_record, make_missing_record
 from grader.classroom.item_analysis import analyze_items, count_misconceptions, summarize_exercises
 from grader.classroom.result_pages import summarize_class, write_pages
-from grader.classroom.results import Results
+from grader.classroom.results import ClassResults
 from grader.exercise import Grade
 from sim.core.errors import BadRequest
 
@@ -78,7 +78,7 @@ class Empty:
 
 
 def some(*people):
-    return Results("Robotics 1", people, ("exercise1", "exercise2"))
+    return ClassResults("Robotics 1", people, ("exercise1", "exercise2"))
 
 
 @pytest.fixture
@@ -136,7 +136,7 @@ def test_the_gradebook_is_safe_for_a_spreadsheet(results, tmp_path):
 def test_canvas_gets_its_own_columns_back(tmp_path):
     people = some(student("ann", (2.0,), (1.0,)), student("ben", (0.0,), (0.0,)))
     roster = {"ann": {"Student": "Lee, Ann", "ID": "17", "SIS Login ID": "ann", "Section": "A"}}
-    known = Results(people.name, people.students, people.exercises, roster)
+    known = ClassResults(people.name, people.students, people.exercises, roster)
     (path,) = list_exports()["canvas"].write(known, tmp_path)
     rows = list(csv.reader(io.StringIO(path.read_text("utf-8"), newline="")))
 

@@ -14,7 +14,7 @@ from small_course import HALF, RIGHT, lay_out
 
 from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
 from grader.classroom.roster import read_class_roster
-from grader.classroom.store import Store
+from grader.classroom.store import ResultStore
 from grader.classroom.submissions import find_submissions, read_submission
 from grader.cli import run_command
 from grader.exercise import list_exercises
@@ -114,7 +114,7 @@ def test_the_same_class_is_graded_the_same_by_one_and_by_four_workers(tmp_path):
 
 def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_path):
     there = hand_in(tmp_path / "in", ann=RIGHT, ben=HALF)
-    store = Store(tmp_path / "out")
+    store = ResultStore(tmp_path / "out")
 
     def left(*, secret=None, again=False):
         work = GradedClass(

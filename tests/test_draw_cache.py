@@ -29,7 +29,7 @@ def draw(student):
 def shelf(tmp_path, monkeypatch):
     """The folder of what is kept, empty."""
     monkeypatch.setenv(cache.CACHE, str(tmp_path / "cache"))
-    room._code.cache_clear()
+    room._fingerprint_code.cache_clear()
     return tmp_path / "cache" / "drawn"
 
 
@@ -38,7 +38,7 @@ def loaded(folder, number=5):
     folder.mkdir(exist_ok=True)
     path = folder / "drawn.py"
     path.write_text(DRAWN.replace("NUMBER", str(number)), encoding="utf-8")
-    room._code.cache_clear()
+    room._fingerprint_code.cache_clear()
     return SimpleNamespace(**runpy.run_path(str(path)))
 
 

@@ -15,7 +15,7 @@ import psutil
 import pytest
 
 from grader.isolation import (
-    Call,
+    FunctionCall,
     Limits,
     find_isolation_level,
     landlock,
@@ -43,7 +43,7 @@ def apart_run(tmp_path):
     def start(text, *, times=1, limits=LONG, **data):
         file = tmp_path / "fit.py"
         file.write_text(text, encoding="utf-8")
-        calls = [Call("fit", {"number": number, **data}) for number in range(times)]
+        calls = [FunctionCall("fit", {"number": number, **data}) for number in range(times)]
         return run_functions(file, calls=calls, limits=limits)
 
     return start
@@ -178,7 +178,7 @@ def test_scipy_is_there_where_it_is_asked_for_and_other_packages_never(tmp_path)
         "def plot():\n    import matplotlib\n",
         encoding="utf-8",
     )
-    calls = [Call("fit"), Call("plot")]
+    calls = [FunctionCall("fit"), FunctionCall("plot")]
     with_it = run_functions(file, calls=calls, packages=("numpy", "scipy")).answers
     without = run_functions(file, calls=calls[:1]).answers
 
@@ -495,7 +495,7 @@ def verdict(table, number, *arguments):
     """What the filter returns for a system call: an interpreter of its few instructions."""
     words = {0: number, 4: table.architecture, 16: 0, 24: 0}
     words |= {16 + 8 * at: value for at, value in enumerate(arguments)}
-    steps, at, kept = [*seccomp._steps(table)], 0, 0
+    steps, at, kept = [*seccomp._make_filter(table)], 0, 0
     while True:
         code, yes, no, value = steps[at]
         at += 1
@@ -581,7 +581,10 @@ def test_processor_time_is_limited_and_the_end_says_so():
     )
     ended = subprocess.run([sys.executable, "-c", code], timeout=20, check=False).returncode
 
-    assert sandbox_parent._why(ended) == "it took too much of the processor's time and was stopped"
+    assert (
+        sandbox_parent._explain_end(ended)
+        == "it took too much of the processor's time and was stopped"
+    )
 
 
 @posix
@@ -624,7 +627,10 @@ def test_where_the_kernel_can_isolate_it_does():
     ],
 )
 def test_only_code_that_cannot_stop_the_examiner_is_called_isolated(abi, filtered, says):
-    assert sandbox_parent._level({"landlock": abi, "seccomp": filtered, "limited": []}) == says
+    assert (
+        sandbox_parent._describe_level({"landlock": abi, "seccomp": filtered, "limited": []})
+        == says
+    )
 
 
 def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
@@ -686,8 +692,8 @@ def test_a_child_ends_with_the_process_that_keeps_its_time(tmp_path):
     source.write_text("import time\ndef fit():\n    time.sleep(3600)\n", encoding="utf-8")
     program = (
         "import sys; from pathlib import Path; "
-        "from grader.isolation import Call, Limits, run_functions; "
-        "run_functions(Path(sys.argv[1]), calls=[Call('fit')], limits=Limits(seconds=600))"
+        "from grader.isolation import FunctionCall, Limits, run_functions; "
+        "run_functions(Path(sys.argv[1]), calls=[FunctionCall('fit')], limits=Limits(seconds=600))"
     )
     parent = psutil.Popen([sys.executable, "-c", program, str(source)], cwd=ROOT)
     last = time.monotonic() + 60

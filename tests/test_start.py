@@ -148,7 +148,7 @@ def test_without_lessons_it_opens_the_course_itself(course):
 
 @pytest.mark.usefixtures("course")
 def test_where_grade_cannot_be_typed_it_says_what_to_type(monkeypatch, capsys):
-    monkeypatch.setattr(starting, "_on_path", lambda _command: False)
+    monkeypatch.setattr(starting, "_is_on_path", lambda _command: False)
     monkeypatch.setattr(starting.sys, "prefix", str(Path.cwd() / ".venv"))
     run_command(["start", "--no-lab"])
     out = capsys.readouterr().out

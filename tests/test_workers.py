@@ -8,7 +8,7 @@ from small_course import RIGHT, lay_out
 
 from grader.classroom import workers
 from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
-from grader.classroom.store import Store
+from grader.classroom.store import ResultStore
 from grader.classroom.submissions import find_submissions
 from grader.cli import run_command
 from grader.exercise import list_exercises
@@ -59,7 +59,7 @@ def graded(course, there, out, *, seconds):
     work = GradedClass(
         find_submissions(there, list_exercises(course)), list_exercises(course), course
     )
-    store = Store(out)
+    store = ResultStore(out)
     left = plan_grading(work, store, travel=False, again=False)
     store.open()
     found = list(left.kept)
@@ -90,7 +90,7 @@ def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):
     work = GradedClass(
         find_submissions(there, list_exercises(course)), list_exercises(course), course
     )
-    store = Store(tmp_path / "out")
+    store = ResultStore(tmp_path / "out")
     looks = []
 
     def stop_if_asked():

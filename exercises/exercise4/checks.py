@@ -24,7 +24,7 @@ from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
 from grader.sysid_routine_checks import (
     Advice,
-    Setting,
+    ConfigSetting,
     check_compiles,
     check_motor_driven,
     check_motor_recorded,
@@ -40,11 +40,11 @@ from .settled import Code, asks, noted, settle
 
 FILES = ("ExampleSubsystem.java", "example_subsystem.py")
 
-RAMP = Setting(
+RAMP = ConfigSetting(
     "ramp", 0.5, "V/s", "volts-per-second", 1.0, "Volts.of(0.5).per(Second)", "rampRate=0.5"
 )
-STEP = Setting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)", "stepVoltage=3.5")
-TIMEOUT = Setting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)", "timeout=10.0")
+STEP = ConfigSetting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)", "stepVoltage=3.5")
+TIMEOUT = ConfigSetting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)", "timeout=10.0")
 TASK = "ExampleSubsystem"  # the class of the exercise's own drivetrain, one motor on each side
 SIDES = 2
 METERS = {"METERS_PER_ROTATION": 0.0472, "METERS_PER_PULSE": 0.000156}  # as the files give them
@@ -105,7 +105,7 @@ def routine(code: Code) -> str | None:
 
 
 def _number(
-    code: Code, wanted: Setting, said: str, *, advice: Advice = give_no_advice
+    code: Code, wanted: ConfigSetting, said: str, *, advice: Advice = give_no_advice
 ) -> str | None:
     """One number of the Config: as it is written, and as the run shows it."""
     name = wanted.name.split()[0]

@@ -17,7 +17,7 @@ from grader.variant import derive_student_seed, make_student_rng
 from .scene import ASSUMED, USUAL, columns, scene
 
 if TYPE_CHECKING:
-    from grader.isolation import Answer, SandboxOutcome
+    from grader.isolation import CallResult, SandboxOutcome
     from sim.core.log import Array, Log
 
 NAME, FUNCTION = "fit.py", "fit"
@@ -153,9 +153,9 @@ def _outcome(text: bytes, student: str, of: int) -> "SandboxOutcome":
     """Run a function on all five logs; the same text gives the same numbers."""
     import tempfile  # noqa: PLC0415 - only where there is something to run
 
-    from grader.isolation import Call, Limits, run_functions  # noqa: PLC0415 - the same
+    from grader.isolation import FunctionCall, Limits, run_functions  # noqa: PLC0415 - the same
 
-    calls = [Call(FUNCTION, one.data) for one in hidden(student, of)]
+    calls = [FunctionCall(FUNCTION, one.data) for one in hidden(student, of)]
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, NAME)
         source.write_bytes(text)
@@ -236,7 +236,7 @@ def _telling(wrong: Sequence[Sequence[Miss]]) -> WrongAnswer:
     return told.why
 
 
-def _judge_log(log: Hidden, answer: "Answer") -> list[Miss]:
+def _judge_log(log: Hidden, answer: "CallResult") -> list[Miss]:
     """What is wrong with the numbers for one log."""
     where = f"{log.recipe.kind}, every {log.recipe.period:g} s"
     if answer.reason:
@@ -249,7 +249,7 @@ def _judge_log(log: Hidden, answer: "Answer") -> list[Miss]:
     return found
 
 
-def _judge_gain(name: str, log: Hidden, answer: "Answer") -> Miss | None:
+def _judge_gain(name: str, log: Hidden, answer: "CallResult") -> Miss | None:
     if name in answer.refused:
         hint = f"Return one number for {name}: float(...) makes one, if there is one"
         return Miss(log, WrongAnswer(f"{name} = {answer.refused[name]}", hint=hint))

@@ -38,10 +38,10 @@ def find_submitter(metadata: Path, *, by: str, roster: Path | None) -> str:
             where=str(metadata),
             advice="Export the autograder anew with another --student-from.",
         )
-    return check_student_name(found) if roster is None else _on_roster(found, roster)
+    return check_student_name(found) if roster is None else _find_on_roster(found, roster)
 
 
-def _on_roster(found: str, roster: Path) -> str:
+def _find_on_roster(found: str, roster: Path) -> str:
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - only where there is a roster
 
     for student, row in read_class_roster(roster).rows.items():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from grader.classroom.bundle import pack_course
 from grader.classroom.grading import GradedStudent, GradingJob, grade_student, make_ungraded_student
-from grader.classroom.store import Store, digest_job
+from grader.classroom.store import ResultStore, digest_job
 from grader.classroom.submissions import Submission
 from grader.classroom.workers import grade_in_workers
 from grader.exercise import Exercise
@@ -85,7 +85,9 @@ class GradingPlan:
     jobs: tuple[GradingJob, ...]
 
 
-def plan_grading(asked: GradedClass, store: Store, *, travel: bool, again: bool) -> GradingPlan:
+def plan_grading(
+    asked: GradedClass, store: ResultStore, *, travel: bool, again: bool
+) -> GradingPlan:
     """Look what is known already.
 
     Args:
@@ -107,7 +109,7 @@ def plan_grading(asked: GradedClass, store: Store, *, travel: bool, again: bool)
 def grade_class(
     asked: GradedClass,
     plan: GradingPlan,
-    store: Store,
+    store: ResultStore,
     *,
     processes: int,
     cluster: str | None,

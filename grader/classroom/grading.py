@@ -14,7 +14,7 @@ from grader.exercise import Exercise, Grade, list_exercises
 from grader.variant import use_class_secret
 
 if TYPE_CHECKING:
-    from grader.classroom.bundle import Bundle
+    from grader.classroom.bundle import CourseBundle
 
 MISSING = "missing"  # the status of an exercise that was not handed in
 NOTHING = "nothing was handed in"
@@ -44,7 +44,7 @@ class GradingJob:
     problems: Mapping[str, str]
     numbers_of: str
     names: tuple[str, ...]
-    course: "Path | Bundle"
+    course: "Path | CourseBundle"
     secret: bytes | None
     run: bool
 

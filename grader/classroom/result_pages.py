@@ -14,7 +14,7 @@ from grader.classroom.item_analysis import (
     count_misconceptions,
     summarize_exercises,
 )
-from grader.classroom.results import Results, collect_scores, find_status
+from grader.classroom.results import ClassResults, collect_scores, find_status
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import make_folder_name
 
@@ -27,7 +27,7 @@ MARKS = {"passed": "✓ right:", "failed": "✗ not right yet:", "error": "! our
 SIGNS = {MISSING: "–", "ungradable": "!"}
 
 
-def write_pages(results: Results, folder: Path) -> Path:
+def write_pages(results: ClassResults, folder: Path) -> Path:
     """Write ``index.html``, and ``students/NAME.html`` for each of them.
 
     Returns:
@@ -36,15 +36,15 @@ def write_pages(results: Results, folder: Path) -> Path:
     Raises:
         BadRequest: they cannot be written.
     """
-    templates = _templates()
+    templates = _load_templates()
     for one in results.students:
         text = templates.get_template("student.html.jinja").render(_fill_student_page(one, results))
-        write_private_file(folder / _page(one), text)
+        write_private_file(folder / _name_page(one), text)
     text = templates.get_template("class.html.jinja").render(_fill_class_page(results))
     return write_private_file(folder / "index.html", text)
 
 
-def _templates() -> "Environment":
+def _load_templates() -> "Environment":
     from sim.report.page_file import load_templates  # noqa: PLC0415 - only who writes pages needs them
 
     found = load_templates(FOLDER)
@@ -52,14 +52,14 @@ def _templates() -> "Environment":
     return found
 
 
-def _page(one: GradedStudent) -> str:
+def _name_page(one: GradedStudent) -> str:
     return f"{PEOPLE}/{make_folder_name(one.student)}.html"
 
 
-def summarize_class(results: Results) -> str:
+def summarize_class(results: ClassResults) -> str:
     """The class in two sentences."""
     there = [one for one in results.students if set(find_status(one).values()) != {MISSING}]
-    shares = [_share(one, results) for one in there]
+    shares = [_compute_share(one, results) for one in there]
     handed = f"{len(there)} of {len(results.students)} students handed something in"
     if not there:
         return f"{handed}."
@@ -68,16 +68,16 @@ def summarize_class(results: Results) -> str:
     return f"{handed}; {mean}, and {full or 'nobody'} {'have' if full > 1 else 'has'} full marks."
 
 
-def _share(one: GradedStudent, results: Results) -> float:
+def _compute_share(one: GradedStudent, results: ClassResults) -> float:
     most = sum(results.max_scores.values())
     return sum(collect_scores(one).values()) / most if most else 0.0
 
 
-def _fill_class_page(results: Results) -> dict[str, Any]:
+def _fill_class_page(results: ClassResults) -> dict[str, Any]:
     from sim.plot import plot_score_heatmap, plot_score_histogram  # noqa: PLC0415 - matplotlib only where it draws
 
     names = [one.student for one in results.students]
-    table = [[_cell_share(record) for record in one.records] for one in results.students]
+    table = [[_compute_cell_share(record) for record in one.records] for one in results.students]
     found = sorted(
         analyze_items(results.students), key=lambda one: (one.share, one.exercise, one.check)
     )
@@ -88,7 +88,9 @@ def _fill_class_page(results: Results) -> dict[str, Any]:
         "count": len(results.students),
         "columns": summarize_exercises(results.students),
         "heat": plot_score_heatmap(names, results.exercises, table).html,
-        "spread": plot_score_histogram([_share(one, results) for one in results.students]).html,
+        "spread": plot_score_histogram(
+            [_compute_share(one, results) for one in results.students]
+        ).html,
         "misconceptions": [
             {"code": code, "count": count, "says": _explain_misconception(code)}
             for code, count in count_misconceptions(results.students)
@@ -96,7 +98,7 @@ def _fill_class_page(results: Results) -> dict[str, Any]:
         "fewest": FEWEST,
         "items": found,
         "exercises": [name.removeprefix("exercise") for name in results.exercises],
-        "students": [_row(one, results) for one in results.students],
+        "students": [_make_row(one, results) for one in results.students],
     }
 
 
@@ -106,7 +108,7 @@ def _explain_misconception(code: str) -> str:
     return f"{known.says} See {known.where}." if known else ""
 
 
-def _list_open_cases(results: Results) -> list[dict[str, str]]:
+def _list_open_cases(results: ClassResults) -> list[dict[str, str]]:
     """What a person has to look at: whatever could not be graded, with the reason; once each."""
     found = []
     for one in results.students:
@@ -121,20 +123,20 @@ def _list_open_cases(results: Results) -> list[dict[str, str]]:
     return found
 
 
-def _row(one: GradedStudent, results: Results) -> dict[str, Any]:
+def _make_row(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     points, how = collect_scores(one), find_status(one)
     cells = [SIGNS.get(how.get(name, MISSING), f"{points.get(name, 0):g}") for name in
              results.exercises]  # fmt: skip
     total = f"{sum(points.values()):g} of {sum(results.max_scores.values()):g}"
-    return {"student": one.student, "page": _page(one), "cells": cells, "total": total}
+    return {"student": one.student, "page": _name_page(one), "cells": cells, "total": total}
 
 
-def _cell_share(record: Mapping[str, Any]) -> float:
+def _compute_cell_share(record: Mapping[str, Any]) -> float:
     graded = record["status"] in {"passed", "failed"}
     return float(record["score"]) / float(record["max_score"]) if graded else math.nan
 
 
-def _fill_student_page(one: GradedStudent, results: Results) -> dict[str, Any]:
+def _fill_student_page(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
     total, most = sum(collect_scores(one).values()), sum(results.max_scores.values())
     return {
         "student": one.student,

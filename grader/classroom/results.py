@@ -8,7 +8,7 @@ from grader.classroom.grading import GradedStudent
 
 
 @dataclass(frozen=True)
-class Results:
+class ClassResults:
     """A class, graded.
 
     Args:

@@ -36,7 +36,7 @@ def digest_job(
     return found.hexdigest()
 
 
-class Store:
+class ResultStore:
     """A class's results in a folder.
 
     Args:

@@ -110,7 +110,7 @@ def find_submissions(
             advice="Name the folder that holds a folder or zip file for each student.",
         )
     found: dict[str, list[_Part]] = {}
-    for part in _parts(folder):
+    for part in _list_parts(folder):
         known = roster.find(part.name) if roster else None
         key = (known or part.name.canvas_id or part.name.student).casefold()
         twins = found.setdefault(key, [])
@@ -134,7 +134,7 @@ def find_submissions(
 
 def find_stray_files(folder: Path) -> tuple[str, ...]:
     """Names of files in a class's folder that no student can be told from."""
-    taken = {part.path for part in _parts(folder)}
+    taken = {part.path for part in _list_parts(folder)}
     return tuple(
         _format_name(path.name)
         for path in sorted(folder.iterdir())
@@ -142,7 +142,7 @@ def find_stray_files(folder: Path) -> tuple[str, ...]:
     )
 
 
-def _parts(folder: Path) -> Iterator[_Part]:
+def _list_parts(folder: Path) -> Iterator[_Part]:
     for path in sorted(folder.iterdir(), key=lambda one: os.fsencode(one.name)):
         if path.name.startswith((".", "__")) or path.is_symlink():
             continue
@@ -209,7 +209,7 @@ def _read(
         sorted_ = _SortedFiles(exercises, asked or exercises)
         for part in parts:
             at = _format_name(part.path.name)
-            for one in _files_of(part):
+            for one in _list_files(part):
                 sorted_.add(one)
     except UNREADABLE as error:
         reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
@@ -254,7 +254,7 @@ class _FoundFile:
             return stream.read(most + 1)
 
 
-def _files_of(part: _Part) -> Iterator[_FoundFile]:
+def _list_files(part: _Part) -> Iterator[_FoundFile]:
     """All files of one thing that was handed in."""
     if part.path.is_dir():
         for one in _read_folder(part.path):
@@ -333,7 +333,7 @@ class _SortedFiles:
         self._by_file = _find_only_holders(exercises)
         self._asked = {one.name for one in asked}
         self._only = asked[0] if len(asked) == 1 else None
-        self._kinds = {one.name: _endings(one) for one in asked}
+        self._kinds = {one.name: _list_endings(one) for one in asked}
         self._files: dict[str, dict[str, _TakenFile]] = {}  # exercise -> name -> file
         self._outside: dict[str, dict[str, _TakenFile]] = {}  # the same, in no exercise's folder
         self._has_folders = False
@@ -422,7 +422,7 @@ class _SortedFiles:
         )
 
 
-def _endings(exercise: Exercise) -> set[str]:
+def _list_endings(exercise: Exercise) -> set[str]:
     """What the names of an exercise's files end in."""
     named = {Path(file).suffix for file in (*exercise.files, *exercise.companion_files)}
     return {*named, *exercise.log_endings}

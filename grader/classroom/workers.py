@@ -107,14 +107,14 @@ def _grade(
         for future in done:
             job, name = running.pop(future)
             one = students[job.student]
-            one.records[name] = _record(future, job, name)
+            one.records[name] = _make_record(future, job, name)
             if (graded := one.graded()) is not None:
                 del students[job.student]
                 yield graded
         hand_out()
 
 
-def _record(future: Future[GradedStudent], job: GradingJob, name: str) -> Record:
+def _make_record(future: Future[GradedStudent], job: GradingJob, name: str) -> Record:
     """The result of one exercise, or why there is none."""
     try:
         (record,) = future.result().records

@@ -108,7 +108,7 @@ def exercise(
     if exercise is not None:
         one = find_exercise(exercise, folder)
         if hint:
-            return _hint(one, folder, progress, who)
+            return _show_hint(one, folder, progress, who)
         return grade_file(
             one, file, folder, progress, who, as_json=as_json, plain=plain, picture=picture
         )
@@ -135,7 +135,7 @@ def start(student: str | None, *, no_lab: bool) -> int:
     of_class = read_class_package(folder)
     if who != progress.student and (of_class is None or of_class.is_for(who)):
         progress = replace(progress, student=who)
-        _tell(update_progress(folder, lambda now: replace(now, student=who)))
+        _print_message(update_progress(folder, lambda now: replace(now, student=who)))
     return begin(folder, progress, student=who, lab=not no_lab)
 
 
@@ -149,9 +149,9 @@ def locate_course(student: str | None) -> "tuple[Path, Progress, str]":
     from grader.course import describe_other_code, find_course, load_progress  # noqa: PLC0415 - --help must not wait
 
     folder = find_course(Path.cwd())
-    _tell(describe_other_code(folder))
+    _print_message(describe_other_code(folder))
     progress, said = load_progress(folder)
-    _tell(said)
+    _print_message(said)
     return folder, progress, find_learner(folder, known=progress.student, student=student)
 
 
@@ -182,7 +182,7 @@ def grade_file(
     gradable = result.status != "ungradable"
     if gradable:  # kept before anything is shown: a reader may stop reading
         points = {"score": result.score, "max_score": result.max_score}
-        _tell(update_progress(folder, lambda now: now.add_score(who, one.name, **points)))
+        _print_message(update_progress(folder, lambda now: now.add_score(who, one.name, **points)))
     then = None if as_json and picture is None else one.find_consequence(result)
     if as_json:
         click.echo(grade_to_json(result))
@@ -191,26 +191,26 @@ def grade_file(
         print_lines(
             format_grade(result, hints_shown=shown, solution=one.solution, plain=plain, then=words)
         )
-    _tell(result.reason)
+    _print_message(result.reason)
     if picture is not None:
-        _draw(then, picture)
+        _draw_consequence(then, picture)
     return (DONE if result.status == "passed" else NOT_RIGHT) if gradable else COULD_NOT
 
 
-def _draw(then: "Consequence | None", picture: Path) -> None:
+def _draw_consequence(then: "Consequence | None", picture: Path) -> None:
     """Write what the answer would do as a picture, and say what became of it.
 
     Raises:
         BadRequest: the name ends in no kind of picture, or the file cannot be written.
     """
     if then is None:
-        _tell(f"{picture} was not written: this answer leaves nothing to see on a robot")
+        _print_message(f"{picture} was not written: this answer leaves nothing to see on a robot")
         return
     then.draw().save(picture)
-    _tell(f"what your answer would do: {picture}")
+    _print_message(f"what your answer would do: {picture}")
 
 
-def _hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:
+def _show_hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.report import format_hints  # noqa: PLC0415 - the same
 
@@ -218,11 +218,11 @@ def _hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:
     print_lines(format_hints(one, shown=standing.hints))
     if standing.hints < len(one.hints):
         shown = standing.hints + 1
-        _tell(update_progress(folder, lambda now: now.add_hints(who, one.name, shown)))
+        _print_message(update_progress(folder, lambda now: now.add_hints(who, one.name, shown)))
     return 0
 
 
-def _tell(said: str) -> None:
+def _print_message(said: str) -> None:
     if said:
         print_error(said)
 

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from grader.classroom.class_grading import GradedClass
-    from grader.classroom.exports import Export
+    from grader.classroom.exports import ExportFormat
     from grader.classroom.grading import GradedStudent
-    from grader.classroom.results import Results
+    from grader.classroom.results import ClassResults
     from grader.classroom.roster import Roster
     from grader.classroom.submissions import Submission
     from grader.exercise import Exercise
@@ -74,7 +74,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
     from grader.classroom.class_grading import GradedClass  # noqa: PLC0415 - the same
     from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.identity import check_identities  # noqa: PLC0415 - the same
-    from grader.classroom.results import Results  # noqa: PLC0415 - the same
+    from grader.classroom.results import ClassResults  # noqa: PLC0415 - the same
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.course import describe_other_code, find_course  # noqa: PLC0415 - the same
@@ -103,7 +103,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
     title = name or folder.resolve().stem
     everybody = _add_absent(graded, known, asked)
     rows, header = (known.rows, known.header) if known else ({}, ())
-    results = Results(title, everybody, tuple(one.name for one in asked), rows, header)
+    results = ClassResults(title, everybody, tuple(one.name for one in asked), rows, header)
     return _write_results(results, out, formats)
 
 
@@ -195,12 +195,12 @@ def _run(
 ) -> "tuple[GradedStudent, ...] | None":
     """Grade what is left; None where it was stopped."""
     from grader.classroom.class_grading import grade_class, plan_grading  # noqa: PLC0415 - --help must not wait
-    from grader.classroom.store import Store  # noqa: PLC0415 - the same
+    from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
     from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
     from sim.support.work.process_pool import available_cores  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
-    store = Store(out)
+    store = ResultStore(out)
     left = plan_grading(work, store, travel=cluster is not None, again=again)
     total = len(left.kept) + len(left.jobs)
     with (
@@ -239,7 +239,7 @@ def _add_absent(
     return tuple(sorted(found, key=lambda one: one.student.casefold()))
 
 
-def _write_results(results: "Results", out: Path, formats: "Sequence[Export]") -> int:
+def _write_results(results: "ClassResults", out: Path, formats: "Sequence[ExportFormat]") -> int:
     from grader.classroom.result_pages import summarize_class, write_pages  # noqa: PLC0415 - --help must not wait
     from grader.classroom.results import find_status  # noqa: PLC0415 - the same
 

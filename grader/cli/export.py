@@ -47,7 +47,7 @@ def gradescope(
     It holds the course without solutions. Make one for each assignment: Gradescope puts uploaded
     files beside one another, and an answers.toml can only belong to one exercise.
     """
-    from grader.autograder import Gradescope, pack_gradescope  # noqa: PLC0415 - --help must not wait
+    from grader.autograder import AutograderContents, pack_gradescope  # noqa: PLC0415 - --help must not wait
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
@@ -65,7 +65,8 @@ def gradescope(
     listed = roster.read_bytes() if roster else None
     names = tuple(one.name for one in asked)
     write_file(
-        output, pack_gradescope(Gradescope(chosen.files, names, student_from, listed, value))
+        output,
+        pack_gradescope(AutograderContents(chosen.files, names, student_from, listed, value)),
     )
     if value is not None or listed is not None:
         output.chmod(OWNER_ONLY)

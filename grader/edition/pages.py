@@ -68,14 +68,14 @@ def build_pages(
         before = lessons[place - 1].page if place else ""
         after = lessons[place + 1].page if place + 1 < len(lessons) else ""
         for slides in (False, True):
-            text = _page(lesson, before=before, after=after, slides=slides)
+            text = _write_page(lesson, before=before, after=after, slides=slides)
             write_private_file(folder / (lesson.slides if slides else lesson.page), text)
-    write_private_file(folder / "handout.html", _handout(lessons))
+    write_private_file(folder / "handout.html", _write_handout(lessons))
     text = _fill("index.html.jinja", lessons=lessons)
     return write_private_file(folder / "index.html", text)
 
 
-def _page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str:
+def _write_page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str:
     return _fill(
         "lesson.html.jinja",
         title=lesson.title,
@@ -87,7 +87,7 @@ def _page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str:
     )
 
 
-def _handout(lessons: Sequence[Lesson]) -> str:
+def _write_handout(lessons: Sequence[Lesson]) -> str:
     checks = [
         {"title": lesson.title, "html": part.html}
         for lesson in lessons

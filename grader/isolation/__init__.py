@@ -1,6 +1,7 @@
 """A learner's code is run apart: a process of its own that holds no key and returns only numbers.
 
-    outcome = run_functions(Path("fit.py"), calls=[Call("fit", {"time": time, "voltage": voltage})])
+    calls = [FunctionCall("fit", {"time": time, "voltage": voltage})]
+    outcome = run_functions(Path("fit.py"), calls=calls)
 
 The child (``sandbox_child.py``) confines itself before it reads the learner's file: no files but
 Python's own, the data and an empty folder (``landlock.py``), no network, no processes,
@@ -13,9 +14,9 @@ What has to run as a whole program, as a robot does, is confined in the same way
 others to judge.
 """
 
-from grader.isolation.result_parsing import Answer, one_line
+from grader.isolation.result_parsing import CallResult, one_line
 from grader.isolation.sandbox_parent import (
-    Call,
+    FunctionCall,
     Limits,
     SandboxOutcome,
     find_isolation_level,
@@ -25,8 +26,8 @@ from grader.isolation.sandbox_program import run_program
 from grader.isolation.scratch import scratch_folder
 
 __all__ = [
-    "Answer",
-    "Call",
+    "CallResult",
+    "FunctionCall",
     "Limits",
     "SandboxOutcome",
     "find_isolation_level",

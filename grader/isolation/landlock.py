@@ -69,7 +69,7 @@ def restrict_files(
         return 0
     try:
         for path, rights in _list_permissions(readable, folder, hidden):
-            _add(call, rules, path, rights & known)
+            _allow_path(call, rules, path, rights & known)
         ctypes.CDLL(None).prctl(NO_NEW_PRIVILEGES, 1, 0, 0, 0)
         return version if call(RESTRICT_SELF, rules, 0) == 0 else 0
     finally:
@@ -107,7 +107,7 @@ def _exclude_folder(tree: Path, hidden: Path) -> Iterator[Path]:
             yield from _exclude_folder(part, hidden)
 
 
-def _add(call: "ctypes._NamedFuncPointer", rules: int, path: Path, rights: int) -> None:
+def _allow_path(call: "ctypes._NamedFuncPointer", rules: int, path: Path, rights: int) -> None:
     """Allow one path; one that is not there needs no permission."""
     try:
         opened = os.open(path, os.O_PATH | os.O_CLOEXEC)

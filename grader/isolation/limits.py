@@ -31,10 +31,12 @@ def set_limits(*, seconds: int, memory: int, file: int, processes: bool) -> tupl
     """
     if sys.platform == "win32":
         return ()
-    return tuple(_set(seconds=seconds, memory=memory, file=file, processes=processes))
+    return tuple(
+        _set_resource_limits(seconds=seconds, memory=memory, file=file, processes=processes)
+    )
 
 
-def _set(*, seconds: int, memory: int, file: int, processes: bool) -> Iterator[str]:
+def _set_resource_limits(*, seconds: int, memory: int, file: int, processes: bool) -> Iterator[str]:
     resource = importlib.import_module("resource")  # Windows has none
     wanted = [
         ("RLIMIT_CPU", seconds, "processor time"),

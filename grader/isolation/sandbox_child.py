@@ -38,15 +38,15 @@ def main() -> None:
     say({"ready": force})
     path = Path(orders["source"])
     try:
-        module = _load(path)
+        module = _load_module(path)
     except BaseException as error:  # noqa: BLE001 - sys.exit too is only an answer that is missing
-        say({"crash": _crash(error, path)})
+        say({"crash": _describe_crash(error, path)})
         return
     for number, call in enumerate(orders["calls"]):
         try:
-            said: dict[str, object] = {"result": _shown(_call(module, call))}
+            said: dict[str, object] = {"result": _encode_result(_call_function(module, call))}
         except BaseException as error:  # noqa: BLE001 - the same
-            said = {"crash": _crash(error, path)}
+            said = {"crash": _describe_crash(error, path)}
         say({"call": number, **said})
 
 
@@ -136,7 +136,7 @@ def _is_source_hidden() -> bool:
     return False
 
 
-def _load(path: Path) -> ModuleType:
+def _load_module(path: Path) -> ModuleType:
     module = ModuleType(path.stem)
     module.__file__ = str(path)
     sys.modules[path.stem] = module
@@ -145,7 +145,7 @@ def _load(path: Path) -> ModuleType:
     return module
 
 
-def _call(module: ModuleType, call: Mapping[str, Any]) -> object:
+def _call_function(module: ModuleType, call: Mapping[str, Any]) -> object:
     function = getattr(module, call["function"], None)
     if not callable(function):
         raise TypeError(f"there is no function {call['function']}")
@@ -158,15 +158,15 @@ def _call(module: ModuleType, call: Mapping[str, Any]) -> object:
     return function(**arguments)
 
 
-def _shown(result: object) -> object:
+def _encode_result(result: object) -> object:
     """What was returned, as JSON can say it: numbers as numbers, the rest by what it is."""
     if type(result) is not dict:
-        return _plain(result)
+        return _encode_value(result)
     items = list(result.items())[:MOST_NAMES]
-    return {"names": [[str(name)[:LONGEST], _plain(value)] for name, value in items]}
+    return {"names": [[str(name)[:LONGEST], _encode_value(value)] for name, value in items]}
 
 
-def _plain(value: object) -> object:
+def _encode_value(value: object) -> object:
     """A number, or ``{"is": its type, "of": what that is a kind of}``."""
     kind = type(value)
     numpy = sys.modules.get("numpy")
@@ -187,7 +187,7 @@ def _plain(value: object) -> object:
     return {"is": kind.__name__, "of": [one.__name__ for one in kind.__mro__[1:-1]]}
 
 
-def _crash(error: BaseException, path: Path) -> dict[str, object]:
+def _describe_crash(error: BaseException, path: Path) -> dict[str, object]:
     """Where in the learner's file, and the last line of the traceback."""
     steps = traceback.extract_tb(error.__traceback__)
     lines = [step.lineno for step in steps if step.filename == str(path)]

@@ -77,7 +77,9 @@ class JupyterServers:
             shutil.rmtree(ended.runtime, ignore_errors=True)
         course = course.absolute()  # a link that the student made is not followed
         account = assign_account(course.parent) if self.separate else None
-        self._servers[student] = server = _start(student, course, host=self.host, account=account)
+        self._servers[student] = server = _start_server(
+            student, course, host=self.host, account=account
+        )
         if self._closed:  # ended while this one started
             server.process.terminate()
         return server
@@ -105,8 +107,8 @@ class JupyterServers:
         return sum(server.is_alive() for server in self._servers.values())
 
 
-def _start(student: str, course: Path, *, host: str, account: int | None) -> JupyterServer:
-    port, token = _free_port(host), secrets.token_hex(16)
+def _start_server(student: str, course: Path, *, host: str, account: int | None) -> JupyterServer:
+    port, token = _find_free_port(host), secrets.token_hex(16)
     command = [
         sys.executable, "-m", "jupyterlab", *QUIET, *choose_root_option(),
         "--no-browser", f"--ip={host}", f"--port={port}", "--ServerApp.port_retries=0",
@@ -116,13 +118,13 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Jup
     ]  # fmt: skip
     if account is not None:  # a port of this machine is open to every user of it, a socket is not
         command.append("--KernelManager.transport=ipc")
-    runtime = _runtime_folder(account)
+    runtime = _make_runtime_folder(account)
     environment = {
         **make_server_environment(course, runtime, own=account is not None),
         "JUPYTER_TOKEN": token,
     }
     try:
-        process = _run(command, course.parent, environment, account)
+        process = _run_server(command, course.parent, environment, account)
     except OSError as error:
         raise BadRequest(
             f"JupyterLab cannot be started: {error.strerror}",
@@ -160,7 +162,7 @@ def _is_answering(host: str, port: int) -> bool:
         connection.close()
 
 
-def _runtime_folder(account: int | None) -> Path:
+def _make_runtime_folder(account: int | None) -> Path:
     """A folder that nobody but the student may enter.
 
     It does not lie in the home, because a socket's path may not be longer than some 100 signs.
@@ -171,7 +173,7 @@ def _runtime_folder(account: int | None) -> Path:
     return folder
 
 
-def _run(
+def _run_server(
     command: list[str], place: Path, environment: dict[str, str], account: int | None
 ) -> "subprocess.Popen[bytes]":
     """Start it in the home, whose name nobody but the operator can change."""
@@ -190,7 +192,7 @@ def _run(
         )  # fmt: skip
 
 
-def _free_port(host: str) -> int:
+def _find_free_port(host: str) -> int:
     with socket.socket() as one:
         one.bind((host, 0))
         return int(one.getsockname()[1])

@@ -40,7 +40,7 @@ def load_login_codes(folder: Path, students: Iterable[str]) -> dict[str, str]:
     if path.exists():
         roster = read_roster(path, advice="Remove it: new codes are made.")
         known = {normalize_name(row[0]): row[1] for _, row in roster.rows if len(row) > 1}
-    found = {name: known.get(normalize_name(name)) or _code() for name in students}
+    found = {name: known.get(normalize_name(name)) or _make_code() for name in students}
     if {normalize_name(name): code for name, code in found.items()} != known:
         stream = io.StringIO(newline="")
         csv.writer(stream).writerows([("student", "code"), *found.items()])
@@ -131,7 +131,7 @@ def _is_known_account(uid: int) -> bool:
     return True
 
 
-def _code() -> str:
+def _make_code() -> str:
     return "".join(secrets.choice(LETTERS) for _ in range(LENGTH))
 
 

@@ -10,14 +10,14 @@ from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.csv_cells import escape_formula
-from grader.classroom.results import Results, collect_scores
+from grader.classroom.results import ClassResults, collect_scores
 
 SUMMARY = "canvas.csv: to be imported into Canvas; give its own export as --roster"
 ROSTER = ("ID", "SIS User ID", "SIS Login ID")  # Canvas finds nobody by the name alone
 IDENTITY = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write ``canvas.csv``.
 
     Raises:

@@ -12,7 +12,7 @@ from typing import Any
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import GradedStudent
-from grader.classroom.results import Results
+from grader.classroom.results import ClassResults
 from grader.variant import make_folder_name
 
 SUMMARY = "github/STUDENT.txt: result=…, a line for $GITHUB_OUTPUT"
@@ -20,7 +20,7 @@ LONGEST = 500  # [characters] of an output, says the reporter
 STATUS = {"passed": "pass", "failed": "fail", "missing": "fail", "ungradable": "error"}
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write a folder ``github`` with a file for each student.
 
     Raises:

@@ -6,12 +6,12 @@ from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.csv_cells import escape_formula
-from grader.classroom.results import Results, collect_scores, find_status
+from grader.classroom.results import ClassResults, collect_scores, find_status
 
 SUMMARY = "gradebook.csv: a row for each student, for a spreadsheet"
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write ``gradebook.csv``.
 
     Raises:

@@ -10,13 +10,13 @@ from typing import Any
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import GradedStudent
-from grader.classroom.results import Results
+from grader.classroom.results import ClassResults
 from grader.variant import make_folder_name
 
 SUMMARY = "gradescope/STUDENT/results.json: as Gradescope reads it"
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write a folder ``gradescope`` with a ``results.json`` for each student.
 
     Raises:

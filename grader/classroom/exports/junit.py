@@ -11,13 +11,13 @@ from xml.etree import ElementTree as ET
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import GradedStudent
-from grader.classroom.results import Results
+from grader.classroom.results import ClassResults
 
 SUMMARY = "junit.xml: a suite for each student, as build servers read it"
 NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write ``junit.xml``.
 
     Raises:
